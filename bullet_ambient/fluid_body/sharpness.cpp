@@ -86,13 +86,13 @@ Curvatures curvaturesOf(const SurfaceTriangles& mesh, const VertexNormals& norma
   return {mean - spread, mean + spread};
 }
 
+}  // namespace
+
 double sharpnessOf(double curvature, double radius) {
   const double x = std::max(curvature, 0.0) * radius;
   const double root = 1 - 2 / (1 + 1 / (x * x));  // (1 - x^2) / (1 + x^2), never overflows
   return roundedToSingle(root * root);
 }
-
-}  // namespace
 
 std::vector<double> computeSharpness(const FluidBody& body) {
   if (body.surface.triangles.empty()) return std::vector<double>(body.faces.size(), 1);

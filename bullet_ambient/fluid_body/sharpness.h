@@ -15,6 +15,10 @@ struct FormShape;
 /// @throws std::invalid_argument in one sentence, if the faces are not these triangles.
 std::vector<double> computeSharpness(const FluidBody& body);
 
+/// Returns the sharpness of surface with a largest curvature [1/m], convex if positive, eq. (45).
+/// `radius`: of the sphere with the area of the body [m].
+double sharpnessOf(double curvature, double radius);
+
 /// Returns the sharpness of a flat side with edges all around it, eq. (45): more than 1 if it is
 /// long. `corners` of its outline, one after the other [m].
 double sharpnessOfSide(const std::vector<Vector3>& corners);

@@ -9,9 +9,27 @@
 #include "bullet_ambient/bullet/core/conversions.h"
 #include "bullet_ambient/fluid_body/fluid_body.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
+#include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/principal_frame.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
 
 AMBIENT_BEGIN
+
+namespace {
+
+// Returns the axis of a body of revolution in F: the one spin that moves next to no fluid; else 0.
+Vector3 stillAxisOf(const FluidBody& body) {
+  constexpr double kStill = 1e-3;  // added mass over the inertia of the displaced fluid
+  const Matrix6 about_centre = shiftOrigin(body.added_mass, body.centre_of_volume);
+  const SymmetricEigen<3> spins = symmetricEigen<3>(about_centre.topLeftCorner<3, 3>());
+  const auto isStill = [&](int spin) {
+    const Vector3 axis = spins.vectors.col(spin);
+    return spins.values[spin] < kStill * body.volume * axis.dot(body.uniform_mass.inertia * axis);
+  };
+  return isStill(0) && !isStill(1) ? Vector3(spins.vectors.col(0)) : Vector3::Zero();
+}
+
+}  // namespace
 
 BodyStations makeBodyStations(const AttachDef& def) {
   constexpr double kShort = 0.2;  // length relative to the longest axis
@@ -33,6 +51,7 @@ BodyStations makeBodyStations(const AttachDef& def) {
     stations.ways_B.col(axis) = way * axes_B.col(axis);
     stations.reach = std::max(stations.reach, way);
   }
+  stations.still_axis_B = def.fluid_frame.rotation * stillAxisOf(shape);
   return stations;
 }
 

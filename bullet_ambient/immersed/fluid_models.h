@@ -25,6 +25,8 @@ struct BodyStations {
   Matrix3 ways_B = Matrix3::Zero();
   Vector3 lengths{0, 0, 0};  ///< of the bars [m]
   double reach = 0;          ///< largest distance of a station from the centre of mass [m]
+  /// Axis of a body of revolution, in B: the pressure of no flow spins it about that; else 0.
+  Vector3 still_axis_B{0, 0, 0};
 };
 
 /// Computes the stations of a body from its volume, or from its surface if it has no volume.

@@ -54,6 +54,7 @@ StationSamples::StationSamples(const AmbientBody& ambient, const FluidRegions& r
     : centre_W_(toVector3(ambient.body->getWorldTransform().getOrigin())),
       to_world_(toQuaternion(ambient.body->getWorldTransform().getRotation()).toRotationMatrix()),
       centre_(centre),
+      still_axis_B_(ambient.models->stations.still_axis_B),
       surface_(bendingSurface(around.entry)),
       may_turn_(mayDiffer(around)) {
   const BodyStations& of_body = ambient.models->stations;
@@ -182,6 +183,7 @@ FlowAlongBody StationSamples::flowAlong(Medium RegionSample::*side) const noexce
   }
   FlowAlongBody flow;
   flow.spin_up_B = turning(axes, &AxisFlow::acceleration_B);
+  flow.spin_up_B -= still_axis_B_.dot(flow.spin_up_B) * still_axis_B_;
   if (!may_turn_ || !(largest > 0)) return flow;
   flow.stations = 1;
   flow.weights[0] = 1;

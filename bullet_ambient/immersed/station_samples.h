@@ -68,6 +68,7 @@ class StationSamples {
   const Vector3 centre_W_;
   const Matrix3 to_world_;
   RegionSample centre_;
+  const Vector3 still_axis_B_;
   const WaterSurface* surface_;  // that of the centre, if it is no plane
   bool may_turn_ = false;        // its velocity may differ by more than that of a wave
   bool is_finite_ = true, is_steady_ = true;

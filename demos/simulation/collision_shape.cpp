@@ -1,7 +1,9 @@
 #include "demos/simulation/collision_shape.h"
 
 #include "bullet_ambient/bullet/core/conversions.h"
+#include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/robot/primitive_shape.h"
+#include "preprocess/shape/shape_facts.h"
 
 namespace ambient {
 namespace {
@@ -38,6 +40,24 @@ std::unique_ptr<btTriangleMesh> makeTriangles(const Surface& surface) {
   return mesh;
 }
 
+/// Makes each part as one of Bullet's primitives, or as the hull of its mesh.
+CollisionShape makeCompoundShape(const Compound& compound, const btTransform& S_in_B) {
+  constexpr int kHullFaces = 320;
+  CollisionShape shape;
+  auto whole = std::make_unique<btCompoundShape>();
+  for (const PlacedShape& part : compound.parts) {
+    if (auto primitive = std::visit(ShapeMaker{}, part.shape))
+      shape.parts.push_back(std::move(primitive));
+    else
+      shape.parts.push_back(makeHull(surfaceOf(factsOf(part.shape).mesh(kHullFaces))));
+    const btTransform pose(toBullet(Quaternion(part.pose.linear())),
+                           toBullet(Vector3(part.pose.translation())));
+    whole->addChildShape(S_in_B * pose, shape.parts.back().get());
+  }
+  shape.parts.push_back(std::move(whole));
+  return shape;
+}
+
 bool isIdentity(const btTransform& transform) {
   return transform.getOrigin().isZero() && transform.getBasis() == btMatrix3x3::getIdentity();
 }
@@ -46,6 +66,8 @@ bool isIdentity(const btTransform& transform) {
 
 CollisionShape makeCollisionShape(const BodyDef& def, const PreparedBody& prepared,
                                   const btTransform& S_in_B) {
+  if (const auto* compound = std::get_if<Compound>(&def.shape.geometry))
+    return makeCompoundShape(*compound, S_in_B);
   CollisionShape shape;
   if (auto primitive = std::visit(ShapeMaker{}, def.shape.geometry)) {
     shape.parts.push_back(std::move(primitive));

@@ -18,6 +18,7 @@
 #include "preprocess/potential_flow/results/refined_flow.h"
 #include "preprocess/potential_flow/surface/shape_symmetry.h"
 #include "preprocess/reduced_loads/form_levels.h"
+#include "preprocess/reduced_loads/levels_by_rule.h"
 
 namespace ambient {
 namespace {
@@ -211,14 +212,35 @@ CollisionShapeSettings withFaces(CollisionShapeSettings settings, const ShapeFor
   return settings;
 }
 
+/// Makes the few faces of shapes that have a rule for them; none of others.
+struct LevelMaker {
+  const FrameOffset pose;
+  const FluidBody& body;
+
+  std::optional<FormLevel> operator()(const Box& s) const { return boxLevel(s.half_sizes, pose); }
+  std::optional<FormLevel> operator()(const Cylinder& s) const {
+    return cylinderLevel(s.radius, s.height, pose, body);
+  }
+  std::optional<FormLevel> operator()(const Capsule& s) const {
+    return capsuleLevel(s.radius, s.height, pose, body);
+  }
+  std::optional<FormLevel> operator()(const Cone& s) const {
+    return coneLevel(s.radius, s.height, pose, body);
+  }
+  template <class Other>
+  std::optional<FormLevel> operator()(const Other&) const {
+    return std::nullopt;
+  }
+};
+
 /// The few faces of a body; none: all are needed.
 std::optional<FormLevel> levelOf(const FluidBody& body, const ShapeForm& form,
                                  const CollisionShapeSettings& settings) {
   if (settings.load_error == 0 || body.sphere_radius > 0) return std::nullopt;
-  if (isBox(form) && settings.load_error >= kBoxLevelError) {
-    const PlacedShape& box = form.parts.front();
-    return boxLevel(std::get<Box>(box.shape).half_sizes,
-                    {box.pose.linear(), box.pose.translation()});
+  if (form.parts.size() == 1 && settings.load_error >= kRuleError) {
+    const PlacedShape& part = form.parts.front();
+    const LevelMaker maker{{part.pose.linear(), part.pose.translation()}, body};
+    if (auto level = std::visit(maker, part.shape)) return level;
   }
   tellStage(settings, "choosing few faces");
   return smallestFormLevel(body, settings.load_error);

@@ -267,55 +267,7 @@ class LevelMaker {
   FaceTable folded_;
 };
 
-constexpr int kMostNodes = 4;
-
-/// Gauss-Legendre rule of n points: abscissas in [0, 1] and weights.
-struct GaussRule {
-  int count;
-  double place[kMostNodes], weight[kMostNodes];
-};
-constexpr GaussRule kGaussRules[] = {
-    {1, {0.5}, {1}},
-    {2, {0.21132486540518712, 0.7886751345948129}, {0.5, 0.5}},
-    {3,
-     {0.1127016653792583, 0.5, 0.8872983346207417},
-     {0.2777777777777778, 0.4444444444444444, 0.2777777777777778}},
-    {4,
-     {0.06943184420297371, 0.33000947820757187, 0.6699905217924281, 0.9305681557970263},
-     {0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693}}};
-
 }  // namespace
-
-FormLevel boxLevel(const Vector3& half_sizes, const FrameOffset& pose) {
-  const double longest = half_sizes.maxCoeff();
-  // Error measured over boxes of 1 : 1 to 1 : 50: 0.98 % at most, 0.2 % in the mean.
-  const bool is_compact = half_sizes.minCoeff() >= 0.5 * longest;
-  const auto ruleFor = [&](double half_size) -> const GaussRule& {
-    const double ratio = half_size / longest;
-    return kGaussRules[ratio <= 0.02 ? 0 : ratio <= 0.08 ? 1 : ratio <= 0.2 || is_compact ? 2 : 3];
-  };
-  FormLevel level;
-  level.p99_error = kBoxLevelError;
-  for (int side = 0; side < 6; ++side) {
-    const int axis = side / 2, along = (axis + 1) % 3, across = (axis + 2) % 3;
-    const Vector3 outward = (side % 2 == 0 ? 1 : -1) * Vector3::Unit(axis);
-    const Vector3 normal = pose.rotation * outward;
-    const Vector3 a = half_sizes[along] * Vector3::Unit(along),
-                  b = half_sizes[across] * Vector3::Unit(across);
-    const double sharpness = sharpnessOfSide({a + b, b - a, -a - b, a - b});
-    const GaussRule &u = ruleFor(half_sizes[along]), &v = ruleFor(half_sizes[across]);
-    for (int i = 0; i < u.count; ++i)
-      for (int j = 0; j < v.count; ++j) {
-        Vector3 point = half_sizes[axis] * outward;
-        point[along] = (2 * u.place[i] - 1) * half_sizes[along];
-        point[across] = (2 * v.place[j] - 1) * half_sizes[across];
-        level.faces.add(normal, pose.rotation * point + pose.translation,
-                        4 * half_sizes[along] * half_sizes[across] * u.weight[i] * v.weight[j]);
-        level.faces.sharpness.push_back(sharpness);
-      }
-  }
-  return level;
-}
 
 std::vector<FormLevel> buildFormLevels(const FluidBody& body, const std::vector<int>& faces) {
   std::vector<FormLevel> levels;

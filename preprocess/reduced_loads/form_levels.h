@@ -27,11 +27,4 @@ std::vector<FormLevel> buildFormLevels(const FluidBody& body, const std::vector<
 /// buildFormLevels().
 std::optional<FormLevel> smallestFormLevel(const FluidBody& body, double p99_error);
 
-/// Error of boxLevel() at most, over motions and boxes of any sides.
-constexpr double kBoxLevelError = 0.01;
-
-/// Makes few faces for a box by rule: on each side 1 to 4 x 1 to 4 Gauss points, fewer along short
-/// edges, 54 for a cube. half_sizes [m] and pose in F are those of the box.
-FormLevel boxLevel(const Vector3& half_sizes, const FrameOffset& pose);
-
 }  // namespace ambient

@@ -1,10 +1,13 @@
 #include "preprocess/shape/shape_mesh.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "preprocess/mesh/check/mesh_checks.h"
 #include "preprocess/mesh/input_error.h"
+#include "preprocess/mesh/join_meshes.h"
 #include "preprocess/mesh/shapes/convex_hull.h"
 #include "preprocess/mesh/usual_size.h"
 #include "preprocess/mesh/wrap/surface_wrap.h"
@@ -62,19 +65,42 @@ struct FileFinder {
   }
 };
 
+TriangleMesh makeFactMesh(const Shape& shape, int faces, const std::string& source) {
+  const ShapeFacts facts = factsOf(shape);
+  if (!facts.mesh) throw std::logic_error(source + ": no mesh is made of this kind of shape");
+  try {
+    return facts.mesh(faces);
+  } catch (const std::runtime_error& error) {
+    if (source.empty()) throw;
+    raiseInputError(source, error.what());
+  }
+}
+
+/// One surface around all parts, which share the faces.
+CheckedMesh makeCompoundMesh(const Compound& compound, int faces, const std::string& source) {
+  constexpr int kFewest = 100;  // of a part
+  const int each = std::max(kFewest, faces / static_cast<int>(compound.parts.size()));
+  std::vector<TriangleMesh> meshes;
+  for (const PlacedShape& part : compound.parts) {
+    requireUsualExtents(part.shape, 1, part.name);
+    const int least = factsOf(part.shape).least_faces();
+    TriangleMesh mesh = makeFactMesh(part.shape, std::max(each, least), part.name);
+    mesh.vertices = part.pose * mesh.vertices;
+    meshes.push_back(std::move(mesh));
+  }
+  CheckedMesh checked = checkMesh(joinMeshes(meshes), source);
+  checked.warnings.clear();  // that parts were united, as they are meant to be
+  return checked;
+}
+
 CheckedMesh makeUnscaledMesh(const ShapeDescription& shape) {
+  if (const auto* compound = std::get_if<Compound>(&shape.geometry))
+    return makeCompoundMesh(*compound, shape.faces, shape.source);
   if (const auto* mesh = std::get_if<MeshFile>(&shape.geometry))
     return checkImported(shape.geometry, importMesh(mesh->file, mesh->scale));
   if (const auto* sheet = std::get_if<MeshSheet>(&shape.geometry))
     return checkImported(shape.geometry, importMesh(sheet->file, sheet->scale));
-  const ShapeFacts facts = factsOf(shape.geometry);
-  if (!facts.mesh) throw std::logic_error(shape.source + ": no mesh is made of this kind of shape");
-  try {
-    return {facts.mesh(shape.faces), {}};
-  } catch (const std::runtime_error& error) {
-    if (shape.source.empty()) throw;
-    raiseInputError(shape.source, error.what());
-  }
+  return {makeFactMesh(shape.geometry, shape.faces, shape.source), {}};
 }
 
 CheckedMesh scaled(CheckedMesh checked, const ShapeDescription& shape, double scale) {

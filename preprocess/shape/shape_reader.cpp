@@ -79,6 +79,34 @@ Geometry readRound(const ShapeSource& from) {
   return Shape{from.shape["radius"].get<double>(), from.shape["height"].get<double>()};
 }
 
+Geometry readGeometry(const ShapeSource& from);
+
+/// Reads a part of a compound. @throws std::runtime_error if it is not one of the solids that
+/// follow from a few numbers, or its orientation has no direction
+PlacedShape readPart(const ShapeSource& of, std::size_t index) {
+  const json &part = of.shape["parts"][index], &shape = part["shape"];
+  const std::string source = of.source + ".parts[" + std::to_string(index) + "]";
+  for (const char* type : {"mesh", "fluid_body", "sheet", "compound"})
+    if (shape["type"] == type) raiseInputError(source, "a part of a compound cannot be a ", type);
+  PlacedShape placed{readGeometry({shape, of.directory, source}), RigidPose::Identity(), source};
+  if (part.contains("position")) placed.pose.translation() = vectorOf<3>(part["position"]);
+  if (part.contains("orientation")) {
+    const json& q = part["orientation"];
+    const Eigen::Quaterniond orientation(q[0].get<double>(), q[1].get<double>(), q[2].get<double>(),
+                                         q[3].get<double>());
+    if (!(orientation.norm() > 0)) raiseInputError(source, "its orientation has length 0");
+    placed.pose.linear() = orientation.normalized().toRotationMatrix();
+  }
+  return placed;
+}
+
+Geometry readCompound(const ShapeSource& from) {
+  Compound compound;
+  for (std::size_t i = 0; i < from.shape["parts"].size(); ++i)
+    compound.parts.push_back(readPart(from, i));
+  return compound;
+}
+
 Geometry readGeometry(const ShapeSource& from) {
   static const std::map<std::string, std::function<Geometry(const ShapeSource&)>> readers{
       {"sphere", [](const auto& s) { return Sphere{s.shape["radius"].template get<double>()}; }},
@@ -92,7 +120,8 @@ Geometry readGeometry(const ShapeSource& from) {
          return MeshFile{fileOf(s), scaleOf(s)};
        }},
       {"fluid_body", [](const auto& s) { return FluidBodyFile{fileOf(s)}; }},
-      {"sheet", readSheet}};
+      {"sheet", readSheet},
+      {"compound", readCompound}};
   return readers.at(from.shape["type"].get<std::string>())(from);
 }
 

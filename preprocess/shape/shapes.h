@@ -70,9 +70,15 @@ struct MeshSheet {
   double scale = 1;
 };
 
+struct PlacedShape;
+/// Solids that are one body: where they overlap or touch, they are united.
+struct Compound {
+  std::vector<PlacedShape> parts;
+};
+
 using Shape =
     std::variant<Sphere, Box, Ellipsoid, Cylinder, Capsule, Cone, Hull, BallHull, TriangleSoup,
-                 MeshFile, FluidBodyFile, RectangleSheet, EllipseSheet, MeshSheet>;
+                 MeshFile, FluidBodyFile, RectangleSheet, EllipseSheet, MeshSheet, Compound>;
 
 /// p_parent = pose * p_child [m].
 using RigidPose = Eigen::Transform<double, 3, Eigen::Isometry, Eigen::DontAlign>;

@@ -1,12 +1,18 @@
 #include "preprocess/potential_flow/results/added_mass_parts.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/base/elementary.h"
+#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/base/single_precision.h"
 #include "bullet_ambient/spatial/inertia.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
 
 namespace ambient {
 namespace {
@@ -52,12 +58,13 @@ Patch patchOf(const Panels& panels, std::vector<std::size_t> chosen, double size
   return patch;
 }
 
-/// Divides the patch with the largest weight in the middle, again and again.
-std::vector<Patch> dividedPatches(const Panels& panels, double size) {
+/// Divides the patch with the largest weight in the middle, again and again, into up to
+/// `most_patches`.
+std::vector<Patch> dividedPatches(const Panels& panels, double size, std::size_t most_patches) {
   std::vector<std::size_t> all(panels.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   std::vector<Patch> patches{patchOf(panels, std::move(all), size)};
-  while (patches.size() < kMostParts) {
+  while (patches.size() < most_patches) {
     const auto most =
         std::max_element(patches.begin(), patches.end(),
                          [](const Patch& a, const Patch& b) { return a.weight < b.weight; });
@@ -94,17 +101,117 @@ void roundToSingle(Values& values) {
   for (double& value : values.reshaped()) value = roundedToSingle(value);
 }
 
-}  // namespace
-
-std::vector<AddedMassPart> joinPanels(const std::vector<PanelInertia>& panels) {
+double sizeOf(const Panels& panels) {
   double size = 0;
   for (const PanelInertia& panel : panels)
     size = std::max(size, panel.centroid.cwiseAbs().maxCoeff());
+  return size > 0 ? size : 1;
+}
+
+std::vector<AddedMassPart> joined(const Panels& panels, std::size_t most_parts) {
   std::vector<AddedMassPart> parts;
-  if (panels.empty()) return parts;
-  for (const Patch& patch : dividedPatches(panels, size > 0 ? size : 1))
+  for (const Patch& patch : dividedPatches(panels, sizeOf(panels), most_parts))
     parts.push_back(join(panels, patch.panels));
   return parts;
+}
+
+struct Axis {
+  Vector3 point, direction;
+};
+
+/// Finds the axis through the centroid whose spin moves next to no panel along its normal; none if
+/// no or more than one principal axis is such.
+std::optional<Axis> axisOf(const Panels& panels) {
+  constexpr double kRound = 0.01;  // a polygon of 16 sides has 0.013, of 24 sides 0.006
+  double area = 0;
+  Vector3 centroid = Vector3::Zero();
+  for (const PanelInertia& panel : panels) {
+    area += panel.area;
+    centroid += panel.area * panel.centroid;
+  }
+  centroid /= area;
+  Matrix3 squares = Matrix3::Zero();
+  for (const PanelInertia& panel : panels) {
+    const Vector3 r = panel.centroid - centroid;
+    squares += panel.area * r * r.transpose();
+  }
+  const Matrix3 axes = symmetricEigen<3>(squares).vectors;
+  std::optional<Axis> found;
+  for (int i = 0; i < 3; ++i) {
+    double along = 0, all = 0;
+    for (const PanelInertia& panel : panels) {
+      const Vector3 way = axes.col(i).cross(Vector3(panel.centroid - centroid));
+      along += panel.area * std::pow(panel.normal.dot(way), 2);
+      all += panel.area * way.squaredNorm();
+    }
+    if (!(along < kRound * all)) continue;
+    if (found) return std::nullopt;
+    found = Axis{centroid, axes.col(i)};
+  }
+  return found;
+}
+
+Vector6 productsTurned(const Vector6& products, const Matrix3& turn) {
+  Matrix3 square;
+  square << products[0], products[3], products[4], products[3], products[1], products[5],
+      products[4], products[5], products[2];
+  square = turn * square * turn.transpose();
+  Vector6 turned;
+  turned << square(0, 0), square(1, 1), square(2, 2), square(0, 1), square(0, 2), square(1, 2);
+  return turned;
+}
+
+constexpr int kSectors = 12;
+
+/// Turns about an axis through the origin by multiples of the angle between sectors.
+std::vector<Matrix3> turnsAbout(const Vector3& axis) {
+  std::vector<Matrix3> turns;
+  for (int k = 0; k < kSectors; ++k) {
+    const double angle = 2 * kPi * k / kSectors;
+    const double cosine = portable::cos(angle), sine = portable::sin(angle);
+    turns.push_back(cosine * Matrix3::Identity() + sine * crossMatrix(axis) +
+                    (1 - cosine) * axis * axis.transpose());
+  }
+  return turns;
+}
+
+/// Rings of alike parts. All panels are turned into one sector, each with its share of them all.
+std::vector<AddedMassPart> joinedAbout(const Axis& axis, const Panels& panels) {
+  const std::vector<Matrix3> turns = turnsAbout(axis.direction);
+  const Vector3 first = axis.direction.unitOrthogonal(), second = axis.direction.cross(first);
+  // Takes the spin about the axis out of a motion about the point of the axis.
+  Matrix6 rest = Matrix6::Identity();
+  rest.topLeftCorner<3, 3>() -= axis.direction * axis.direction.transpose();
+  Panels folded;
+  for (PanelInertia panel : panels) {
+    const Vector3 way = panel.centroid - axis.point;
+    const double angle = portable::atan2(second.dot(way), first.dot(way));
+    const int sector = static_cast<int>(std::lround(angle / (2 * kPi) * kSectors));
+    const Matrix3& back = turns[static_cast<std::size_t>((kSectors - sector) % kSectors)];
+    panel.normal = back * panel.normal;
+    panel.centroid = back * way;
+    panel.spread = productsTurned(panel.spread, back);
+    const Matrix6 about_axis = rest * shiftOrigin(panel.inertia, axis.point) * rest;
+    panel.inertia = rotateAxes(about_axis, back) / kSectors;
+    folded.push_back(panel);
+  }
+  std::vector<AddedMassPart> parts;
+  for (const AddedMassPart& part : joined(folded, kMostParts / kSectors))
+    for (const Matrix3& turn : turns) {
+      AddedMassPart& copy = parts.emplace_back();
+      copy.centre = turn * part.centre + axis.point;
+      copy.spread = productsTurned(part.spread, turn);
+      copy.inertia = shiftOrigin(rotateAxes(part.inertia, turn), -axis.point);
+    }
+  return parts;
+}
+
+}  // namespace
+
+std::vector<AddedMassPart> joinPanels(const std::vector<PanelInertia>& panels) {
+  if (panels.empty()) return {};
+  if (const std::optional<Axis> axis = axisOf(panels)) return joinedAbout(*axis, panels);
+  return joined(panels, kMostParts);
 }
 
 std::vector<AddedMassPart> placed(std::vector<AddedMassPart> parts, double length,

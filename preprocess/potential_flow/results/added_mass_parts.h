@@ -15,7 +15,9 @@ struct PanelInertia {
 };
 
 /// Joins panels with similar normal and place to at most 96 parts. The sum of the parts is that of
-/// the panels, made symmetric. Independent of the unit of length. Cost: O(panels).
+/// the panels, made symmetric. Parts of a body of revolution are eight rings of twelve alike, none
+/// of which gives spin about the axis any inertia; their sum is the mean of the panels' over all
+/// turns about it. Independent of the unit of length. Cost: O(panels).
 std::vector<AddedMassPart> joinPanels(const std::vector<PanelInertia>& panels);
 
 /// Converts parts to another unit of length and another origin: z = length z' + centre, where z'

@@ -135,5 +135,22 @@ TEST(CompoundShape, BadChildrenAreNamed) {
       "crane: child 1: child 0: a plane (STATICPLANE) is unbounded and cannot move in a fluid");
 }
 
+/// Spin about the common axis moves no water: no part has any of it, nor couples it to another
+/// motion, or the body would yaw in waves.
+TEST(CompoundShape, OfCoaxialCylindersHasNoSpinInItsParts) {
+  btCylinderShapeZ spar(btVector3(btScalar(0.3), btScalar(0.3), 1)),
+      plate(btVector3(1, 1, btScalar(0.1)));
+  btCompoundShape buoy;
+  buoy.addChildShape(at(0, 0, 0), &spar);
+  buoy.addChildShape(at(0, 0, -1), &plate);
+  CollisionShapeSettings settings = coarse();
+  settings.faces = 1000;
+  const FluidBody body = makeFluidBody(buoy, settings);
+  ASSERT_FALSE(body.added_mass_parts.empty());
+  const double largest = body.added_mass.cwiseAbs().maxCoeff();
+  for (const AddedMassPart& part : body.added_mass_parts)
+    EXPECT_LT(part.inertia.row(2).cwiseAbs().maxCoeff(), 1e-6 * largest);
+}
+
 }  // namespace
 }  // namespace ambient

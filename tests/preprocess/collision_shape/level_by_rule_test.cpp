@@ -8,7 +8,7 @@
 #include "bullet_ambient/fluid_body/sharpness.h"
 #include "bullet_ambient/force/law/form_law.h"
 #include "bullet_ambient/force/loads/face_loads.h"
-#include "preprocess/reduced_loads/form_levels.h"
+#include "preprocess/reduced_loads/levels_by_rule.h"
 #include "tests/preprocess/collision_shape/shape_fixtures.h"
 #include "tests/support/bodies/random_bodies.h"
 
@@ -60,12 +60,12 @@ TEST(BoxLevel, IsWithinItsErrorForAnySides) {
     const FluidBody body = boxOf(i == 0 ? Vector3(1, 1, 1) : Vector3(1, side(), side()));
     ASSERT_EQ(body.form_levels.size(), 1u);
     EXPECT_LE(body.form_levels[0].faces.size(), 96u);
-    EXPECT_EQ(body.form_levels[0].p99_error, kBoxLevelError);
+    EXPECT_EQ(body.form_levels[0].p99_error, kRuleError);
     const double error = errorOf(body, body.form_levels[0]);
-    EXPECT_LT(error, kBoxLevelError) << extentsOf(body).transpose();
+    EXPECT_LT(error, kRuleError) << extentsOf(body).transpose();
     mean += error / 40;
   }
-  EXPECT_LT(mean, 0.3 * kBoxLevelError);
+  EXPECT_LT(mean, 0.3 * kRuleError);
 }
 
 TEST(BoxLevel, OfACubeHasFewerFacesThanAFit) {
@@ -79,7 +79,46 @@ TEST(BoxLevel, FollowsATurnedBox) {
                          btVector3(1, 0, -2));
   turned.addChildShape(pose, &box);
   const FluidBody body = makeFluidBody(turned, CollisionShapeSettings());
-  EXPECT_LT(errorOf(body, body.form_levels[0]), kBoxLevelError);
+  EXPECT_LT(errorOf(body, body.form_levels[0]), kRuleError);
+}
+
+/// Expects the rule's error to be kept by shapes whose height is 1/50 to 50 times their width.
+template <class MakeShape>
+void expectRule(const MakeShape& make, std::size_t most_faces) {
+  test::Arbitrary arbitrary(6);
+  CollisionShapeSettings fine;
+  fine.faces = 4000;
+  for (int i = 0; i < 14; ++i) {
+    const double ratio = i < 2 ? std::pow(50, 2 * i - 1) : std::pow(50, arbitrary.between(-1, 1));
+    const FluidBody body = makeFluidBody(make(ratio), fine);
+    ASSERT_EQ(body.form_levels.size(), 1u);
+    EXPECT_LE(body.form_levels[0].faces.size(), most_faces);
+    EXPECT_LT(errorOf(body, body.form_levels[0]), kRuleError) << ratio;
+  }
+}
+
+TEST(RoundLevel, OfACylinderIsWithinItsError) {
+  expectRule(
+      [](double ratio) {
+        return btCylinderShapeZ(btVector3(btScalar(0.5), btScalar(0.5), btScalar(ratio / 2)));
+      },
+      80);
+}
+
+TEST(RoundLevel, OfACapsuleIsWithinItsError) {
+  expectRule([](double ratio) { return btCapsuleShapeZ(btScalar(0.5), btScalar(ratio)); }, 60);
+}
+
+TEST(RoundLevel, OfAConeIsWithinItsError) {
+  expectRule([](double ratio) { return btConeShapeZ(btScalar(0.5), btScalar(ratio)); }, 70);
+}
+
+TEST(RoundLevel, FollowsATurnedCylinder) {
+  btCylinderShape along_y(btVector3(btScalar(0.2), 1, btScalar(0.2)));
+  CollisionShapeSettings fine;
+  fine.faces = 4000;
+  const FluidBody body = makeFluidBody(along_y, fine);
+  EXPECT_LT(errorOf(body, body.form_levels[0]), kRuleError);
 }
 
 /// Bytes that a box keeps: what a world of boxes that all differ costs.
