@@ -16,17 +16,6 @@
 namespace ambient {
 namespace {
 
-/// checkMesh() that mentions a remedy.
-CheckedMesh checkBody(const TriangleMesh& mesh, const std::string& name) {
-  try {
-    return checkMesh(mesh, name);
-  } catch (const std::runtime_error& error) {
-    if (!canBeWrapped(mesh)) throw;
-    throw std::runtime_error(std::string(error.what()) +
-                             " (build --wrap makes a closed surface around it)");
-  }
-}
-
 CheckedMesh makeBody(const TriangleMesh& mesh, const MeshFile& shape) {
   const std::string name = shape.file.string();
   switch (shape.stand_in) {
@@ -37,7 +26,7 @@ CheckedMesh makeBody(const TriangleMesh& mesh, const MeshFile& shape) {
     case MeshStandIn::kNone:
       break;
   }
-  return checkBody(mesh, name);
+  return makeBodyMesh(mesh, name, shape.strict);
 }
 
 /// Checks the imported mesh of a MeshFile or a MeshSheet.

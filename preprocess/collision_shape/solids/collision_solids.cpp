@@ -4,10 +4,10 @@
 #include <type_traits>
 
 #include "bullet_ambient/spatial/inertia.h"
-#include "preprocess/mesh/check/mesh_checks.h"
 #include "preprocess/mesh/graded_grid.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/weld_vertices.h"
+#include "preprocess/mesh/wrap/surface_wrap.h"
 
 namespace ambient {
 namespace {
@@ -49,7 +49,8 @@ struct SolidMaker {
   }
 
   Solid operator()(const TriangleSoup& soup) const {
-    CheckedMesh checked = checkMesh(joinTriangles(soup.corners), name);
+    CheckedMesh checked =
+        makeBodyMesh(joinTriangles(soup.corners), name, resolution.strict, resolution.unit);
     Solid solid;
     solid.mesh = std::move(checked.mesh);
     solid.cavities = std::move(checked.cavities);

@@ -13,6 +13,8 @@ struct SolidResolution {
   int least_faces = 0;  ///< least number per solid, unless that makes more than kMostOfMany allows
   int flow_faces = 0;   ///< number of triangles for the flow, of all solids together
   bool tables = true;   ///< of the added mass, as far as they reach
+  bool strict = false;  ///< refuse triangles that are not a closed body
+  double unit = 1;      ///< a length of 1 in metres, for warnings
 };
 
 // Functions below throw std::runtime_error, beginning with `name`, if sizes are not positive and

@@ -18,6 +18,7 @@
 #include "preprocess/mesh/mend/mesh_mending.h"
 #include "preprocess/mesh/mesh_defect.h"
 #include "preprocess/mesh/mesh_topology.h"
+#include "preprocess/mesh/usual_size.h"
 
 namespace ambient {
 namespace {
@@ -31,10 +32,6 @@ struct OrientedShells {
 using Defects = std::vector<MeshDefect>;
 
 constexpr double kFullSphere = 4 * kPi;
-
-// Volume over area^1.5 below which a surface encloses nothing; a square plate reaches it at a
-// thickness of 3e-6 of its side, where single-precision coordinates end. A sphere has 0.094.
-constexpr double kLeastVolume = 1e-6;
 
 /// One closed surface among those that make up a mesh.
 struct Shell {

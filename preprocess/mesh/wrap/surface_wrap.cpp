@@ -6,12 +6,14 @@
 #include <utility>
 
 #include "bullet_ambient/base/elementary.h"
+#include "preprocess/mesh/defects/topology_defects.h"
 #include "preprocess/mesh/defects/winding_number.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/mend/mesh_mending.h"
 #include "preprocess/mesh/mesh_topology.h"
 #include "preprocess/mesh/shapes/convex_hull.h"
+#include "preprocess/mesh/usual_size.h"
 #include "preprocess/mesh/wrap/dual_surface.h"
 #include "preprocess/mesh/wrap/hole_filling.h"
 #include "preprocess/mesh/wrap/mesh_coarsening.h"
@@ -187,6 +189,64 @@ std::string comparison(const TriangleMesh& before, const TriangleMesh& after, do
   return text.str();
 }
 
+/// The closed surface around triangles, without a warning about it.
+CheckedMesh wrapInput(const WrapInput& input, const std::string& name) {
+  constexpr int kLeastFaces = 800, kMostFaces = 4000;
+  constexpr double kTolerance = 0.1;
+  requireNodes(input.mesh, input.size, name);
+  const TriangleMesh fine = fullWrap(input.mesh, input.size);
+  if (fine.triangleCount() == 0)
+    raiseInputError(name, "cannot be wrapped with a size of ", input.size, " m: nothing is left");
+  requireInside(input, fine, name);
+  requireWithinHull(input, fine, name);
+  const TriangleMesh coarse = coarsened(fine, {kLeastFaces, kMostFaces, kTolerance * input.size});
+  try {
+    return checkMesh(coarse, name);
+  } catch (const std::runtime_error&) {
+    return checkMesh(fine, name);  // parts of the coarser one have come to touch
+  }
+}
+
+/// wrapInput() for a mesh that was refused: says first why.
+CheckedMesh wrapWhatIsBroken(const WrapInput& input, const std::string& name,
+                             const std::string& refusal) {
+  try {
+    return wrapInput(input, name);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(refusal + "; " + std::string(error.what()).substr(name.size() + 2));
+  }
+}
+
+/// Whether values are in range and some triangle has an area.
+bool canBeWrapped(const TriangleMesh& mesh) {
+  return findValueDefects(mesh).empty() && withoutNeedles(mesh).triangleCount() > 0;
+}
+
+/// True of a closed surface that is a sheet, twice: once from each side.
+bool enclosesNothing(const TriangleMesh& mesh) {
+  return mesh.triangleCount() > 0 && isClosed(computeMeshEdges(mesh)) &&
+         std::abs(tetrahedraVolumeOf(mesh)) < kLeastVolume * portable::pow(meshAreaOf(mesh), 1.5);
+}
+
+/// Volume and area of a wrapped mesh before and after; the volume is that with filled holes.
+/// @param unit a length of 1 [m]
+std::string beforeAndAfter(const TriangleMesh& before, const WrapInput& filled,
+                           const TriangleMesh& after, double unit) {
+  const double square = unit * unit, cube = square * unit;
+  std::ostringstream text;
+  text.precision(4);
+  text << "wrapped with a size of " << unit * filled.size << " m: volume ";
+  if (isClosed(computeMeshEdges(filled.mesh))) {
+    text << cube * std::abs(tetrahedraVolumeOf(filled.mesh)) << " m^3";
+  } else {
+    text << "none (the triangles enclose none)";
+  }
+  text << " before and " << cube * tetrahedraVolumeOf(after) << " m^3 after, area "
+       << square * meshAreaOf(before) << " m^2 before and " << square * meshAreaOf(after)
+       << " m^2 after";
+  return text.str();
+}
+
 }  // namespace
 
 double gridNodesAround(const TriangleMesh& mesh, double size) {
@@ -198,34 +258,40 @@ TriangleMesh wrapped(const TriangleMesh& mesh, double size, const CoarseningSett
   return fine.triangleCount() > 0 ? coarsened(fine, settings) : fine;
 }
 
-bool canBeWrapped(const TriangleMesh& mesh) {
-  return mesh.triangleCount() > 0 && mesh.vertices.allFinite() &&
-         withoutNeedles(mesh).triangleCount() > 0;
-}
-
 CheckedMesh wrapSurface(const TriangleMesh& mesh, double size, const std::string& name) {
-  constexpr int kLeastFaces = 800, kMostFaces = 4000;
-  constexpr double kTolerance = 0.1;
   const WrapInput input = usableInput(mesh, size, name);
-  requireNodes(input.mesh, input.size, name);
-  const TriangleMesh fine = fullWrap(input.mesh, input.size);
-  if (fine.triangleCount() == 0)
-    raiseInputError(name, "cannot be wrapped with a size of ", input.size, " m: nothing is left");
-  requireInside(input, fine, name);
-  requireWithinHull(input, fine, name);
-  const TriangleMesh coarse = coarsened(fine, {kLeastFaces, kMostFaces, kTolerance * input.size});
-  CheckedMesh result;
-  try {
-    result = checkMesh(coarse, name);
-  } catch (const std::runtime_error&) {
-    result = checkMesh(fine, name);  // parts of the coarser one have come to touch
-  }
+  CheckedMesh result = wrapInput(input, name);
   std::vector<std::string> warnings{name + ": " + comparison(input.mesh, result.mesh, input.size)};
   if (input.holes > 0) {
     warnings.push_back(inputMessage(name, "holes filled before that: ", input.holes, ", of ",
                                     input.hole_area, " m^2 in all"));
   }
   result.warnings.insert(result.warnings.begin(), warnings.begin(), warnings.end());
+  return result;
+}
+
+CheckedMesh makeBodyMesh(const TriangleMesh& mesh, const std::string& name, bool strict,
+                         double unit) {
+  std::string refusal;
+  try {
+    return checkMesh(mesh, name);
+  } catch (const std::runtime_error& error) {
+    refusal = error.what();
+  }
+  if (!canBeWrapped(mesh)) throw std::runtime_error(refusal);
+  if (strict)
+    throw std::runtime_error(refusal + " (build --wrap makes a closed surface around it)");
+  const TriangleMesh mended = diagnoseMesh(mesh, name).checked.mesh;
+  if (enclosesNothing(mended)) throw std::runtime_error(refusal);
+  if (withHolesFilled(mended).is_sheet) {
+    throw std::runtime_error(refusal +
+                             " (a surface of zero thickness is a sheet: --sheet, in Python "
+                             "sheet=True; --wrap makes it thick)");
+  }
+  const WrapInput input = usableInput(mended, 0, name);
+  CheckedMesh result = wrapWhatIsBroken(input, name, refusal);
+  result.warnings.insert(result.warnings.begin(),
+                         refusal + "; " + beforeAndAfter(mended, input, result.mesh, unit));
   return result;
 }
 

@@ -93,13 +93,27 @@ TEST(Shape, OpenMeshesAreSheetsOnlyIfCalledSo) {
   EXPECT_EQ(messageOf([&] { read("sheet"); }), "no error");
   const std::string message = messageOf([&] { read("mesh"); });
   EXPECT_EQ(message.find(file.string() + ": not watertight: "), 0u) << message;
+  EXPECT_NE(message.find("--sheet"), std::string::npos) << message;
+}
+
+TEST(Shape, BrokenMeshesAreWrappedUnlessStrict) {
+  const TemporaryFolder folder;
+  writeText(folder / "t.obj", objText(withoutTriangle(unitTetrahedron(), 0)));
+  const auto read = [&](const nlohmann::json& strict) {
+    return makeShapeMesh(readShape({{"type", "mesh"}, {"file", "t.obj"}, {"strict", strict}},
+                                   folder.path(), "x.json"));
+  };
+  EXPECT_NEAR(6 * computeMassProperties(read(false).mesh).volume, 1, 0.03);
+  EXPECT_EQ(read(false).warnings.size(), 1u);
+  const std::string message = messageOf([&] { read(true); });
+  EXPECT_EQ(message.find((folder / "t.obj").string() + ": not watertight: "), 0u) << message;
 }
 
 TEST(Shape, UnknownKeysAreNamedWithTheKnownOnes) {
   EXPECT_EQ(refusal(R"({"type":"sphere","radius":1,"radiuss":2})"),
             "unknown key \"radiuss\" in the shape, which has faces, radius, type");
   EXPECT_EQ(refusal(R"({"type":"mesh","file":"a.obj","faces":100})"),
-            "unknown key \"faces\" in the shape, which has file, scale, type");
+            "unknown key \"faces\" in the shape, which has file, scale, strict, type");
 }
 
 TEST(Shape, MissingKeysAreNamed) {
