@@ -67,8 +67,9 @@ BuiltBody buildFromMesh(const TriangleMesh& mesh, bool sheet, const SourceSettin
   build.provenance = provenanceOf(mesh, sheet, settings);
   return buildOnce(settings, build.provenance, [&](const auto& begin) -> BuiltBody {
     build.begin = begin;
-    CheckedMesh checked = sheet ? checkMesh(mesh, settings.name, {true})
-                                : makeBodyMesh(mesh, settings.name, settings.strict);
+    CheckedMesh checked = sheet
+                              ? requireSound(checkMesh(mesh, settings.name, {true}), settings.name)
+                              : makeBodyMesh(mesh, settings.name, settings.strict);
     build.cavities = checked.cavities;
     build.warn = [&](const std::string& text) { checked.warnings.push_back(text); };
     FluidBody body = makeFluidBody(checked.mesh, build);

@@ -20,7 +20,7 @@ CheckedMesh makeBody(const TriangleMesh& mesh, const MeshFile& shape) {
   const std::string name = shape.file.string();
   switch (shape.stand_in) {
     case MeshStandIn::kHull:
-      return checkMesh(makeConvexHull(mesh.vertices, name), name);
+      return requireSound(checkMesh(makeConvexHull(mesh.vertices, name), name), name);
     case MeshStandIn::kWrap:
       return wrapSurface(mesh, shape.wrap_size, name);
     case MeshStandIn::kNone:
@@ -37,7 +37,8 @@ CheckedMesh checkImported(const Shape& shape, const ImportedMesh& imported) {
     mesh.vertices = file->stretch.asDiagonal() * mesh.vertices;
     checked = makeBody(mesh, *file);
   } else {
-    checked = checkMesh(imported.mesh, std::get<MeshSheet>(shape).file.string(), {true});
+    const std::string name = std::get<MeshSheet>(shape).file.string();
+    checked = requireSound(checkMesh(imported.mesh, name, {true}), name);
   }
   checked.warnings.insert(checked.warnings.begin(), imported.warnings.begin(),
                           imported.warnings.end());

@@ -249,15 +249,17 @@ ImportedMesh importInput(const ShapeDescription& shape) {
 }
 
 /// In metres as built.
-MeshDiagnosis diagnoseInput(const ReadInput& input, const ShapeDescription& shape) {
+CheckedMesh checkInput(const ReadInput& input, const ShapeDescription& shape) {
   TriangleMesh mesh = input.imported.mesh;
   mesh.vertices *= input.arguments.options.scale;
-  return diagnoseMesh(mesh, shape.source, {isSheet(shape)});
+  CheckedMesh checked = checkMesh(mesh, shape.source, {isSheet(shape)});
+  if (!isSheet(shape)) checked.addDefects(findCrossings(checked.mesh));
+  return checked;
 }
 
-void writeObj(const MeshDiagnosis& diagnosis, const std::string& file) {
+void writeObj(const CheckedMesh& checked, const std::string& file) {
   const BlockedSignals until_renamed;
-  writeFile(file, defectsAsObj(diagnosis));
+  writeFile(file, defectsAsObj(checked));
 }
 
 /// Estimates the error of what would be built, where that was asked for and something would.
@@ -284,16 +286,16 @@ int runCheck(const CheckArguments& arguments) {
   const ShapeDescription shape = describeInput(arguments.input, arguments.options);
   const ReadInput input{arguments, importInput(shape)};
   const Outcome asked = tryAsAsked(input);
-  const MeshDiagnosis diagnosis = diagnoseInput(input, shape);
+  const CheckedMesh checked = checkInput(input, shape);
   const std::vector<Outcome> remedies = asked.usable ? std::vector<Outcome>() : tryRemedies(input);
-  if (!arguments.obj.empty()) writeObj(diagnosis, arguments.obj);
+  if (!arguments.obj.empty()) writeObj(checked, arguments.obj);
   if (asked.usable && !arguments.json) {
     for (const std::string& warning : asked.usable->warnings)
       std::cerr << "warning: " << plainLine(warning) << "\n";
   }
   const std::optional<MeshEstimate> estimate = estimateOf(arguments, shape, asked);
-  std::cout << (arguments.json ? asJson(asked, diagnosis.defects, remedies, estimate)
-                               : asTable(asked, diagnosis.defects, remedies, estimate));
+  std::cout << (arguments.json ? asJson(asked, checked.defects, remedies, estimate)
+                               : asTable(asked, checked.defects, remedies, estimate));
   return asked.usable ? 0 : 1;
 }
 

@@ -200,11 +200,9 @@ CheckedMesh wrapInput(const WrapInput& input, const std::string& name) {
   requireInside(input, fine, name);
   requireWithinHull(input, fine, name);
   const TriangleMesh coarse = coarsened(fine, {kLeastFaces, kMostFaces, kTolerance * input.size});
-  try {
-    return checkMesh(coarse, name);
-  } catch (const std::runtime_error&) {
-    return checkMesh(fine, name);  // parts of the coarser one have come to touch
-  }
+  const CheckedMesh checked = checkMesh(coarse, name);
+  if (checked.defects.empty()) return checked;
+  return requireSound(checkMesh(fine, name), name);  // parts of the coarser one have come to touch
 }
 
 /// wrapInput() for a mesh that was refused: says first why.
@@ -272,26 +270,22 @@ CheckedMesh wrapSurface(const TriangleMesh& mesh, double size, const std::string
 
 CheckedMesh makeBodyMesh(const TriangleMesh& mesh, const std::string& name, bool strict,
                          double unit) {
-  std::string refusal;
-  try {
-    return checkMesh(mesh, name);
-  } catch (const std::runtime_error& error) {
-    refusal = error.what();
-  }
+  const CheckedMesh checked = checkMesh(mesh, name);
+  if (checked.defects.empty()) return checked;
+  const std::string refusal = inputMessage(name, checked.defects.front().text);
   if (!canBeWrapped(mesh)) throw std::runtime_error(refusal);
   if (strict)
     throw std::runtime_error(refusal + " (build --wrap makes a closed surface around it)");
-  const TriangleMesh mended = diagnoseMesh(mesh, name).checked.mesh;
-  if (enclosesNothing(mended)) throw std::runtime_error(refusal);
-  if (withHolesFilled(mended).is_sheet) {
+  if (enclosesNothing(checked.mesh)) throw std::runtime_error(refusal);
+  if (withHolesFilled(checked.mesh).is_sheet) {
     throw std::runtime_error(refusal +
                              " (a surface of zero thickness is a sheet: --sheet, in Python "
                              "sheet=True; --wrap makes it thick)");
   }
-  const WrapInput input = usableInput(mended, 0, name);
+  const WrapInput input = usableInput(checked.mesh, 0, name);
   CheckedMesh result = wrapWhatIsBroken(input, name, refusal);
   result.warnings.insert(result.warnings.begin(),
-                         refusal + "; " + beforeAndAfter(mended, input, result.mesh, unit));
+                         refusal + "; " + beforeAndAfter(checked.mesh, input, result.mesh, unit));
   return result;
 }
 
