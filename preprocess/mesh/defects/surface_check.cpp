@@ -14,6 +14,7 @@
 #include "preprocess/mesh/defects/surface_crossing.h"
 #include "preprocess/mesh/defects/topology_defects.h"
 #include "preprocess/mesh/defects/winding_number.h"
+#include "preprocess/mesh/geometry.h"
 #include "preprocess/mesh/graded_grid.h"
 #include "preprocess/mesh/mend/mesh_mending.h"
 #include "preprocess/mesh/mesh_defect.h"
@@ -37,15 +38,11 @@ struct Shell {
 };
 
 void measure(const TriangleMesh& mesh, Shell& shell) {
-  for (const int t : shell.triangles) {
-    for (int k = 0; k < 3; ++k) shell.bounds.extend(mesh.corner(t, k));
-  }
+  for (const int t : shell.triangles) shell.bounds.extend(boundsOf(mesh, t));
   const Eigen::Vector3d middle = shell.bounds.center();
   for (const int t : shell.triangles) {
-    const Eigen::Vector3d a = mesh.corner(t, 0) - middle, b = mesh.corner(t, 1) - middle,
-                          c = mesh.corner(t, 2) - middle;
-    shell.volume += a.dot(b.cross(c)) / 6;
-    shell.area += (b - a).cross(c - a).norm() / 2;
+    shell.volume += tetrahedronVolume(mesh, t, middle);
+    shell.area += areaOf(mesh, t);
   }
 }
 
@@ -132,7 +129,7 @@ std::vector<int> evenSample(const TriangleMesh& mesh, int count) {
   std::vector<double> area_up_to;
   double area = 0;
   for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) {
-    area += mesh.twiceArea(t).norm() / 2;
+    area += areaOf(mesh, t);
     area_up_to.push_back(area);
   }
   std::vector<int> sample;

@@ -7,6 +7,7 @@
 
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
+#include "preprocess/mesh/geometry.h"
 #include "preprocess/mesh/mesh_topology.h"
 #include "preprocess/mesh/polygon_triangles.h"
 
@@ -165,7 +166,7 @@ std::vector<Cap> makeCaps(const TriangleMesh& mesh, const MeshEdges& edges,
 std::vector<double> areasOf(const TriangleMesh& mesh, const MeshComponents& components) {
   std::vector<double> areas(components.count, 0.0);
   for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t)
-    areas[components.component_of[t]] += areaOf(mesh, mesh.triangles.col(t));
+    areas[components.component_of[t]] += areaOf(mesh, t);
   return areas;
 }
 

@@ -8,13 +8,14 @@
 #include "bullet_ambient/base/elementary.h"
 #include "preprocess/mesh/defects/topology_defects.h"
 #include "preprocess/mesh/defects/winding_number.h"
+#include "preprocess/mesh/geometry.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/mend/mesh_mending.h"
 #include "preprocess/mesh/mesh_topology.h"
 #include "preprocess/mesh/shapes/convex_hull.h"
 #include "preprocess/mesh/usual_size.h"
-#include "preprocess/mesh/wrap/dual_surface.h"
+#include "preprocess/mesh/wrap/grid_surface.h"
 #include "preprocess/mesh/wrap/hole_filling.h"
 #include "preprocess/mesh/wrap/mesh_coarsening.h"
 
@@ -42,22 +43,9 @@ TriangleMesh withoutNeedles(const TriangleMesh& mesh) {
   return {mesh.vertices, mesh.triangles(Eigen::all, kept)};
 }
 
-double meshAreaOf(const TriangleMesh& mesh) {
-  double area = 0;
-  for (Index t = 0; t < mesh.triangleCount(); ++t) area += mesh.twiceArea(t).norm() / 2;
-  return area;
-}
-
 /// By signed tetrahedra, whether or not the triangles are closed.
 double tetrahedraVolumeOf(const TriangleMesh& mesh) {
-  const Vector3d middle = mesh.vertices.rowwise().mean();
-  double volume = 0;
-  for (Index t = 0; t < mesh.triangleCount(); ++t) {
-    const Vector3d a = mesh.corner(t, 0) - middle, b = mesh.corner(t, 1) - middle,
-                   c = mesh.corner(t, 2) - middle;
-    volume += a.dot(b.cross(c)) / 6;
-  }
-  return volume;
+  return tetrahedraVolume(mesh, mesh.vertices.rowwise().mean());
 }
 
 constexpr double kMargin = 3.377;  // steps; a box along the axes has no side on nodes
@@ -86,9 +74,7 @@ void requireNodes(const TriangleMesh& mesh, double step, const std::string& name
 }
 
 TriangleMesh fullWrap(const TriangleMesh& mesh, double step) {
-  const CubicGrid grid = gridAround(mesh, step);
-  const GridCrossings crossings(mesh, grid);
-  return makeDualSurface(mesh, grid, crossings, findSolidNodes(mesh, grid, crossings));
+  return makeGridSurface(mesh, gridAround(mesh, step));
 }
 
 /// The triangles to wrap, and the size to do it with.
@@ -159,7 +145,7 @@ void requireWithinHull(const WrapInput& input, const TriangleMesh& surface,
   const TriangleMesh hull = hullOf(input.mesh, name);
   if (hull.triangleCount() == 0) return;
   const double volume = tetrahedraVolumeOf(hull), found = tetrahedraVolumeOf(surface);
-  const double thin = kDefaultWrapSize * input.mesh.extents().norm() * meshAreaOf(hull);
+  const double thin = kDefaultWrapSize * input.mesh.extents().norm() * areaOf(hull);
   if (found <= kMost * volume || volume <= thin) return;
   raiseInputError(
       name, "wrapped with a size of ", input.size, " m encloses ", found,
@@ -168,8 +154,8 @@ void requireWithinHull(const WrapInput& input, const TriangleMesh& surface,
 }
 
 std::string comparison(const TriangleMesh& before, const TriangleMesh& after, double size) {
-  const double volume = tetrahedraVolumeOf(after), area = meshAreaOf(after);
-  const double own_volume = std::abs(tetrahedraVolumeOf(before)), own_area = meshAreaOf(before);
+  const double volume = tetrahedraVolumeOf(after), area = areaOf(after);
+  const double own_volume = std::abs(tetrahedraVolumeOf(before)), own_area = areaOf(before);
   std::ostringstream text;
   text.precision(4);
   text << "wrapped with a size of " << size << " m: " << after.triangleCount() << " for "
@@ -223,7 +209,7 @@ bool canBeWrapped(const TriangleMesh& mesh) {
 /// True of a closed surface that is a sheet, twice: once from each side.
 bool enclosesNothing(const TriangleMesh& mesh) {
   return mesh.triangleCount() > 0 && isClosed(computeMeshEdges(mesh)) &&
-         std::abs(tetrahedraVolumeOf(mesh)) < kLeastVolume * portable::pow(meshAreaOf(mesh), 1.5);
+         std::abs(tetrahedraVolumeOf(mesh)) < kLeastVolume * portable::pow(areaOf(mesh), 1.5);
 }
 
 /// Volume and area of a wrapped mesh before and after; the volume is that with filled holes.
@@ -240,8 +226,7 @@ std::string beforeAndAfter(const TriangleMesh& before, const WrapInput& filled,
     text << "none (the triangles enclose none)";
   }
   text << " before and " << cube * tetrahedraVolumeOf(after) << " m^3 after, area "
-       << square * meshAreaOf(before) << " m^2 before and " << square * meshAreaOf(after)
-       << " m^2 after";
+       << square * areaOf(before) << " m^2 before and " << square * areaOf(after) << " m^2 after";
   return text.str();
 }
 
