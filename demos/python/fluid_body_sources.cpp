@@ -80,7 +80,8 @@ BuiltBody buildFromMesh(const TriangleMesh& mesh, bool sheet, const SourceSettin
 BuiltBody buildFromShape(const std::string& json, const fs::path& folder,
                          const SourceSettings& settings) {
   ShapeDescription shape = readShape(parseJson(json, settings.name), folder, settings.name);
-  if (auto* mesh = std::get_if<MeshFile>(&shape.geometry)) mesh->strict |= settings.strict;
+  if (auto* mesh = std::get_if<MeshFile>(&shape.geometry))
+    mesh->strict = mesh->strict || settings.strict;
   ShapeBuildSettings build;
   static_cast<CommonBuildSettings&>(build) = settings;
   if (std::holds_alternative<FluidBodyFile>(shape.geometry)) return buildShape(shape, build);

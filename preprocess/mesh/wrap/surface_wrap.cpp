@@ -186,7 +186,7 @@ CheckedMesh wrapInput(const WrapInput& input, const std::string& name) {
   requireInside(input, fine, name);
   requireWithinHull(input, fine, name);
   const TriangleMesh coarse = coarsened(fine, {kLeastFaces, kMostFaces, kTolerance * input.size});
-  const CheckedMesh checked = checkMesh(coarse, name);
+  CheckedMesh checked = checkMesh(coarse, name);
   if (checked.defects.empty()) return checked;
   return requireSound(checkMesh(fine, name), name);  // parts of the coarser one have come to touch
 }
@@ -255,7 +255,7 @@ CheckedMesh wrapSurface(const TriangleMesh& mesh, double size, const std::string
 
 CheckedMesh makeBodyMesh(const TriangleMesh& mesh, const std::string& name, bool strict,
                          double unit) {
-  const CheckedMesh checked = checkMesh(mesh, name);
+  CheckedMesh checked = checkMesh(mesh, name);
   if (checked.defects.empty()) return checked;
   const std::string refusal = inputMessage(name, checked.defects.front().text);
   if (!canBeWrapped(mesh)) throw std::runtime_error(refusal);

@@ -45,7 +45,7 @@ TEST_F(CommandLine, CheckSaysWhatBuildWouldDo) {
   const ProgramResult wrapped = run({"check", open});
   EXPECT_EQ(wrapped.exit_code, 0) << wrapped.errors;
   EXPECT_EQ(wrapped.output.find("defect           not watertight: 4 boundary edges"), 0u);
-  EXPECT_NE(wrapped.output.find("\nwrapped          usable: 800 faces, 2"), std::string::npos)
+  EXPECT_NE(wrapped.output.find("\nwrapped          usable: 800 faces, "), std::string::npos)
       << wrapped.output;
   EXPECT_EQ(wrapped.errors.find("warning: " + open + ": not watertight: "), 0u) << wrapped.errors;
   EXPECT_EQ(resultOf({"check", write("box.obj", objText(box())), "--json"})["wrapped"], false);

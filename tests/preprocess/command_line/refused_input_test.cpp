@@ -36,7 +36,7 @@ TEST_F(CommandLine, BadMeshesAreRefusedInOneLineThatNamesTheFile) {
 }
 
 TEST_F(CommandLine, MeshesOfNothingAreRefusedStrictOrNot) {
-  TriangleMesh sheet = makeRectangularSheetMesh(1, 1, 50);
+  const TriangleMesh sheet = makeRectangularSheetMesh(1, 1, 50);
   std::string nan = objText(unitTetrahedron());
   nan.replace(nan.find("v 1 0 0"), 7, "v 1 nan 0");
   for (const std::string& file : {write("empty.obj", ""), write("points.obj", "v 0 0 0\nv 1 0 0\n"),
