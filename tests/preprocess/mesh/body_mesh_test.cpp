@@ -14,16 +14,16 @@
 namespace ambient {
 namespace {
 
-std::string refusal(const TriangleMesh& mesh, bool strict) {
+std::string bodyRefusal(const TriangleMesh& mesh, bool strict) {
   return messageOf([&] { makeBodyMesh(mesh, "thing.obj", strict); });
 }
 
-double volumeOf(const TriangleMesh& mesh) { return computeMassProperties(mesh).volume; }
+double enclosedBy(const TriangleMesh& mesh) { return computeMassProperties(mesh).volume; }
 
 /// Volume of the closed surface that stands for a mesh with a defect. Expects one line about it,
 /// and a refusal of the same defect by `strict`.
 double wrappedVolume(const TriangleMesh& mesh, const std::string& defect) {
-  const std::string beginning = "thing.obj: " + defect, strictly = refusal(mesh, true);
+  const std::string beginning = "thing.obj: " + defect, strictly = bodyRefusal(mesh, true);
   EXPECT_EQ(strictly.find(beginning), 0u) << strictly;
   EXPECT_NE(strictly.find("(build --wrap makes a closed surface around it)"), std::string::npos);
   const CheckedMesh made = makeBodyMesh(mesh, "thing.obj", false);
@@ -31,7 +31,7 @@ double wrappedVolume(const TriangleMesh& mesh, const std::string& defect) {
   EXPECT_EQ(made.warnings.size(), 1u);
   EXPECT_EQ(made.warnings.at(0).find(beginning), 0u) << made.warnings[0];
   EXPECT_NE(made.warnings[0].find("; wrapped with a size of "), std::string::npos);
-  return volumeOf(made.mesh);
+  return enclosedBy(made.mesh);
 }
 
 /// A box of side 2 without its upper side.
@@ -52,7 +52,7 @@ TEST(BodyMesh, DoubledOpenBodiesAreClosedToo) {
   const TriangleMesh open = openBox();
   const TriangleMesh doubled = weldVertices(joined(open, insideOut(open)), 0);
   const CheckedMesh made = makeBodyMesh(doubled, "thing.obj", false);
-  EXPECT_NEAR(volumeOf(made.mesh), 8, 0.03);
+  EXPECT_NEAR(enclosedBy(made.mesh), 8, 0.03);
 }
 
 // Each triangle of a ball shrunk about its middle, every third one turned round.
@@ -66,7 +66,7 @@ TEST(BodyMesh, SoupsOfTrianglesBecomeWhatTheySurround) {
       soup.vertices.col(3 * t + k) = 0.95 * ball.corner(t, k) + 0.05 * ball.barycentre(t);
     soup.triangles.col(t) << 3 * t, 3 * t + (t % 3 == 0 ? 2 : 1), 3 * t + (t % 3 == 0 ? 1 : 2);
   }
-  EXPECT_NEAR(wrappedVolume(soup, "not watertight: ") / volumeOf(ball), 1, 0.03);
+  EXPECT_NEAR(wrappedVolume(soup, "not watertight: ") / enclosedBy(ball), 1, 0.03);
 }
 
 TEST(BodyMesh, CrossingPartsOfWhichOneIsOpenAreTakenTogether) {
@@ -83,10 +83,10 @@ TEST(BodyMesh, WhatCanBeMendedIsNotWrapped) {
   for (const bool strict : {false, true}) {
     EXPECT_EQ(makeBodyMesh(box, "thing.obj", strict).mesh.vertices, box.vertices);
     EXPECT_TRUE(makeBodyMesh(box, "thing.obj", strict).warnings.empty());
-    EXPECT_NEAR(volumeOf(makeBodyMesh(flipped, "thing.obj", strict).mesh), 8, 1e-12);
+    EXPECT_NEAR(enclosedBy(makeBodyMesh(flipped, "thing.obj", strict).mesh), 8, 1e-12);
     const CheckedMesh united =
         makeBodyMesh(joined(box, moved(box, {1.3, 0.4, 0.3})), "thing.obj", strict);
-    EXPECT_NEAR(volumeOf(united.mesh), 16 - 0.7 * 1.6 * 1.7, 1e-9);
+    EXPECT_NEAR(enclosedBy(united.mesh), 16 - 0.7 * 1.6 * 1.7, 1e-9);
     ASSERT_EQ(united.warnings.size(), 1u);
     EXPECT_NE(united.warnings[0].find("closed parts were united"), std::string::npos);
   }
@@ -96,14 +96,14 @@ TEST(BodyMesh, SheetsAreRefusedWithAHint) {
   const TriangleMesh sheet = makeRectangularSheetMesh(2, 1, 50);
   const TriangleMesh twice = joined(sheet, insideOut(sheet));
   for (const TriangleMesh& mesh : {sheet, weldVertices(twice, 0)}) {
-    const std::string message = refusal(mesh, false);
+    const std::string message = bodyRefusal(mesh, false);
     EXPECT_EQ(message.find("thing.obj: not watertight: "), 0u) << message;
     EXPECT_NE(message.find("--sheet"), std::string::npos) << message;
-    EXPECT_EQ(refusal(mesh, true).find("thing.obj: not watertight: "), 0u);
+    EXPECT_EQ(bodyRefusal(mesh, true).find("thing.obj: not watertight: "), 0u);
   }
   const TriangleMesh flat = makeBoxMesh({1, 1, 1e-8}, 12);
-  EXPECT_EQ(refusal(flat, true),
-            refusal(flat, false) + " (build --wrap makes a closed surface around it)");
+  EXPECT_EQ(bodyRefusal(flat, true),
+            bodyRefusal(flat, false) + " (build --wrap makes a closed surface around it)");
 }
 
 TEST(BodyMesh, WhatHasNoTrianglesOrNumbersIsRefused) {
@@ -111,10 +111,10 @@ TEST(BodyMesh, WhatHasNoTrianglesOrNumbersIsRefused) {
   broken.vertices(1, 3) = std::numeric_limits<double>::quiet_NaN();
   unknown.triangles(0, 7) = 100;
   for (const bool strict : {false, true}) {
-    EXPECT_EQ(refusal({}, strict), "thing.obj: there are no triangles");
-    EXPECT_EQ(refusal(broken, strict),
+    EXPECT_EQ(bodyRefusal({}, strict), "thing.obj: there are no triangles");
+    EXPECT_EQ(bodyRefusal(broken, strict),
               "thing.obj: vertex 3 has the coordinate y = nan, must be finite");
-    EXPECT_EQ(refusal(unknown, strict).find("thing.obj: triangle 7 refers to vertex 100"), 0u);
+    EXPECT_EQ(bodyRefusal(unknown, strict).find("thing.obj: triangle 7 refers to vertex 100"), 0u);
   }
 }
 
@@ -129,7 +129,7 @@ TEST(BodyMesh, WhatTheWrapRefusesSaysBothReasons) {
     const Eigen::Vector3d corner = cube.corner(i / 3, i % 3);
     plates.vertices.col(i) = corner - 0.2 * (corner - cube.twiceArea(i / 3).normalized());
   }
-  const std::string message = refusal(weldVertices(plates, 1e-9), false);
+  const std::string message = bodyRefusal(weldVertices(plates, 1e-9), false);
   EXPECT_EQ(message.find("thing.obj: not watertight: "), 0u) << message;
   EXPECT_NE(message.find("; wrapped with a size of "), std::string::npos) << message;
   EXPECT_NE(message.find("less than half"), std::string::npos) << message;
