@@ -78,7 +78,9 @@ CheckedMesh makeCompoundMesh(const Compound& compound, int faces, const std::str
     mesh.vertices = part.pose * mesh.vertices;
     meshes.push_back(std::move(mesh));
   }
-  CheckedMesh checked = checkMesh(joinMeshes(meshes), source);
+  const TriangleMesh all = joinMeshes(meshes);
+  CheckedMesh checked = checkMesh(all, source);
+  if (!checked.defects.empty()) return makeBodyMesh(all, source, false);
   checked.warnings.clear();  // that parts were united, as they are meant to be
   return checked;
 }
