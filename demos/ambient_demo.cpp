@@ -170,8 +170,6 @@ void runAndWrite(const Arguments& arguments) {
   SceneBodyCache cache(out / "fluid_bodies", scene.threads,
                        arguments.quiet ? nullptr : printReport);
   const std::vector<PreparedBody> bodies = prepareBodies(scene, cache);
-  for (const std::string& warning : cache.warnings())
-    if (!arguments.quiet) std::fprintf(stderr, "warning: %s\n", plainLine(warning).c_str());
 
   // Before, there is nothing to tidy up: signals end the program at once.
   RunFiles files = openFiles(out);

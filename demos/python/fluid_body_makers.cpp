@@ -87,11 +87,13 @@ SourceSettings settingsFrom(const std::string& name, const py::kwargs& given) {
       settings.flow.threads = value.cast<int>();
     else if (word == "waterline_table")
       settings.waterline_subdivisions = value.cast<int>();
+    else if (word == "strict")
+      settings.strict = value.cast<bool>();
     else if (word == "cache")
       settings.cache = pathFrom(py::reinterpret_borrow<py::object>(value));
     else
       throw py::type_error("unknown keyword " + word +
-                           "; known are origin, panels, threads, waterline_table, cache");
+                           "; known are origin, panels, threads, waterline_table, strict, cache");
   }
   return settings;
 }
@@ -153,16 +155,18 @@ panels : largest number of panels for the flow; default 4200; 0: the faces of th
 threads : number of threads; 0 (default): all cores; the result does not depend on it
 waterline_table : N from 1 to 16: also computes a table of the added mass at the surface of water, for
     N divisions of the octahedron of attitudes, which takes half a minute and more; default 0: none
+strict : raise ValueError where the mesh is open, crosses itself or is otherwise no body; default: wrap it
+    into a closed surface, with a warning that has volume and area before and after
 cache : folder in which results are stored and found by content
 
-Raises ValueError in one line if the mesh is open, crosses itself or is otherwise no body.
+Raises ValueError in one line for a sheet without `sheet`, and for what cannot be wrapped either.
 Cost: a second or two for a thousand faces.)")
       .def_static(
           "from_shape", &fromShape, py::arg("shape"), py::kw_only(), py::arg("name") = "shape",
           py::arg("folder") = ".",
           R"(Builds the fluid body of a shape described as in scenes: {"type": "box", "size": [1, 2, 3]}.
 
-`folder` is the folder of relative file names. from_mesh() describes origin, panels, threads, waterline_table and cache.)")
+`folder` is the folder of relative file names. from_mesh() describes origin, panels, threads, waterline_table, strict and cache.)")
       .def_static("read", &read, py::arg("path"), "Reads an .ambient file.")
       .def("write", &write, py::arg("path"),
            "Writes an .ambient file completely, or leaves the old one.")

@@ -6,6 +6,7 @@
 #include "bullet_ambient/base/fnv1a.h"
 #include "preprocess/builder/body_maker.h"
 #include "preprocess/mesh/check/mesh_checks.h"
+#include "preprocess/mesh/wrap/surface_wrap.h"
 #include "preprocess/shape/json_text.h"
 #include "preprocess/shape/shape_mesh.h"
 #include "preprocess/shape/shape_reader.h"
@@ -47,6 +48,7 @@ Provenance provenanceOf(const TriangleMesh& mesh, bool sheet, const SourceSettin
   text << ", panels " << settings.flow.max_panels;
   if (settings.waterline_subdivisions != 0)
     text << ", waterline " << settings.waterline_subdivisions;
+  if (settings.strict) text << ", strict";
   Provenance provenance;
   provenance.source = "arrays";
   provenance.source_hash =
@@ -65,7 +67,9 @@ BuiltBody buildFromMesh(const TriangleMesh& mesh, bool sheet, const SourceSettin
   build.provenance = provenanceOf(mesh, sheet, settings);
   return buildOnce(settings, build.provenance, [&](const auto& begin) -> BuiltBody {
     build.begin = begin;
-    CheckedMesh checked = checkMesh(mesh, settings.name, {sheet});
+    CheckedMesh checked = sheet
+                              ? requireSound(checkMesh(mesh, settings.name, {true}), settings.name)
+                              : makeBodyMesh(mesh, settings.name, settings.strict);
     build.cavities = checked.cavities;
     build.warn = [&](const std::string& text) { checked.warnings.push_back(text); };
     FluidBody body = makeFluidBody(checked.mesh, build);
@@ -75,7 +79,9 @@ BuiltBody buildFromMesh(const TriangleMesh& mesh, bool sheet, const SourceSettin
 
 BuiltBody buildFromShape(const std::string& json, const fs::path& folder,
                          const SourceSettings& settings) {
-  const ShapeDescription shape = readShape(parseJson(json, settings.name), folder, settings.name);
+  ShapeDescription shape = readShape(parseJson(json, settings.name), folder, settings.name);
+  if (auto* mesh = std::get_if<MeshFile>(&shape.geometry))
+    mesh->strict = mesh->strict || settings.strict;
   ShapeBuildSettings build;
   static_cast<CommonBuildSettings&>(build) = settings;
   if (std::holds_alternative<FluidBodyFile>(shape.geometry)) return buildShape(shape, build);

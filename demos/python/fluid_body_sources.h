@@ -14,7 +14,8 @@ namespace ambient {
 
 /// Settings for building a fluid body in Python.
 struct SourceSettings : CommonBuildSettings {
-  BodyFolder cache;  ///< default: none
+  BodyFolder cache;     ///< default: none
+  bool strict = false;  ///< refuse a mesh that is not a closed body, in place of wrapping it
 };
 
 /// Builds a fluid body of a mesh in memory; `sheet`: the mesh is a sheet of zero thickness.

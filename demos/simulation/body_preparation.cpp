@@ -11,15 +11,17 @@
 namespace ambient {
 namespace {
 
-Surface readOrMakeSurface(const ShapeDescription& shape) {
+Surface readOrMakeSurface(const ShapeDescription& shape, SceneBodyCache& fluid_bodies) {
   if (const auto* from_file = std::get_if<FluidBodyFile>(&shape.geometry))
     return readFluidBody(from_file->file).surface;
-  return surfaceOf(makeShapeMesh(shape).mesh);
+  const CheckedMesh checked = makeShapeMesh(shape);
+  fluid_bodies.warn(checked.warnings);
+  return surfaceOf(checked.mesh);
 }
 
-PreparedBody prepareStatic(const BodyDef& def) {
+PreparedBody prepareStatic(const BodyDef& def, SceneBodyCache& fluid_bodies) {
   PreparedBody body;
-  body.surface = readOrMakeSurface(def.shape);
+  body.surface = readOrMakeSurface(def.shape, fluid_bodies);
   if (def.centre_of_mass) body.centre_of_mass = *def.centre_of_mass;
   return body;
 }
@@ -44,7 +46,7 @@ PreparedBody prepare(const Scene& scene, const BodyDef& def, SceneBodyCache& flu
   if (def.link) return prepareLink(scene, def, fluid_bodies);
   return def.mass > 0
              ? prepareDynamic(def, fluid_bodies.get(def.shape, def.name, def.waterline_table))
-             : prepareStatic(def);
+             : prepareStatic(def, fluid_bodies);
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ std::shared_ptr<const FluidBody> SceneBodyCache::readOrBuild(const ShapeDescript
   const auto build = [&](const auto& begin) {
     settings.begin = begin;
     BuiltBody built = buildShape(shape, settings);
-    warnings_.insert(warnings_.end(), built.warnings.begin(), built.warnings.end());
+    warn(built.warnings);
     return std::move(built.body);
   };
   if (std::holds_alternative<FluidBodyFile>(shape.geometry))

@@ -43,8 +43,10 @@ class SceneBodyCache {
   /// Writes the bodies made by this object since the last call; what cannot be written is reported.
   void save();
 
-  /// Warnings about the meshes, one line each.
-  const std::vector<std::string>& warnings() const { return warnings_; }
+  /// Gives warnings about a mesh to the report, one line each.
+  void warn(const std::vector<std::string>& warnings) {
+    for (const std::string& warning : warnings) maker_.say(warning);
+  }
   int solved() const { return maker_.counts().made; }
 
  private:
@@ -65,7 +67,6 @@ class SceneBodyCache {
   std::string whose_;
   std::map<std::string, std::shared_ptr<const FluidBody>> by_text_;
   std::vector<BodyMaker::Made> unsaved_;
-  std::vector<std::string> warnings_;
 };
 
 }  // namespace ambient

@@ -11,7 +11,7 @@ CollisionShapeSettings SceneBodyCache::solidSettings(const std::string& name) {
   CollisionShapeSettings settings;
   settings.name = name;
   settings.flow.threads = threads_;
-  settings.report = [this](const std::string& line) { warnings_.push_back(line); };
+  settings.report = [this](const std::string& line) { maker_.say(line); };
   return settings;
 }
 

@@ -90,6 +90,7 @@ std::string meshText(const ShapeDescription& shape) {
   text.precision(17);
   if (mesh->stand_in == MeshStandIn::kHull) text << ", hull";
   if (mesh->stand_in == MeshStandIn::kWrap) text << ", wrap " << mesh->wrap_size;
+  if (mesh->strict) text << ", strict";
   if (mesh->stretch != Eigen::Vector3d(1, 1, 1)) text << ", stretch " << mesh->stretch.transpose();
   return text.str();
 }

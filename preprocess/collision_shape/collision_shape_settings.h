@@ -26,6 +26,9 @@ struct CollisionShapeSettings {
   bool tables = true;  ///< true: tables of the added mass are used as far as they reach; false: the
                        ///< flow is solved
   CompoundFallback fallback = CompoundFallback::kHull;
+  /// True: triangles of a btGImpactMeshShape that are not a closed body are refused; false: they
+  /// are wrapped, with a warning.
+  bool strict = false;
   /// Called with the name of each stage of the work that may take long; null: no calls.
   std::function<void(const std::string& stage)> begin = nullptr;
   /// Receives one line for everything a user should know about a body that was made: triangles that

@@ -67,14 +67,15 @@ bool areMany(const std::vector<Solid>& solids, const CollisionShapeSettings& set
          static_cast<double>(kMostOfMany) * settings.faces;
 }
 
-std::vector<Solid> solidsOf(const std::vector<PlacedShape>& parts,
-                            const CollisionShapeSettings& settings) {
+std::vector<Solid> solidsOf(const ShapeForm& form, const CollisionShapeSettings& settings) {
   SolidResolution resolution;
   resolution.faces = settings.faces;
   resolution.least_faces = std::min(kLeastFaces, settings.faces);
   resolution.flow_faces = std::max(resolution.faces, settings.flow.max_panels);
   resolution.tables = usesTables(settings);
-  return makeSolids(parts, resolution);
+  resolution.strict = settings.strict;
+  resolution.unit = form.size;
+  return makeSolids(form.parts, resolution);
 }
 
 /// Reports warnings about the body and its solids, one line each.
@@ -290,7 +291,7 @@ void requireUsable(const CollisionShapeSettings& settings, const std::string& na
 FluidBody makeFormBody(const ShapeForm& form, const CollisionShapeSettings& wanted) {
   const CollisionShapeSettings settings = withFaces(wanted, form);
   const std::string& name = nameOf(form, settings);
-  const std::vector<Solid> parts = solidsOf(form.parts, settings);
+  const std::vector<Solid> parts = solidsOf(form, settings);
   const UnionSettings unions{settings.faces, settings.fallback};
   if (parts.size() > 1) tellStage(settings, "uniting " + std::to_string(parts.size()) + " shapes");
   const SeparateSolids separate = uniteSolids(parts, unions, name);
@@ -312,6 +313,7 @@ Provenance describeForm(const ShapeForm& form, const CollisionShapeSettings& wan
        << kFormLawRevision << ", " << sourceOf(form.parts, settings);
   if (settings.waterline_subdivisions != 0)
     text << ", waterline " << settings.waterline_subdivisions;
+  if (settings.strict) text << ", strict";
   provenance.settings = text.str();
   provenance.generator = libraryVersion();
   return provenance;

@@ -7,7 +7,6 @@
 
 #include "bullet_ambient/bullet/core/conversions.h"
 #include "preprocess/collision_shape/form_body.h"
-#include "preprocess/collision_shape/shape_refusal.h"
 #include "preprocess/mesh/input_error.h"
 
 AMBIENT_BEGIN
@@ -19,6 +18,31 @@ Matrix3 toMatrix(const btMatrix3x3& basis) {
   Matrix3 matrix;
   for (int i = 0; i < 3; ++i) matrix.row(i) = toVector3(basis.getRow(i));
   return matrix;
+}
+
+/// Says why a shape that has no solids cannot be a body in a fluid, and what to use instead.
+/// @throws std::runtime_error always, in one line that begins with `name`.
+[[noreturn]] void refuseShape(const btCollisionShape& shape, const std::string& name) {
+  const std::string kind = shape.getName();
+  switch (shape.getShapeType()) {
+    case STATIC_PLANE_PROXYTYPE:
+      raiseInputError(name, "a plane (", kind, ") is unbounded and cannot move in a fluid");
+    case TERRAIN_SHAPE_PROXYTYPE:
+      raiseInputError(name, "a height field (", kind,
+                      ") encloses no volume and cannot move in a fluid");
+    case TRIANGLE_MESH_SHAPE_PROXYTYPE:
+    case SCALED_TRIANGLE_MESH_SHAPE_PROXYTYPE:
+    case MULTIMATERIAL_TRIANGLE_MESH_PROXYTYPE:
+      raiseInputError(name, "a static triangle mesh (", kind,
+                      ") cannot move in Bullet: use btGImpactMeshShape or convex hulls");
+    case EMPTY_SHAPE_PROXYTYPE:
+      raiseInputError(name, "an empty shape (", kind, ") displaces no fluid");
+    case SOFTBODY_SHAPE_PROXYTYPE:
+      raiseInputError(name, "a soft body (", kind, ") has no rigid shape");
+    default:
+      raiseInputError(name, "a shape of type ", kind, " (", shape.getShapeType(),
+                      ") is not supported: use a convex hull or a btGImpactMeshShape");
+  }
 }
 
 /// Place and scale of a shape in the frame of the outermost one, and the name that begins messages

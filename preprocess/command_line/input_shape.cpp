@@ -16,10 +16,12 @@ void requireOne(const InputOptions& options) {
   if (options.hull && options.wrap) raiseUsageError("--wrap", "excludes --hull");
   if (options.sheet && (options.hull || options.wrap))
     raiseUsageError("--sheet", "excludes --hull and --wrap, which make bodies");
+  if (options.wrap && options.strict) raiseUsageError("--wrap", "excludes --strict");
   if (options.wrap) wrapSizeOf(*options.wrap);
 }
 
 MeshFile withStandIn(MeshFile mesh, const InputOptions& options) {
+  mesh.strict = mesh.strict || options.strict;
   if (options.hull) mesh.stand_in = MeshStandIn::kHull;
   if (options.wrap) {
     mesh.stand_in = MeshStandIn::kWrap;
@@ -47,6 +49,10 @@ void addInputOptions(CLI::App& command, InputOptions& options) {
           "Take a closed surface around the mesh, which may be open, overlapping, or in parts; "
           "gaps and details below SIZE vanish (default 1/100 of its diagonal)")
       ->type_name("[SIZE]");
+  command.add_flag(
+      "--strict", options.strict,
+      "Refuse a mesh that is not a closed body after mending, in place of --wrap with a "
+      "warning");
 }
 
 ShapeDescription describeInput(const std::filesystem::path& input, const InputOptions& options) {

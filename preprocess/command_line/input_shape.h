@@ -17,11 +17,12 @@ struct InputOptions {
   bool sheet = false;  ///< an open surface of zero thickness
   bool hull = false;   ///< true: use the convex hull
   std::optional<std::string>
-      wrap;          ///< use a closed surface around the mesh; value: its size [m] as text
-  double scale = 1;  ///< factor on all lengths of the result
+      wrap;             ///< use a closed surface around the mesh; value: its size [m] as text
+  double scale = 1;     ///< factor on all lengths of the result
+  bool strict = false;  ///< refuse what is not a closed body after mending, in place of wrapping it
 };
 
-/// Adds --scale, --sheet, --hull and --wrap [SIZE].
+/// Adds --scale, --sheet, --hull, --wrap [SIZE] and --strict.
 void addInputOptions(CLI::App& command, InputOptions& options);
 
 /// Reads the shape of an INPUT of the command line: a mesh file, or a JSON file with a shape.

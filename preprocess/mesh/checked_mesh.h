@@ -4,24 +4,39 @@
 #include <utility>
 #include <vector>
 
+#include "preprocess/mesh/input_error.h"
+#include "preprocess/mesh/mesh_defect.h"
 #include "preprocess/mesh/triangle_mesh.h"
 
 namespace ambient {
 
-/// A mesh that has passed a check, perhaps with triangles turned round or vertices removed, and
-/// warnings about such changes, one line each.
+/// Result of a check: a mesh, perhaps with triangles turned round or vertices removed, warnings
+/// about such changes, one line each, and what is still wrong with it.
 struct CheckedMesh {
   TriangleMesh mesh;
   std::vector<std::string> warnings;
   /// Closed parts inside the body, normals into the cavity; the fluid outside does not see them.
   TriangleMesh cavities = {};
+  std::vector<MeshDefect> defects = {};  ///< empty: the mesh is sound
 
-  /// Replaces the mesh and its cavities by those of a later step, and adds its warnings.
+  /// Replaces the mesh and its cavities by those of a later step, and adds its warnings and
+  /// defects.
   void takeStep(CheckedMesh step) {
     mesh = std::move(step.mesh);
     cavities = std::move(step.cavities);
     warnings.insert(warnings.end(), step.warnings.begin(), step.warnings.end());
+    addDefects(step.defects);
+  }
+  void addDefects(const std::vector<MeshDefect>& more) {
+    defects.insert(defects.end(), more.begin(), more.end());
   }
 };
+
+/// Returns a mesh without defects. @throws std::runtime_error in one line that begins with `name`,
+/// with the first defect of any other.
+inline CheckedMesh requireSound(CheckedMesh checked, const std::string& name) {
+  if (!checked.defects.empty()) raiseInputError(name, checked.defects.front().text);
+  return checked;
+}
 
 }  // namespace ambient

@@ -4,8 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "preprocess/mesh/input_error.h"
-
 namespace ambient {
 
 /// A defect that prevents a mesh from representing a body or a sheet.
@@ -14,12 +12,6 @@ struct MeshDefect {
   std::string text;            ///< number of occurrences and an example, in one line
   std::vector<int> triangles;  ///< all triangles with the defect, or those of the example
 };
-
-/// Refuses a mesh with defects. @throws std::runtime_error in one line that begins with `name`,
-/// with the first defect.
-inline void requireNone(const std::vector<MeshDefect>& defects, const std::string& name) {
-  if (!defects.empty()) raiseInputError(name, defects.front().text);
-}
 
 /// Joins the parts of a sentence; numbers have 9 digits.
 template <class... Parts>

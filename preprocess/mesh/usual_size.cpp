@@ -14,7 +14,7 @@ namespace {
 // not pass through that.
 void requireUsualWidth(const MeshProperties& properties, double size, bool sheet,
                        const std::string& source) {
-  constexpr double kLeastVolume = 1e-6, kLeastArea = 1e-12;
+  constexpr double kLeastArea = 1e-12;
   const double width = properties.area / (size * size);
   if (!(width >= kLeastArea)) {
     raiseInputError(source, "it is too narrow: its area over the square of its size ",

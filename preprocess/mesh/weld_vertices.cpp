@@ -1,9 +1,8 @@
 #include "preprocess/mesh/weld_vertices.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "bullet_ambient/base/ambient_assert.h"
@@ -12,67 +11,23 @@
 namespace ambient {
 namespace {
 
-using Cell = std::array<std::int64_t, 3>;
-
-struct CellHash {
-  std::size_t operator()(const Cell& cell) const {
-    std::uint64_t hash = 0;
-    for (const std::int64_t k : cell) {
-      hash = (hash ^ static_cast<std::uint64_t>(k)) * 0x9e3779b97f4a7c15u;
-      hash ^= hash >> 32;
-    }
-    return hash;
-  }
-};
-
-/// Cubic cells some times as wide as the tolerance: what is close lies mostly in the same one.
-class CellGrid {
- public:
-  CellGrid(const TriangleMesh& mesh, double tolerance)
-      : mesh_(mesh), corner_(mesh.vertices.rowwise().minCoeff()), tolerance_(tolerance) {
-    const double extent = (mesh.vertices.rowwise().maxCoeff() - corner_).maxCoeff();
-    // Cells of zero width, or more than 2^40 along an edge, could not be numbered.
-    width_ = std::max(kTolerances * tolerance, std::ldexp(extent, -40));
-    if (width_ == 0) width_ = 1;
-  }
-
-  /// Joins `vertex` to the earlier vertices close to it.
-  void insert(int vertex, DisjointSets& sets) {
-    const Eigen::Vector3d point = mesh_.vertices.col(vertex);
-    const Cell low = cellOf(point.array() - tolerance_), high = cellOf(point.array() + tolerance_);
-    for (std::int64_t i = low[0]; i <= high[0]; ++i) {
-      for (std::int64_t j = low[1]; j <= high[1]; ++j) {
-        for (std::int64_t k = low[2]; k <= high[2]; ++k) joinCell({i, j, k}, vertex, sets);
-      }
-    }
-    vertices_in_[cellOf(point)].push_back(vertex);
-  }
-
- private:
-  static constexpr double kTolerances = 8;
-
-  Cell cellOf(const Eigen::Vector3d& point) const {
-    Cell cell{};
-    for (int k = 0; k < 3; ++k)
-      cell[k] = static_cast<std::int64_t>(std::floor((point[k] - corner_[k]) / width_));
-    return cell;
-  }
-
-  void joinCell(const Cell& cell, int vertex, DisjointSets& sets) {
-    const auto entry = vertices_in_.find(cell);
-    if (entry == vertices_in_.end()) return;
-    for (const int other : entry->second) {
-      const double distance = (mesh_.vertices.col(vertex) - mesh_.vertices.col(other)).norm();
-      if (distance <= tolerance_) sets.join(vertex, other);
+/// Joins all vertices that are closer to each other than the tolerance. Sweeps along a direction in
+/// which they differ; along a side of the mesh they would not.
+void joinClose(const TriangleMesh& mesh, double tolerance, DisjointSets& sets) {
+  const Eigen::Vector3d direction = Eigen::Vector3d(0.73, 0.55, 0.41).normalized();
+  const Eigen::Vector3d middle = mesh.bounds().center();
+  std::vector<std::pair<double, int>> along;
+  for (int v = 0; v < static_cast<int>(mesh.vertexCount()); ++v)
+    along.emplace_back(direction.dot(mesh.vertices.col(v) - middle), v);
+  std::sort(along.begin(), along.end());
+  const double reach = tolerance + std::ldexp(mesh.extents().norm(), -48);  // what rounding adds
+  for (std::size_t i = 0; i < along.size(); ++i) {
+    for (std::size_t j = i + 1; j < along.size() && along[j].first - along[i].first <= reach; ++j) {
+      const int v = along[i].second, w = along[j].second;
+      if ((mesh.vertices.col(v) - mesh.vertices.col(w)).norm() <= tolerance) sets.join(v, w);
     }
   }
-
-  const TriangleMesh& mesh_;
-  Eigen::Vector3d corner_;
-  double tolerance_;
-  double width_ = 1;
-  std::unordered_map<Cell, std::vector<int>, CellHash> vertices_in_;
-};
+}
 
 }  // namespace
 
@@ -81,8 +36,7 @@ TriangleMesh weldVertices(const TriangleMesh& mesh, double tolerance) {
   if (mesh.vertexCount() == 0) return mesh;
   const int vertex_count = static_cast<int>(mesh.vertexCount());
   DisjointSets sets(vertex_count);
-  CellGrid grid(mesh, tolerance);
-  for (int v = 0; v < vertex_count; ++v) grid.insert(v, sets);
+  joinClose(mesh, tolerance, sets);
 
   TriangleMesh result;
   result.vertices.resize(3, vertex_count);

@@ -16,28 +16,17 @@
 namespace ambient {
 namespace {
 
-/// checkMesh() that mentions a remedy.
-CheckedMesh checkBody(const TriangleMesh& mesh, const std::string& name) {
-  try {
-    return checkMesh(mesh, name);
-  } catch (const std::runtime_error& error) {
-    if (!canBeWrapped(mesh)) throw;
-    throw std::runtime_error(std::string(error.what()) +
-                             " (build --wrap makes a closed surface around it)");
-  }
-}
-
 CheckedMesh makeBody(const TriangleMesh& mesh, const MeshFile& shape) {
   const std::string name = shape.file.string();
   switch (shape.stand_in) {
     case MeshStandIn::kHull:
-      return checkMesh(makeConvexHull(mesh.vertices, name), name);
+      return requireSound(checkMesh(makeConvexHull(mesh.vertices, name), name), name);
     case MeshStandIn::kWrap:
       return wrapSurface(mesh, shape.wrap_size, name);
     case MeshStandIn::kNone:
       break;
   }
-  return checkBody(mesh, name);
+  return makeBodyMesh(mesh, name, shape.strict);
 }
 
 /// Checks the imported mesh of a MeshFile or a MeshSheet.
@@ -48,7 +37,8 @@ CheckedMesh checkImported(const Shape& shape, const ImportedMesh& imported) {
     mesh.vertices = file->stretch.asDiagonal() * mesh.vertices;
     checked = makeBody(mesh, *file);
   } else {
-    checked = checkMesh(imported.mesh, std::get<MeshSheet>(shape).file.string(), {true});
+    const std::string name = std::get<MeshSheet>(shape).file.string();
+    checked = requireSound(checkMesh(imported.mesh, name, {true}), name);
   }
   checked.warnings.insert(checked.warnings.begin(), imported.warnings.begin(),
                           imported.warnings.end());
@@ -88,7 +78,9 @@ CheckedMesh makeCompoundMesh(const Compound& compound, int faces, const std::str
     mesh.vertices = part.pose * mesh.vertices;
     meshes.push_back(std::move(mesh));
   }
-  CheckedMesh checked = checkMesh(joinMeshes(meshes), source);
+  const TriangleMesh all = joinMeshes(meshes);
+  CheckedMesh checked = checkMesh(all, source);
+  if (!checked.defects.empty()) return makeBodyMesh(all, source, false);
   checked.warnings.clear();  // that parts were united, as they are meant to be
   return checked;
 }

@@ -15,8 +15,8 @@ std::filesystem::path fileOf(const ShapeDescription& shape);
 /// Makes the triangles of a shape in its frame S. Meshes are read from their files and checked;
 /// other shapes are generated. Round shapes get the volume of the smooth body (elliptic sheets: the
 /// area), not vertices on its surface: a ball of 1280 triangles would otherwise have 1 % too little
-/// volume and added mass. If a mesh is refused that wrapSurface() could make a body of, the message
-/// says so. All lengths are multiplied by `scale`. Warns of a mesh file whose size suggests another
+/// volume and added mass. A mesh that is not a closed body is wrapped, see makeBodyMesh(). All
+/// lengths are multiplied by `scale`. Warns of a mesh file whose size suggests another
 /// unit than the metre.
 /// @pre the shape is not a FluidBodyFile; the scale is positive and finite
 /// @throws std::runtime_error in one line that begins with the shape's source.

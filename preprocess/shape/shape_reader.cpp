@@ -117,7 +117,9 @@ Geometry readGeometry(const ShapeSource& from) {
       {"cone", readRound<Cone>},
       {"mesh",
        [](const auto& s) {
-         return MeshFile{fileOf(s), scaleOf(s)};
+         MeshFile mesh{fileOf(s), scaleOf(s)};
+         mesh.strict = s.shape.value("strict", false);
+         return mesh;
        }},
       {"fluid_body", [](const auto& s) { return FluidBodyFile{fileOf(s)}; }},
       {"sheet", readSheet},

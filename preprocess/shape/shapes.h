@@ -55,6 +55,7 @@ struct MeshFile {
   MeshStandIn stand_in = MeshStandIn::kNone;
   double wrap_size = 0;              ///< with kWrap, before any scaling [m]; 0: kDefaultWrapSize
   Eigen::Vector3d stretch{1, 1, 1};  ///< along the axes of the file, after `scale`; not 0
+  bool strict = false;  ///< with kNone: what is not a closed body is refused, not wrapped
 };
 struct FluidBodyFile {
   std::filesystem::path file;

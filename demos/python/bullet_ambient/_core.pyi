@@ -69,6 +69,7 @@ class FluidBody:
         panels: int = ...,
         threads: int = ...,
         waterline_table: int = ...,
+        strict: bool = ...,
         cache: _Path | None = ...,
     ) -> FluidBody: ...
     @staticmethod
@@ -81,6 +82,7 @@ class FluidBody:
         panels: int = ...,
         threads: int = ...,
         waterline_table: int = ...,
+        strict: bool = ...,
         cache: _Path | None = ...,
     ) -> FluidBody: ...
     @staticmethod

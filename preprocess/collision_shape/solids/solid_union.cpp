@@ -10,7 +10,7 @@
 
 #include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/collision_shape/solids/collision_solids.h"
-#include "preprocess/mesh/defects/closed_mesh.h"
+#include "preprocess/mesh/check/mesh_checks.h"
 #include "preprocess/mesh/graded_grid.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/join_meshes.h"
@@ -119,7 +119,8 @@ Solid uniteGroup(const std::vector<Solid>& group, int faces, const std::string& 
 TriangleMesh cleanHull(TriangleMesh cloud, const std::string& name) {
   constexpr double kWelded = 1e-4;
   cloud = weldVertices(cloud, kWelded * cloud.extents().norm());
-  return mendTriangles(makeConvexHull(cloud.vertices, name, kCoarseHullBits), name).mesh;
+  const TriangleMesh hull = makeConvexHull(cloud.vertices, name, kCoarseHullBits);
+  return requireSound(checkMesh(hull, name), name).mesh;
 }
 
 Solid hullOf(const std::vector<Solid>& group, const UnionSettings& settings,

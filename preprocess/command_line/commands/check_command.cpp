@@ -131,6 +131,7 @@ struct Outcome {
   std::string option;                 ///< empty: as it is
   std::optional<CheckedMesh> usable;  ///< what would be built
   std::string refusal;
+  bool is_wrapped = false;  ///< of one as it is that is no closed body
 };
 
 /// Reads and checks the input with the options as build would, without solving the flow.
@@ -151,7 +152,13 @@ Outcome tryAsAsked(const ReadInput& input) {
   const InputOptions& options = input.arguments.options;
   std::string option = options.sheet ? "--sheet" : options.hull ? "--hull" : "";
   if (options.wrap) option = *options.wrap == kDefaultWrap ? "--wrap" : "--wrap " + *options.wrap;
-  return tryOption(input, option, options);
+  InputOptions strictly = options;
+  strictly.strict = !options.wrap;
+  const Outcome strict = tryOption(input, option, strictly);
+  if (strict.usable || !option.empty() || options.strict) return strict;
+  Outcome outcome = tryOption(input, option, options);
+  outcome.is_wrapped = outcome.usable.has_value();
+  return outcome;
 }
 
 /// Tries the options that may make an input usable that cannot be built as it is.
@@ -182,6 +189,7 @@ ordered_json outcomeJson(const Outcome& outcome) {
   json["faces"] = outcome.usable->mesh.triangleCount();
   json["size"] = vectorJson(outcome.usable->mesh.extents());
   json["volume"] = volumeOf(outcome);
+  json["wrapped"] = outcome.is_wrapped;
   json["warnings"] = outcome.usable->warnings;
   return json;
 }
@@ -219,7 +227,10 @@ std::string asTable(const Outcome& asked, const std::vector<MeshDefect>& defects
   for (const MeshDefect& defect : defects)
     text += "defect           " + plainLine(defect.text) + "\n";
   if (asked.usable || defects.empty())
-    text += lineOf(asked.option.empty() ? "as it is" : asked.option, asked);
+    text += lineOf(asked.is_wrapped       ? "wrapped"
+                   : asked.option.empty() ? "as it is"
+                                          : asked.option,
+                   asked);
   for (const Outcome& remedy : remedies)
     if (remedy.usable) text += lineOf("with " + remedy.option, remedy);
   if (estimate) text += estimateTable(*estimate);
@@ -238,15 +249,17 @@ ImportedMesh importInput(const ShapeDescription& shape) {
 }
 
 /// In metres as built.
-MeshDiagnosis diagnoseInput(const ReadInput& input, const ShapeDescription& shape) {
+CheckedMesh checkInput(const ReadInput& input, const ShapeDescription& shape) {
   TriangleMesh mesh = input.imported.mesh;
   mesh.vertices *= input.arguments.options.scale;
-  return diagnoseMesh(mesh, shape.source, {isSheet(shape)});
+  CheckedMesh checked = checkMesh(mesh, shape.source, {isSheet(shape)});
+  if (!isSheet(shape)) checked.addDefects(findCrossings(checked.mesh));
+  return checked;
 }
 
-void writeObj(const MeshDiagnosis& diagnosis, const std::string& file) {
+void writeObj(const CheckedMesh& checked, const std::string& file) {
   const BlockedSignals until_renamed;
-  writeFile(file, defectsAsObj(diagnosis));
+  writeFile(file, defectsAsObj(checked));
 }
 
 /// Estimates the error of what would be built, where that was asked for and something would.
@@ -273,16 +286,16 @@ int runCheck(const CheckArguments& arguments) {
   const ShapeDescription shape = describeInput(arguments.input, arguments.options);
   const ReadInput input{arguments, importInput(shape)};
   const Outcome asked = tryAsAsked(input);
-  const MeshDiagnosis diagnosis = diagnoseInput(input, shape);
+  const CheckedMesh checked = checkInput(input, shape);
   const std::vector<Outcome> remedies = asked.usable ? std::vector<Outcome>() : tryRemedies(input);
-  if (!arguments.obj.empty()) writeObj(diagnosis, arguments.obj);
+  if (!arguments.obj.empty()) writeObj(checked, arguments.obj);
   if (asked.usable && !arguments.json) {
     for (const std::string& warning : asked.usable->warnings)
       std::cerr << "warning: " << plainLine(warning) << "\n";
   }
   const std::optional<MeshEstimate> estimate = estimateOf(arguments, shape, asked);
-  std::cout << (arguments.json ? asJson(asked, diagnosis.defects, remedies, estimate)
-                               : asTable(asked, diagnosis.defects, remedies, estimate));
+  std::cout << (arguments.json ? asJson(asked, checked.defects, remedies, estimate)
+                               : asTable(asked, checked.defects, remedies, estimate));
   return asked.usable ? 0 : 1;
 }
 
@@ -291,7 +304,7 @@ int runCheck(const CheckArguments& arguments) {
 void addCheck(CLI::App& app) {
   const auto arguments = std::make_shared<CheckArguments>();
   CLI::App& command = *app.add_subcommand(
-      "check", "Finds all defects of a mesh, and what would mend them; estimates its error");
+      "check", "Finds all defects of a mesh, and what build would do with it; estimates its error");
   command.add_option("INPUT", arguments->input, "A mesh, or a JSON file with one")->required();
   addInputOptions(command, arguments->options);
   addOption(command, "--obj", arguments->obj, "OUT.obj",

@@ -125,6 +125,7 @@ int buildWorldFile(const BuildArguments& arguments) {
   settings.flow.max_panels = arguments.panels;
   settings.flow.threads = arguments.threads;
   settings.tables = !arguments.no_tables;
+  settings.strict = arguments.options.strict;
   settings.reuse = !arguments.rebuild;
   requireRegularFile(arguments.input, ".bullet");
   requireFolder(arguments.output);

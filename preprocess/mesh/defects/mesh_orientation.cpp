@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "preprocess/mesh/input_error.h"
+#include "preprocess/mesh/mesh_defect.h"
 
 namespace ambient {
 namespace {
@@ -26,8 +26,8 @@ std::vector<std::vector<Neighbour>> neighboursOf(const TriangleMesh& mesh, const
 /// Finds the triangles of one component that must be reversed to agree with its first triangle.
 class TurnSearch {
  public:
-  TurnSearch(const TriangleMesh& mesh, const MeshEdges& edges, std::string name)
-      : mesh_(mesh), neighbours_(neighboursOf(mesh, edges)), name_(std::move(name)) {
+  TurnSearch(const TriangleMesh& mesh, const MeshEdges& edges)
+      : mesh_(mesh), neighbours_(neighboursOf(mesh, edges)) {
     turned_.assign(neighbours_.size(), kUnknown);
   }
 
@@ -45,6 +45,9 @@ class TurnSearch {
     return turned.size() <= kept.size() ? turned : kept;
   }
 
+  /// The surface of a component that was visited is one-sided; empty: none is.
+  const std::vector<MeshDefect>& defects() const { return defects_; }
+
  private:
   static constexpr int kUnknown = -1;
 
@@ -54,16 +57,19 @@ class TurnSearch {
     if (turned == kUnknown) {
       turned = wanted;
       open.push_back(neighbour.triangle);
-    } else if (turned != wanted) {
-      raiseInputError(name_, "the surface is one-sided, as a Moebius strip is, near triangle ",
-                      from, " at ", pointText(mesh_.corner(from, 0)));
+    } else if (turned != wanted && defects_.empty()) {
+      defects_.push_back(
+          {"one-sided",
+           defectText("the surface is one-sided, as a Moebius strip is, near triangle ", from,
+                      " at ", pointText(mesh_.corner(from, 0))),
+           {from, neighbour.triangle}});
     }
   }
 
   const TriangleMesh& mesh_;
   std::vector<std::vector<Neighbour>> neighbours_;
-  std::string name_;
   std::vector<int> turned_;
+  std::vector<MeshDefect> defects_;
 };
 
 }  // namespace
@@ -83,7 +89,7 @@ CheckedMesh orientConsistently(const TriangleMesh& mesh, const MeshEdges& edges,
                                const std::string& name) {
   AMBIENT_ASSERT(isManifold(edges));
   CheckedMesh result{mesh, {}};
-  TurnSearch search(mesh, edges, name);
+  TurnSearch search(mesh, edges);
   std::size_t turned = 0;
   for (int t = 0; t < static_cast<int>(mesh.triangleCount()); ++t) {
     for (const int wrong : search.minorityOf(t)) {
@@ -91,6 +97,7 @@ CheckedMesh orientConsistently(const TriangleMesh& mesh, const MeshEdges& edges,
       ++turned;
     }
   }
+  if (!search.defects().empty()) return {mesh, {}, {}, search.defects()};
   if (turned > 0) {
     std::ostringstream warning;
     warning << name << ": " << turned << " of " << mesh.triangleCount()

@@ -13,8 +13,8 @@ std::string pointText(const Eigen::Vector3d& point);
 void turnRound(TriangleMesh& mesh, Eigen::Index triangle);
 
 /// Turns triangles round until neighbours agree; the minority of each component gives way.
+/// A one-sided surface, where that is impossible, is returned as it is, with a defect.
 /// @pre every edge has one or two triangles.
-/// @throws std::runtime_error if that is impossible (a one-sided surface).
 CheckedMesh orientConsistently(const TriangleMesh& mesh, const MeshEdges& edges,
                                const std::string& name);
 

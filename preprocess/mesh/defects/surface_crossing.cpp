@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bullet_ambient/base/ambient_assert.h"
+#include "preprocess/mesh/geometry.h"
 
 namespace ambient {
 namespace {
@@ -13,15 +14,6 @@ using Eigen::Vector3d;
 
 double sixfoldVolume(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d) {
   return (b - a).cross(c - a).dot(d - a);
-}
-
-Vector3d nearestOnSegment(const Vector3d& x, const Vector3d& a, const Vector3d& b) {
-  const double along = std::clamp((x - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
-  return a + along * (b - a);
-}
-
-double distanceToSegment(const Vector3d& x, const Vector3d& a, const Vector3d& b) {
-  return (x - nearestOnSegment(x, a, b)).norm();
 }
 
 /// Distance below which parts touch, for a surface scaled to unit size. The scale keeps products of
@@ -38,13 +30,8 @@ TriangleMesh inUnitSize(TriangleMesh mesh) {
 /// Extent of a triangle along the direction of the sweep, and its bounding box.
 struct Extent {
   double first = 0, last = 0;
-  Vector3d low, high;
+  Eigen::AlignedBox3d bounds;
   int triangle = 0;
-
-  bool meets(const Extent& other) const {
-    return ((low - other.high).array() <= kTouch).all() &&
-           ((other.low - high).array() <= kTouch).all();
-  }
 };
 
 std::vector<Extent> sortedExtents(const TriangleMesh& mesh) {
@@ -52,10 +39,9 @@ std::vector<Extent> sortedExtents(const TriangleMesh& mesh) {
   const Vector3d direction = Vector3d(0.73, 0.55, 0.41).normalized();
   std::vector<Extent> extents;
   for (Index t = 0; t < mesh.triangleCount(); ++t) {
-    const Vector3d a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
-    const auto along = {direction.dot(a), direction.dot(b), direction.dot(c)};
-    extents.push_back({std::min(along), std::max(along), a.cwiseMin(b).cwiseMin(c),
-                       a.cwiseMax(b).cwiseMax(c), static_cast<int>(t)});
+    const auto along = {direction.dot(mesh.corner(t, 0)), direction.dot(mesh.corner(t, 1)),
+                        direction.dot(mesh.corner(t, 2))};
+    extents.push_back({std::min(along), std::max(along), boundsOf(mesh, t), static_cast<int>(t)});
   }
   std::sort(extents.begin(), extents.end(), [](const Extent& p, const Extent& q) {
     return p.first != q.first ? p.first < q.first : p.triangle < q.triangle;
@@ -81,7 +67,7 @@ bool edgesCross(const TriangleMesh& mesh, int s, int t) {
 
 bool cornersTouch(const TriangleMesh& mesh, int s, int t) {
   for (int k = 0; k < 3; ++k) {
-    if (distanceToTriangle(mesh.corner(s, k), mesh, t) < kTouch) return true;
+    if (isCloser(mesh.corner(s, k), mesh, t, kTouch)) return true;
   }
   return false;
 }
@@ -100,7 +86,9 @@ SurfaceCrossings findSurfaceCrossings(const TriangleMesh& source, const std::vec
          ++j) {
       const int t = extents[j].triangle;
       const bool same_part = part_of[s] == part_of[t];
-      if ((same_part && found.within_part) || !extents[i].meets(extents[j])) continue;
+      if ((same_part && found.within_part) ||
+          !areNear(extents[i].bounds, extents[j].bounds, kTouch))
+        continue;
       if (haveCommonCorner(mesh, s, t)) continue;
       const bool cross = edgesCross(mesh, s, t) || edgesCross(mesh, t, s);
       if (same_part) {
@@ -120,30 +108,6 @@ bool crossesTriangle(const Vector3d& p, const Vector3d& q, const TriangleMesh& m
   const double u = sixfoldVolume(p, q, a, b), v = sixfoldVolume(p, q, b, c),
                w = sixfoldVolume(p, q, c, a);
   return (u > 0 && v > 0 && w > 0) || (u < 0 && v < 0 && w < 0);
-}
-
-double distanceToTriangle(const Vector3d& x, const TriangleMesh& mesh, Index t) {
-  const Vector3d a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
-  const Vector3d normal = (b - a).cross(c - a).normalized();
-  const auto isInside = [&](const Vector3d& from, const Vector3d& to) {
-    return (to - from).cross(x - from).dot(normal) >= 0;
-  };
-  if (isInside(a, b) && isInside(b, c) && isInside(c, a)) return std::abs((x - a).dot(normal));
-  return std::min(
-      {distanceToSegment(x, a, b), distanceToSegment(x, b, c), distanceToSegment(x, c, a)});
-}
-
-Vector3d nearestPoint(const Eigen::Matrix3d& triangle, const Vector3d& x) {
-  const Vector3d a = triangle.col(0), b = triangle.col(1), c = triangle.col(2);
-  const Vector3d normal = (b - a).cross(c - a).normalized();
-  const auto isInside = [&](const Vector3d& from, const Vector3d& to) {
-    return (to - from).cross(x - from).dot(normal) >= 0;
-  };
-  if (isInside(a, b) && isInside(b, c) && isInside(c, a)) return x - (x - a).dot(normal) * normal;
-  Vector3d nearest = nearestOnSegment(x, a, b);
-  for (const Vector3d& other : {nearestOnSegment(x, b, c), nearestOnSegment(x, c, a)})
-    if ((other - x).squaredNorm() < (nearest - x).squaredNorm()) nearest = other;
-  return nearest;
 }
 
 }  // namespace ambient

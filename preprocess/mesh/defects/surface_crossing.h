@@ -11,14 +11,6 @@ namespace ambient {
 bool crossesTriangle(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const TriangleMesh& mesh,
                      Eigen::Index triangle);
 
-/// Computes the distance of a point from a triangle [m].
-double distanceToTriangle(const Eigen::Vector3d& point, const TriangleMesh& mesh,
-                          Eigen::Index triangle);
-
-/// Computes the point of a triangle (one corner per column) that is nearest to `point` [m].
-/// @pre the triangle has an area.
-Eigen::Vector3d nearestPoint(const Eigen::Matrix3d& triangle, const Eigen::Vector3d& point);
-
 /// Numbers of two triangles that meet without a common corner.
 struct TrianglePair {
   int first = 0, second = 0;

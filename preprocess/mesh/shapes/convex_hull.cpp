@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "preprocess/mesh/geometry.h"
 #include "preprocess/mesh/graded_grid.h"
 #include "preprocess/mesh/input_error.h"
 
@@ -206,15 +207,8 @@ std::vector<Lattice> onLattice(const Eigen::Matrix3Xd& points, int bits) {
 /// Whether a closed mesh encloses more than rounding, a millionth of its size times its area.
 bool hasVolume(const TriangleMesh& mesh) {
   constexpr double kLeastThickness = 1e-6;
-  const Eigen::Vector3d origin = mesh.vertices.col(0);
-  double volume = 0, area = 0;
-  for (Index t = 0; t < mesh.triangleCount(); ++t) {
-    const Eigen::Vector3d a = mesh.corner(t, 0) - origin, b = mesh.corner(t, 1) - origin,
-                          c = mesh.corner(t, 2) - origin;
-    volume += a.dot(b.cross(c)) / 6;
-    area += (b - a).cross(c - a).norm() / 2;
-  }
-  return volume > kLeastThickness * mesh.extents().maxCoeff() * area;
+  return tetrahedraVolume(mesh, mesh.vertices.col(0)) >
+         kLeastThickness * mesh.extents().maxCoeff() * areaOf(mesh);
 }
 
 }  // namespace

@@ -13,8 +13,8 @@
 
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/spatial/rotation.h"
-#include "preprocess/mesh/defects/closed_mesh.h"
 #include "preprocess/mesh/defects/mesh_orientation.h"
+#include "preprocess/mesh/defects/surface_check.h"
 #include "preprocess/mesh/graded_grid.h"
 #include "preprocess/mesh/join_meshes.h"
 #include "preprocess/mesh/mass_properties.h"
@@ -317,7 +317,8 @@ void requireVolume(const TriangleMesh& mesh, const Meshes& parts) {
 
 /// Outward, whichever way round it was.
 TriangleMesh orientedPart(const TriangleMesh& part, const std::string& name) {
-  TriangleMesh oriented = orientConsistently(part, computeMeshEdges(part), name).mesh;
+  TriangleMesh oriented =
+      requireSound(orientConsistently(part, computeMeshEdges(part), name), name).mesh;
   if (computeMassProperties(oriented).volume < 0) {
     for (Eigen::Index t = 0; t < oriented.triangleCount(); ++t) turnRound(oriented, t);
   }
@@ -328,7 +329,8 @@ TriangleMesh orientedPart(const TriangleMesh& part, const std::string& name) {
 CheckedMesh unitedAsTheyAre(const Meshes& parts, const Tolerances& tolerances,
                             const std::string& name) {
   const double size = joinMeshes(parts).extents().norm();
-  CheckedMesh united = checkClosedMesh(unionSurface(parts, size, tolerances), name);
+  CheckedMesh united =
+      requireSound(checkSurface(unionSurface(parts, size, tolerances), name), name);
   requireVolume(united.mesh, parts);
   requireGaps(united.mesh);
   united.warnings.clear();  // of what came of cutting

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "preprocess/mesh/mesh_topology.h"
-#include "preprocess/mesh/wrap/triangle_pieces.h"
 
 namespace ambient {
 namespace {
@@ -44,13 +43,13 @@ void forEachLine(const CubicGrid& grid, int axis, const Eigen::AlignedBox3d& box
   }
 }
 
-Eigen::AlignedBox3d boxAround(const TrianglePiece& points, double reach) {
+Eigen::AlignedBox3d boxAround(const TriangleCorners& points, double reach) {
   const Vector3d wider = Vector3d::Constant(reach);
   return {points.rowwise().minCoeff() - wider, points.rowwise().maxCoeff() + wider};
 }
 
 /// Whether a point of the plane of a triangle is in it, rounding included.
-bool isIn(const TrianglePiece& triangle, const Vector3d& normal, const Vector3d& x) {
+bool isIn(const TriangleCorners& triangle, const Vector3d& normal, const Vector3d& x) {
   for (int k = 0; k < 3; ++k) {
     const Vector3d a = triangle.col(k), along = triangle.col((k + 1) % 3) - a;
     if (along.cross(x - a).dot(normal) < -kLineRounding * along.norm()) return false;
@@ -58,21 +57,10 @@ bool isIn(const TrianglePiece& triangle, const Vector3d& normal, const Vector3d&
   return true;
 }
 
-double distanceBetween(const Vector3d& x, const Vector3d& a, const Vector3d& b) {
-  const double s = std::clamp((x - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
-  return (x - a - s * (b - a)).norm();
-}
-
-TrianglePiece inStepsOf(const CubicGrid& grid, const TriangleMesh& mesh, int t) {
-  TrianglePiece corners = cornersOf(mesh, t);
+TriangleCorners inStepsOf(const CubicGrid& grid, const TriangleMesh& mesh, int t) {
+  TriangleCorners corners = cornersOf(mesh, t);
   for (int k = 0; k < 3; ++k) corners.col(k) = grid.inSteps(corners.col(k));
   return corners;
-}
-
-Vector3d normalOfPiece(const TrianglePiece& corners) {
-  return (corners.col(1) - corners.col(0))
-      .cross(corners.col(2) - corners.col(0))
-      .stableNormalized();
 }
 
 double fractionOf(double x) { return x - std::floor(x); }
@@ -90,9 +78,9 @@ GridCrossings::GridCrossings(const TriangleMesh& mesh, const CubicGrid& grid) : 
 }
 
 void GridCrossings::addTriangle(const TriangleMesh& mesh, int triangle) {
-  const TrianglePiece corners = inStepsOf(grid_, mesh, triangle);
-  const Vector3d normal = normalOfPiece(corners);
-  forEachPiece(corners, kLongestPiece, [&](const TrianglePiece& piece) {
+  const TriangleCorners corners = inStepsOf(grid_, mesh, triangle);
+  const Vector3d normal = normalOf(corners);
+  forEachPiece(corners, kLongestPiece, [&](const TriangleCorners& piece) {
     for (int axis = 0; axis < 3; ++axis) {
       forEachLine(grid_, axis, boxAround(piece, kLineRounding), piece.col(0), normal,
                   [&](std::int64_t node, const Vector3d& x) {
@@ -104,18 +92,18 @@ void GridCrossings::addTriangle(const TriangleMesh& mesh, int triangle) {
 }
 
 void GridCrossings::addOpenEdge(const TriangleMesh& mesh, int triangle, int side) {
-  const TrianglePiece corners = inStepsOf(grid_, mesh, triangle);
-  const Vector3d normal = normalOfPiece(corners);
+  const TriangleCorners corners = inStepsOf(grid_, mesh, triangle);
+  const Vector3d normal = normalOf(corners);
   const Vector3d a = corners.col(side), along = corners.col((side + 1) % 3) - a;
   const int count = std::max(1, static_cast<int>(std::ceil(along.norm() / kLongestPiece)));
   for (int i = 0; i < count; ++i) {
     const Vector3d from = a + along * i / count, to = a + along * (i + 1) / count;
-    TrianglePiece ends;
+    TriangleCorners ends;
     ends << from, to, to;
     for (int axis = 0; axis < 3; ++axis) {
       forEachLine(grid_, axis, boxAround(ends, kReach), from, normal,
                   [&](std::int64_t node, const Vector3d& x) {
-                    if (distanceBetween(x, from, to) > kReach) return;
+                    if ((nearestOnSegment(x, from, to) - x).norm() > kReach) return;
                     add(3 * node + axis, {fractionOf(x[axis]), triangle}, true);
                   });
     }

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
+#include "preprocess/mesh/geometry.h"
 #include "preprocess/mesh/mesh_topology.h"
 #include "preprocess/mesh/polygon_triangles.h"
 
@@ -161,17 +163,11 @@ std::vector<Cap> makeCaps(const TriangleMesh& mesh, const MeshEdges& edges,
 }
 
 /// By component.
-std::vector<bool> findSheets(const TriangleMesh& mesh, const MeshComponents& components,
-                             const std::vector<Cap>& caps) {
-  constexpr double kSheet = 0.9;
+std::vector<double> areasOf(const TriangleMesh& mesh, const MeshComponents& components) {
   std::vector<double> areas(components.count, 0.0);
   for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t)
-    areas[components.component_of[t]] += areaOf(mesh, mesh.triangles.col(t));
-  std::vector<bool> is_sheet(components.count, false);
-  for (const Cap& cap : caps) {
-    if (cap.area > kSheet * areas[cap.component]) is_sheet[cap.component] = true;
-  }
-  return is_sheet;
+    areas[components.component_of[t]] += areaOf(mesh, t);
+  return areas;
 }
 
 }  // namespace
@@ -180,8 +176,14 @@ FilledMesh withHolesFilled(const TriangleMesh& mesh) {
   const MeshEdges edges = computeMeshEdges(mesh);
   const MeshComponents components = computeMeshComponents(mesh, edges);
   const std::vector<Cap> caps = makeCaps(mesh, edges, components);
-  const std::vector<bool> is_sheet = findSheets(mesh, components, caps);
+  const std::vector<double> areas = areasOf(mesh, components);
+  const double whole = std::accumulate(areas.begin(), areas.end(), 0.0);
   FilledMesh filled{mesh};
+  std::vector<bool> is_sheet(components.count, false);
+  for (const Cap& cap : caps) {
+    if (cap.area > kSheet * areas[cap.component]) is_sheet[cap.component] = true;
+    if (cap.area > kSheet * whole) filled.is_sheet = true;
+  }
   std::vector<Vector3i> added;
   for (const Cap& cap : caps) {
     if (is_sheet[cap.component]) continue;

@@ -6,13 +6,16 @@
 #include <utility>
 
 #include "bullet_ambient/base/elementary.h"
+#include "preprocess/mesh/defects/topology_defects.h"
 #include "preprocess/mesh/defects/winding_number.h"
+#include "preprocess/mesh/geometry.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/mend/mesh_mending.h"
 #include "preprocess/mesh/mesh_topology.h"
 #include "preprocess/mesh/shapes/convex_hull.h"
-#include "preprocess/mesh/wrap/dual_surface.h"
+#include "preprocess/mesh/usual_size.h"
+#include "preprocess/mesh/wrap/grid_surface.h"
 #include "preprocess/mesh/wrap/hole_filling.h"
 #include "preprocess/mesh/wrap/mesh_coarsening.h"
 
@@ -40,22 +43,9 @@ TriangleMesh withoutNeedles(const TriangleMesh& mesh) {
   return {mesh.vertices, mesh.triangles(Eigen::all, kept)};
 }
 
-double meshAreaOf(const TriangleMesh& mesh) {
-  double area = 0;
-  for (Index t = 0; t < mesh.triangleCount(); ++t) area += mesh.twiceArea(t).norm() / 2;
-  return area;
-}
-
 /// By signed tetrahedra, whether or not the triangles are closed.
 double tetrahedraVolumeOf(const TriangleMesh& mesh) {
-  const Vector3d middle = mesh.vertices.rowwise().mean();
-  double volume = 0;
-  for (Index t = 0; t < mesh.triangleCount(); ++t) {
-    const Vector3d a = mesh.corner(t, 0) - middle, b = mesh.corner(t, 1) - middle,
-                   c = mesh.corner(t, 2) - middle;
-    volume += a.dot(b.cross(c)) / 6;
-  }
-  return volume;
+  return tetrahedraVolume(mesh, mesh.vertices.rowwise().mean());
 }
 
 constexpr double kMargin = 3.377;  // steps; a box along the axes has no side on nodes
@@ -84,9 +74,7 @@ void requireNodes(const TriangleMesh& mesh, double step, const std::string& name
 }
 
 TriangleMesh fullWrap(const TriangleMesh& mesh, double step) {
-  const CubicGrid grid = gridAround(mesh, step);
-  const GridCrossings crossings(mesh, grid);
-  return makeDualSurface(mesh, grid, crossings, findSolidNodes(mesh, grid, crossings));
+  return makeGridSurface(mesh, gridAround(mesh, step));
 }
 
 /// The triangles to wrap, and the size to do it with.
@@ -157,7 +145,7 @@ void requireWithinHull(const WrapInput& input, const TriangleMesh& surface,
   const TriangleMesh hull = hullOf(input.mesh, name);
   if (hull.triangleCount() == 0) return;
   const double volume = tetrahedraVolumeOf(hull), found = tetrahedraVolumeOf(surface);
-  const double thin = kDefaultWrapSize * input.mesh.extents().norm() * meshAreaOf(hull);
+  const double thin = kDefaultWrapSize * input.mesh.extents().norm() * areaOf(hull);
   if (found <= kMost * volume || volume <= thin) return;
   raiseInputError(
       name, "wrapped with a size of ", input.size, " m encloses ", found,
@@ -166,8 +154,8 @@ void requireWithinHull(const WrapInput& input, const TriangleMesh& surface,
 }
 
 std::string comparison(const TriangleMesh& before, const TriangleMesh& after, double size) {
-  const double volume = tetrahedraVolumeOf(after), area = meshAreaOf(after);
-  const double own_volume = std::abs(tetrahedraVolumeOf(before)), own_area = meshAreaOf(before);
+  const double volume = tetrahedraVolumeOf(after), area = areaOf(after);
+  const double own_volume = std::abs(tetrahedraVolumeOf(before)), own_area = areaOf(before);
   std::ostringstream text;
   text.precision(4);
   text << "wrapped with a size of " << size << " m: " << after.triangleCount() << " for "
@@ -187,6 +175,61 @@ std::string comparison(const TriangleMesh& before, const TriangleMesh& after, do
   return text.str();
 }
 
+/// The closed surface around triangles, without a warning about it.
+CheckedMesh wrapInput(const WrapInput& input, const std::string& name) {
+  constexpr int kLeastFaces = 800, kMostFaces = 4000;
+  constexpr double kTolerance = 0.1;
+  requireNodes(input.mesh, input.size, name);
+  const TriangleMesh fine = fullWrap(input.mesh, input.size);
+  if (fine.triangleCount() == 0)
+    raiseInputError(name, "cannot be wrapped with a size of ", input.size, " m: nothing is left");
+  requireInside(input, fine, name);
+  requireWithinHull(input, fine, name);
+  const TriangleMesh coarse = coarsened(fine, {kLeastFaces, kMostFaces, kTolerance * input.size});
+  CheckedMesh checked = checkMesh(coarse, name);
+  if (checked.defects.empty()) return checked;
+  return requireSound(checkMesh(fine, name), name);  // parts of the coarser one have come to touch
+}
+
+/// wrapInput() for a mesh that was refused: says first why.
+CheckedMesh wrapWhatIsBroken(const WrapInput& input, const std::string& name,
+                             const std::string& refusal) {
+  try {
+    return wrapInput(input, name);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(refusal + "; " + std::string(error.what()).substr(name.size() + 2));
+  }
+}
+
+/// Whether values are in range and some triangle has an area.
+bool canBeWrapped(const TriangleMesh& mesh) {
+  return findValueDefects(mesh).empty() && withoutNeedles(mesh).triangleCount() > 0;
+}
+
+/// True of a closed surface that is a sheet, twice: once from each side.
+bool enclosesNothing(const TriangleMesh& mesh) {
+  return mesh.triangleCount() > 0 && isClosed(computeMeshEdges(mesh)) &&
+         std::abs(tetrahedraVolumeOf(mesh)) < kLeastVolume * portable::pow(areaOf(mesh), 1.5);
+}
+
+/// Volume and area of a wrapped mesh before and after; the volume is that with filled holes.
+/// @param unit a length of 1 [m]
+std::string beforeAndAfter(const TriangleMesh& before, const WrapInput& filled,
+                           const TriangleMesh& after, double unit) {
+  const double square = unit * unit, cube = square * unit;
+  std::ostringstream text;
+  text.precision(4);
+  text << "wrapped with a size of " << unit * filled.size << " m: volume ";
+  if (isClosed(computeMeshEdges(filled.mesh))) {
+    text << cube * std::abs(tetrahedraVolumeOf(filled.mesh)) << " m^3";
+  } else {
+    text << "none (the triangles enclose none)";
+  }
+  text << " before and " << cube * tetrahedraVolumeOf(after) << " m^3 after, area "
+       << square * areaOf(before) << " m^2 before and " << square * areaOf(after) << " m^2 after";
+  return text.str();
+}
+
 }  // namespace
 
 double gridNodesAround(const TriangleMesh& mesh, double size) {
@@ -198,34 +241,36 @@ TriangleMesh wrapped(const TriangleMesh& mesh, double size, const CoarseningSett
   return fine.triangleCount() > 0 ? coarsened(fine, settings) : fine;
 }
 
-bool canBeWrapped(const TriangleMesh& mesh) {
-  return mesh.triangleCount() > 0 && mesh.vertices.allFinite() &&
-         withoutNeedles(mesh).triangleCount() > 0;
-}
-
 CheckedMesh wrapSurface(const TriangleMesh& mesh, double size, const std::string& name) {
-  constexpr int kLeastFaces = 800, kMostFaces = 4000;
-  constexpr double kTolerance = 0.1;
   const WrapInput input = usableInput(mesh, size, name);
-  requireNodes(input.mesh, input.size, name);
-  const TriangleMesh fine = fullWrap(input.mesh, input.size);
-  if (fine.triangleCount() == 0)
-    raiseInputError(name, "cannot be wrapped with a size of ", input.size, " m: nothing is left");
-  requireInside(input, fine, name);
-  requireWithinHull(input, fine, name);
-  const TriangleMesh coarse = coarsened(fine, {kLeastFaces, kMostFaces, kTolerance * input.size});
-  CheckedMesh result;
-  try {
-    result = checkMesh(coarse, name);
-  } catch (const std::runtime_error&) {
-    result = checkMesh(fine, name);  // parts of the coarser one have come to touch
-  }
+  CheckedMesh result = wrapInput(input, name);
   std::vector<std::string> warnings{name + ": " + comparison(input.mesh, result.mesh, input.size)};
   if (input.holes > 0) {
     warnings.push_back(inputMessage(name, "holes filled before that: ", input.holes, ", of ",
                                     input.hole_area, " m^2 in all"));
   }
   result.warnings.insert(result.warnings.begin(), warnings.begin(), warnings.end());
+  return result;
+}
+
+CheckedMesh makeBodyMesh(const TriangleMesh& mesh, const std::string& name, bool strict,
+                         double unit) {
+  CheckedMesh checked = checkMesh(mesh, name);
+  if (checked.defects.empty()) return checked;
+  const std::string refusal = inputMessage(name, checked.defects.front().text);
+  if (!canBeWrapped(mesh)) throw std::runtime_error(refusal);
+  if (strict)
+    throw std::runtime_error(refusal + " (build --wrap makes a closed surface around it)");
+  if (enclosesNothing(checked.mesh)) throw std::runtime_error(refusal);
+  if (withHolesFilled(checked.mesh).is_sheet) {
+    throw std::runtime_error(refusal +
+                             " (a surface of zero thickness is a sheet: --sheet, in Python "
+                             "sheet=True; --wrap makes it thick)");
+  }
+  const WrapInput input = usableInput(checked.mesh, 0, name);
+  CheckedMesh result = wrapWhatIsBroken(input, name, refusal);
+  result.warnings.insert(result.warnings.begin(),
+                         refusal + "; " + beforeAndAfter(checked.mesh, input, result.mesh, unit));
   return result;
 }
 

@@ -26,15 +26,24 @@ constexpr double kDefaultWrapSize = 0.01;
 /// their convex hull, unless that is thinner than the default size.
 CheckedMesh wrapSurface(const TriangleMesh& mesh, double size, const std::string& name);
 
+/// Makes the closed surface of a body from any mesh: the result of checkMesh(); a mesh with
+/// defects is wrapped at the default size instead, with one warning that names the defect and gives
+/// volume and area before and after. Every way from a mesh to a body leads through here.
+/// @param strict true: nothing is wrapped
+/// @param unit a length of 1 in metres, for the numbers of that warning
+/// @throws std::runtime_error in one line that begins with `name`, with the first defect: of any
+/// mesh that has one, if `strict`; else of one without triangles or with values out of
+/// range, of a sheet (a closed surface without volume, or an open one with a loop of open edges
+/// that would take more than kSheet of its area), and of what wrapSurface() refuses.
+CheckedMesh makeBodyMesh(const TriangleMesh& mesh, const std::string& name, bool strict,
+                         double unit = 1);
+
 /// Number of nodes of the grid that wrapSurface() uses for a mesh and a size [m].
 double gridNodesAround(const TriangleMesh& mesh, double size);
 
 /// Makes the surface of wrapSurface(), coarsened by `settings` and not checked.
 /// @pre triangles have an area, and the grid some 1e8 nodes at most.
 TriangleMesh wrapped(const TriangleMesh& mesh, double size, const CoarseningSettings& settings);
-
-/// True if wrapSurface() accepts a mesh: coordinates are finite, triangles have areas.
-bool canBeWrapped(const TriangleMesh& mesh);
 
 /// Remeshes the body of a closed mesh with about `triangles` triangles, nearly as long as wide,
 /// whatever the triangles of the mesh are; keeps sharp edges and volume. Polygons of many short

@@ -197,7 +197,10 @@ class FluidBodyTest(Temporary):
     def test_errors_are_of_the_right_kind_and_one_line(self):
         vertices, faces = box([1, 1, 1])
         with self.assertRaisesRegex(ValueError, "^brick: not watertight: 3 boundary edges"):
-            ba.FluidBody.from_mesh(vertices, faces[1:], name="brick")
+            ba.FluidBody.from_mesh(vertices, faces[1:], name="brick", strict=True)
+        with self.assertWarnsRegex(UserWarning, "^brick: not watertight: 3 boundary edges.*; wrapped with a size of"):
+            wrapped = ba.FluidBody.from_mesh(vertices, faces[1:], name="brick", panels=0)
+        self.assertAlmostEqual(wrapped.volume, 1, delta=0.01)
         with self.assertRaisesRegex(ValueError, r"faces must be of shape \(F, 3\), not \(36,\)"):
             ba.FluidBody.from_mesh(vertices, faces.ravel())
         with self.assertRaisesRegex(TypeError, "faces must be integers, not float64"):

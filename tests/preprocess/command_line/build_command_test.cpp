@@ -168,6 +168,7 @@ TEST_F(CommandLine, SheetsAreBuiltFromOpenMeshes) {
   EXPECT_EQ(sheet["faces"], 288);
   EXPECT_GT(sheet["added_mass"][5][5].get<double>(), 0.4);
   EXPECT_NE(buildRefusal(mesh).find("not watertight: 48 boundary edges"), std::string::npos);
+  EXPECT_NE(buildRefusal(mesh).find("--sheet"), std::string::npos);
 }
 
 TEST_F(CommandLine, InsideOutMeshesAreTurnedWithAWarning) {

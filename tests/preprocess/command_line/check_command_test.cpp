@@ -22,7 +22,8 @@ TEST_F(CommandLine, CheckFindsAllDefectsAndWhatMendsThem) {
   TriangleMesh mesh = joined(openBox(), openBox());
   mesh = joined(mesh, moved(box(), {0.4, 0.55, 0.7}));
   const std::string input = write("open.obj", objText(mesh));
-  const ProgramResult result = run({"check", input, "--json", "--obj", path("bad.obj")});
+  const ProgramResult result =
+      run({"check", input, "--strict", "--json", "--obj", path("bad.obj")});
   EXPECT_EQ(result.exit_code, 1);
   const json found = json::parse(result.output);
   EXPECT_EQ(found["usable"], false);
@@ -39,10 +40,28 @@ TEST_F(CommandLine, CheckFindsAllDefectsAndWhatMendsThem) {
   EXPECT_NE(obj.find("\nf 1 2 3\n"), std::string::npos);
 }
 
+TEST_F(CommandLine, CheckSaysWhatBuildWouldDo) {
+  const std::string open = write("open.obj", objText(openBox()));
+  const ProgramResult wrapped = run({"check", open});
+  EXPECT_EQ(wrapped.exit_code, 0) << wrapped.errors;
+  EXPECT_EQ(wrapped.output.find("defect           not watertight: 4 boundary edges"), 0u);
+  EXPECT_NE(wrapped.output.find("\nwrapped          usable: 800 faces, "), std::string::npos)
+      << wrapped.output;
+  EXPECT_EQ(wrapped.errors.find("warning: " + open + ": not watertight: "), 0u) << wrapped.errors;
+  EXPECT_EQ(resultOf({"check", write("box.obj", objText(box())), "--json"})["wrapped"], false);
+  const std::string sheet = write("sheet.obj", objText(makeRectangularSheetMesh(1, 1, 50)));
+  const ProgramResult refused = run({"check", sheet});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_NE(refused.output.find("\nwith --sheet     usable: "), std::string::npos)
+      << refused.output;
+  EXPECT_EQ(buildUsageRefusal(open, {"--wrap", "--strict"}), "--wrap: excludes --strict");
+}
+
 TEST_F(CommandLine, RefusalsMentionWrapWhichMendsThem) {
   const std::string input = write("open.obj", objText(openBox()));
-  EXPECT_NE(buildRefusal(input).find("(build --wrap makes a closed surface around it)"),
-            std::string::npos);
+  EXPECT_NE(
+      buildRefusal(input, {"--strict"}).find("(build --wrap makes a closed surface around it)"),
+      std::string::npos);
   const ProgramResult wrapped =
       run({"build", input, "-o", path("w.ambient"), "--wrap", "0.1", "--panels", "0", "--json"});
   EXPECT_EQ(wrapped.exit_code, 0) << wrapped.errors;

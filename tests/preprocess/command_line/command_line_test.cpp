@@ -69,7 +69,7 @@ TEST_F(CommandLine, CheckEstimatesTheErrorOfAMesh) {
   EXPECT_EQ(table.exit_code, 0);
   EXPECT_NE(table.output.find("\nestimated error  "), std::string::npos) << table.output;
   const std::string open = write("open.obj", objText(withoutTriangle(unitTetrahedron(), 0)));
-  const ProgramResult refused = run({"check", open, "--estimate"});
+  const ProgramResult refused = run({"check", open, "--estimate", "--strict"});
   EXPECT_EQ(refused.exit_code, 1);
   EXPECT_EQ(refused.output.find("estimated error"), std::string::npos) << refused.output;
   EXPECT_EQ(usageRefusal({"check", mesh, "--estimate", "--panels", "-1"}),
@@ -110,7 +110,7 @@ TEST_F(CommandLine, BuildReplacesTheOutputAtOnceOrNotAtAll) {
   const std::string input = write("ball.json", sphereText());
   write("out.ambient", "something older");
   const std::string open = write("open.obj", objText(withoutTriangle(unitTetrahedron(), 0)));
-  EXPECT_NE(buildRefusal(open), "");
+  EXPECT_NE(buildRefusal(open, {"--strict"}), "");
   EXPECT_EQ(bytesOfFile("out.ambient"), "something older");
   resultOf({"build", input, "-o", path("out.ambient"), "--json"});
   EXPECT_EQ(readFluidBody(path("out.ambient")).name, "ball");

@@ -1,5 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <utility>
+#include <vector>
+
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "preprocess/mesh/shapes/primitives.h"
 #include "tests/preprocess/command_line/command_line.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
@@ -14,12 +18,48 @@ TEST_F(CommandLine, BadMeshesAreRefusedInOneLineThatNamesTheFile) {
   const std::string missing = path("no such.obj");
   EXPECT_EQ(buildRefusal(missing), missing + ": no such file");
   const std::string open = write("open.obj", objText(withoutTriangle(tetrahedron, 3)));
-  EXPECT_EQ(buildRefusal(open).find(open + ": not watertight: 3 boundary edges, for example from "
-                                           "vertex "),
+  EXPECT_EQ(buildRefusal(open, {"--strict"})
+                .find(open + ": not watertight: 3 boundary edges, for example from vertex "),
             0u);
   const std::string closed = write("closed.obj", objText(tetrahedron));
   EXPECT_NE(buildRefusal(closed, {"--sheet"}).find("is closed: a sheet needs a boundary"),
             std::string::npos);
+}
+
+TEST_F(CommandLine, MeshesOfNothingAreRefusedStrictOrNot) {
+  const TriangleMesh sheet = makeRectangularSheetMesh(1, 1, 50);
+  std::string nan = objText(unitTetrahedron());
+  nan.replace(nan.find("v 1 0 0"), 7, "v 1 nan 0");
+  for (const std::string& file : {write("empty.obj", ""), write("points.obj", "v 0 0 0\nv 1 0 0\n"),
+                                  write("nan.obj", nan), write("sheet.obj", objText(sheet))}) {
+    EXPECT_EQ(buildRefusal(file).find(file + ": "), 0u);
+    EXPECT_EQ(buildRefusal(file, {"--strict"}).find(file + ": "), 0u);
+  }
+}
+
+TEST_F(CommandLine, BrokenMeshesAreBuiltWithOneLineUnlessStrict) {
+  const TriangleMesh box = makeBoxMesh({1, 1, 1}, 12);
+  TriangleMesh open = box;
+  for (Eigen::Index t = open.triangleCount() - 1; t >= 0; --t)
+    if (open.barycentre(t).z() > 1 - 1e-9) open = withoutTriangle(open, t);
+  const TriangleMesh holed = withoutTriangle(box, 5);
+  const std::vector<std::pair<TriangleMesh, double>> cases{
+      {open, 8}, {holed, 8}, {joined(moved(box, {1.3, 0.4, 0.3}), holed), 16 - 0.7 * 1.6 * 1.7}};
+  for (const auto& [mesh, volume] : cases) {
+    const std::string input = write("mesh.obj", objText(mesh));
+    const std::string strictly = buildRefusal(input, {"--strict"});
+    EXPECT_EQ(strictly.find(input + ": not watertight: "), 0u) << strictly;
+    const ProgramResult built =
+        run({"build", input, "-o", path("out.ambient"), "--panels", "0", "--json"});
+    EXPECT_EQ(built.exit_code, 0) << built.errors;
+    EXPECT_EQ(std::count(built.errors.begin(), built.errors.end(), '\n'), 1) << built.errors;
+    EXPECT_EQ(built.errors.find("warning: " + input + ": not watertight: "), 0u) << built.errors;
+    EXPECT_NEAR(json::parse(built.output)["volume"].get<double>(), volume, 0.02 * volume);
+    EXPECT_EQ(readFluidBody(path("out.ambient")).name, "mesh");
+    EXPECT_NE(refusal({"build", input, "-o", path("out.ambient"), "--strict"}), "")
+        << "the file of a laxer build is no answer";
+    std::filesystem::remove(path("out.ambient"));
+  }
 }
 
 TEST_F(CommandLine, BadShapesAreRefusedInOneLineThatNamesTheFile) {

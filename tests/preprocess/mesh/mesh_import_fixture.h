@@ -32,7 +32,9 @@ class MeshImport : public ::testing::Test {
 };
 
 inline MeshProperties propertiesOf(const std::filesystem::path& file, double scale = 1) {
-  return computeMassProperties(checkMesh(importMesh(file, scale).mesh, file.string()).mesh);
+  const std::string name = file.string();
+  return computeMassProperties(
+      requireSound(checkMesh(importMesh(file, scale).mesh, name), name).mesh);
 }
 
 }  // namespace ambient

@@ -19,6 +19,7 @@ TEST(MeshMending, OneCopyIsKeptWhereEveryTriangleStandsTwice) {
     doubled.triangles.resize(3, 2 * mesh.triangleCount());
     doubled.triangles << copy.triangles, mesh.triangles;
     const CheckedMesh checked = checkMesh(doubled, "thing.obj");
+    ASSERT_TRUE(checked.defects.empty());
     EXPECT_EQ(checked.mesh.triangleCount(), mesh.triangleCount());
     EXPECT_NEAR(computeMassProperties(checked.mesh).volume, 48, 1e-12);
     EXPECT_EQ(checked.warnings.at(0),
@@ -27,6 +28,7 @@ TEST(MeshMending, OneCopyIsKeptWhereEveryTriangleStandsTwice) {
   const TriangleMesh sheet = makeRectangularSheetMesh(1, 1, 100);
   const CheckedMesh checked =
       checkMesh(weldVertices(joined(sheet, insideOut(sheet)), 0), "sheet.obj", {true});
+  EXPECT_TRUE(checked.defects.empty());
   EXPECT_EQ(checked.mesh.vertices, sheet.vertices);
   EXPECT_EQ(checked.mesh.triangles, sheet.triangles);
 }
@@ -67,6 +69,7 @@ TEST(MeshMending, FlatTrianglesAreJoinedToTheirNeighbours) {
     for (const bool is_nested : {false, true}) {
       const TriangleMesh mesh = cubeWithFlatTriangles(points, is_nested);
       const CheckedMesh checked = checkMesh(mesh, "thing.obj");
+      ASSERT_TRUE(checked.defects.empty());
       EXPECT_EQ(checked.mesh.triangleCount(), 12 + 2 * points);
       const MeshProperties properties = computeMassProperties(checked.mesh);
       EXPECT_NEAR(properties.volume, 8, 1e-14);

@@ -29,7 +29,7 @@ def mesh_files(folder, most):
 def check(program, file, seconds):
     """The JSON of check, or the line in which the file was refused."""
     try:
-        run = subprocess.run([program, "check", "--json", str(file)], capture_output=True, text=True, timeout=seconds,
+        run = subprocess.run([program, "check", "--strict", "--json", str(file)], capture_output=True, text=True, timeout=seconds,
                              errors="replace")
     except subprocess.TimeoutExpired:
         return f"took more than {seconds} s"

@@ -21,7 +21,7 @@ ShapeDescription compoundOf(const std::string& parts) {
 MassDistribution massOf(const std::string& parts, double* volume = nullptr) {
   const CheckedMesh checked = makeShapeMesh(compoundOf(parts));
   EXPECT_TRUE(checked.warnings.empty());
-  EXPECT_TRUE(checkMesh(checked.mesh, "again").warnings.empty());
+  EXPECT_TRUE(requireSound(checkMesh(checked.mesh, "again"), "again").warnings.empty());
   const MeshProperties properties = computeMassProperties(checked.mesh);
   if (volume != nullptr) *volume = properties.volume;
   return properties.uniform;

@@ -46,7 +46,7 @@ TEST(Shape, SolidsHaveTheVolumeOfTheSmoothBody) {
     EXPECT_LE(mesh.triangleCount(), ShapeDescription::kDefaultFaces) << text;
     EXPECT_GT(mesh.triangleCount(), 900) << text;
     EXPECT_NEAR(computeMassProperties(mesh).volume / volume, 1, 1e-13) << text;
-    EXPECT_TRUE(checkMesh(mesh, text).warnings.empty());
+    EXPECT_TRUE(requireSound(checkMesh(mesh, text), text).warnings.empty());
   }
 }
 
@@ -59,7 +59,7 @@ TEST(Shape, SheetsHaveTheAreaOfTheSmoothSurface) {
     EXPECT_TRUE(isSheet(shape)) << text;
     const TriangleMesh mesh = makeShapeMesh(shape).mesh;
     EXPECT_NEAR(computeSheetMassProperties(mesh).area / area, 1, 1e-13) << text;
-    EXPECT_TRUE(checkMesh(mesh, text, {true}).warnings.empty());
+    EXPECT_TRUE(requireSound(checkMesh(mesh, text, {true}), text).warnings.empty());
   }
 }
 
@@ -93,6 +93,20 @@ TEST(Shape, OpenMeshesAreSheetsOnlyIfCalledSo) {
   EXPECT_EQ(messageOf([&] { read("sheet"); }), "no error");
   const std::string message = messageOf([&] { read("mesh"); });
   EXPECT_EQ(message.find(file.string() + ": not watertight: "), 0u) << message;
+  EXPECT_NE(message.find("--sheet"), std::string::npos) << message;
+}
+
+TEST(Shape, BrokenMeshesAreWrappedUnlessStrict) {
+  const TemporaryFolder folder;
+  writeText(folder / "t.obj", objText(withoutTriangle(unitTetrahedron(), 0)));
+  const auto read = [&](const nlohmann::json& strict) {
+    return makeShapeMesh(readShape({{"type", "mesh"}, {"file", "t.obj"}, {"strict", strict}},
+                                   folder.path(), "x.json"));
+  };
+  EXPECT_NEAR(6 * computeMassProperties(read(false).mesh).volume, 1, 0.03);
+  EXPECT_EQ(read(false).warnings.size(), 1u);
+  const std::string message = messageOf([&] { read(true); });
+  EXPECT_EQ(message.find((folder / "t.obj").string() + ": not watertight: "), 0u) << message;
 }
 
 TEST(Shape, WhatCannotBeIsRefused) { expectRefusals(AMBIENT_SHAPE_REFUSALS, "shapes", refusal); }

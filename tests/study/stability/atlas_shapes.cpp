@@ -56,7 +56,7 @@ AtlasShape makeShape(const std::string& name, const TriangleMesh& mesh, bool she
   settings.flow.max_panels = kPanels;
   AtlasShape shape;
   shape.name = name;
-  const TriangleMesh checked = checkMesh(mesh, name, check).mesh;
+  const TriangleMesh checked = requireSound(checkMesh(mesh, name, check), name).mesh;
   auto body = std::make_shared<FluidBody>(makeFluidBody(checked, settings));
   shape.solid_volume = sheet ? 0.01 * body->area / 2 : body->volume;
   shape.half_size =

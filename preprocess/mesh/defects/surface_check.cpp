@@ -1,4 +1,4 @@
-#include "preprocess/mesh/defects/closed_mesh.h"
+#include "preprocess/mesh/defects/surface_check.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,27 +14,19 @@
 #include "preprocess/mesh/defects/surface_crossing.h"
 #include "preprocess/mesh/defects/topology_defects.h"
 #include "preprocess/mesh/defects/winding_number.h"
+#include "preprocess/mesh/geometry.h"
 #include "preprocess/mesh/graded_grid.h"
 #include "preprocess/mesh/mend/mesh_mending.h"
 #include "preprocess/mesh/mesh_defect.h"
 #include "preprocess/mesh/mesh_topology.h"
+#include "preprocess/mesh/usual_size.h"
 
 namespace ambient {
 namespace {
 
-/// Result of orientShells(): the mesh with normals out of the body, if there are no defects.
-struct OrientedShells {
-  CheckedMesh checked;
-  std::vector<MeshDefect> defects;
-};
-
 using Defects = std::vector<MeshDefect>;
 
 constexpr double kFullSphere = 4 * kPi;
-
-// Volume over area^1.5 below which a surface encloses nothing; a square plate reaches it at a
-// thickness of 3e-6 of its side, where single-precision coordinates end. A sphere has 0.094.
-constexpr double kLeastVolume = 1e-6;
 
 /// One closed surface among those that make up a mesh.
 struct Shell {
@@ -46,15 +38,11 @@ struct Shell {
 };
 
 void measure(const TriangleMesh& mesh, Shell& shell) {
-  for (const int t : shell.triangles) {
-    for (int k = 0; k < 3; ++k) shell.bounds.extend(mesh.corner(t, k));
-  }
+  for (const int t : shell.triangles) shell.bounds.extend(boundsOf(mesh, t));
   const Eigen::Vector3d middle = shell.bounds.center();
   for (const int t : shell.triangles) {
-    const Eigen::Vector3d a = mesh.corner(t, 0) - middle, b = mesh.corner(t, 1) - middle,
-                          c = mesh.corner(t, 2) - middle;
-    shell.volume += a.dot(b.cross(c)) / 6;
-    shell.area += (b - a).cross(c - a).norm() / 2;
+    shell.volume += tetrahedronVolume(mesh, t, middle);
+    shell.area += areaOf(mesh, t);
   }
 }
 
@@ -141,7 +129,7 @@ std::vector<int> evenSample(const TriangleMesh& mesh, int count) {
   std::vector<double> area_up_to;
   double area = 0;
   for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) {
-    area += mesh.twiceArea(t).norm() / 2;
+    area += areaOf(mesh, t);
     area_up_to.push_back(area);
   }
   std::vector<int> sample;
@@ -236,10 +224,6 @@ Defects findOverlaps(const TriangleMesh& mesh, const SurfaceCrossings& crossings
            {first, second}}};
 }
 
-void append(Defects& defects, const Defects& more) {
-  defects.insert(defects.end(), more.begin(), more.end());
-}
-
 /// Turns whole components round so that normals point out of the body, and takes those inside
 /// another one out of the mesh, as cavities: they must point inwards, as they do in a consistent
 /// mesh. Defects: a component that encloses no volume, lies inside another one with the wrong
@@ -247,33 +231,32 @@ void append(Defects& defects, const Defects& more) {
 /// places evenly over its area, that encloses the body otherwise than once. Warns of a component
 /// that crosses itself elsewhere. Cost O(T log T) and 256 T solid angles.
 /// @pre closed, manifold, consistently oriented.
-OrientedShells orientShells(const TriangleMesh& mesh, const MeshEdges& edges,
-                            const std::string& name) {
+CheckedMesh orientShells(const TriangleMesh& mesh, const MeshEdges& edges,
+                         const std::string& name) {
   AMBIENT_ASSERT(isClosed(computeMeshEdges(mesh)));
-  OrientedShells result{{mesh, {}}, {}};
-  std::vector<std::string>& warnings = result.checked.warnings;
+  CheckedMesh result{mesh, {}};
   const MeshComponents components = computeMeshComponents(mesh, edges);
   const std::vector<Shell> shells = findShells(mesh, components);
-  append(result.defects, findFlatShells(mesh, shells));
+  result.addDefects(findFlatShells(mesh, shells));
   const SurfaceCrossings crossings = findSurfaceCrossings(mesh, components.component_of);
-  append(result.defects, findOverlaps(mesh, crossings));
-  append(result.defects, findNestedShells(mesh, shells));
+  result.addDefects(findOverlaps(mesh, crossings));
+  result.addDefects(findNestedShells(mesh, shells));
   if (crossings.within_part) {
-    warnings.push_back(name + ": the surface crosses itself at " +
-                       placeOf(mesh, crossings.within_part->first) + " and " +
-                       placeOf(mesh, crossings.within_part->second) +
-                       ": the volume and the flow are wrong there");
+    result.warnings.push_back(name + ": the surface crosses itself at " +
+                              placeOf(mesh, crossings.within_part->first) + " and " +
+                              placeOf(mesh, crossings.within_part->second) +
+                              ": the volume and the flow are wrong there");
   }
   if (!result.defects.empty()) return result;
-  const std::size_t turned = turnShells(result.checked.mesh, shells);
+  const std::size_t turned = turnShells(result.mesh, shells);
   if (turned > 0) {
     std::ostringstream warning;
     warning << name << ": inside out, " << turned << " of " << mesh.triangleCount()
             << " triangles were turned round to point into the fluid";
-    warnings.push_back(warning.str());
+    result.warnings.push_back(warning.str());
   }
-  result.defects = findContradictions(result.checked.mesh);
-  takeOutCavities(result.checked, shells, name);
+  result.addDefects(findContradictions(result.mesh));
+  takeOutCavities(result, shells, name);
   return result;
 }
 
@@ -300,34 +283,26 @@ CheckedMesh withoutUnusedVertices(const TriangleMesh& mesh, const std::string& n
 
 }  // namespace
 
-CheckedMesh mendTriangles(const TriangleMesh& mesh, const std::string& name) {
-  requireNone(findValueDefects(mesh), name);
-  CheckedMesh result = withoutCopies(mesh, name);
-  result.takeStep(withoutFolds(result.mesh, name));
-  result.takeStep(withoutFlatTriangles(result.mesh, name));
-  requireNone(findFlatTriangles(result.mesh), name);
-  result.takeStep(withoutUnusedVertices(result.mesh, name));
-  result.takeStep(withoutTJunctions(result.mesh, name));
-  return result;
-}
-
-BodyVerdict judgeBody(const CheckedMesh& mended, const std::string& name) {
-  BodyVerdict verdict{mended, findDoubleTriangles(mended.mesh)};
+CheckedMesh checkSurface(const TriangleMesh& mesh, const std::string& name, bool sheet) {
+  CheckedMesh mended{mesh, {}, {}, findValueDefects(mesh)};
+  if (!mended.defects.empty()) return mended;
+  mended.takeStep(withoutCopies(mended.mesh, name));
+  mended.takeStep(withoutFolds(mended.mesh, name));
+  mended.takeStep(withoutFlatTriangles(mended.mesh, name));
+  mended.addDefects(findFlatTriangles(mended.mesh));
+  mended.takeStep(withoutUnusedVertices(mended.mesh, name));
+  if (mended.defects.empty()) mended.takeStep(withoutTJunctions(mended.mesh, name));
   const MeshEdges edges = computeMeshEdges(mended.mesh);
-  for (const MeshDefect& defect : findTopologyDefects(mended.mesh, edges, false))
-    verdict.defects.push_back(defect);
-  if (!verdict.defects.empty()) return verdict;
-  verdict.checked.takeStep(orientConsistently(mended.mesh, edges, name));
-  OrientedShells shells = orientShells(verdict.checked.mesh, edges, name);
-  verdict.checked.takeStep(std::move(shells.checked));
-  verdict.defects = std::move(shells.defects);
-  return verdict;
-}
-
-CheckedMesh checkClosedMesh(const TriangleMesh& mesh, const std::string& name) {
-  BodyVerdict verdict = judgeBody(mendTriangles(mesh, name), name);
-  requireNone(verdict.defects, name);
-  return std::move(verdict.checked);
+  mended.addDefects(findDoubleTriangles(mended.mesh));
+  mended.addDefects(findTopologyDefects(mended.mesh, edges, sheet));
+  if (!mended.defects.empty()) return mended;
+  CheckedMesh oriented = mended;
+  oriented.takeStep(orientConsistently(mended.mesh, edges, name));
+  if (!sheet && oriented.defects.empty())
+    oriented.takeStep(orientShells(oriented.mesh, edges, name));
+  if (oriented.defects.empty()) return oriented;
+  mended.defects = std::move(oriented.defects);
+  return mended;
 }
 
 }  // namespace ambient
