@@ -2,6 +2,14 @@
 
 #include <pybind11/pybind11.h>
 
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "bullet_ambient/fluid_body/fluid_body.h"
+#include "demos/scene/scene.h"
+#include "demos/scene/scene_override.h"
+
 namespace ambient {
 
 // Each function binds a part of the module. Call in this order: signatures need earlier types.
@@ -13,5 +21,16 @@ void bindMotion(pybind11::module_& module);
 void bindRobot(pybind11::module_& module);
 void bindWorld(pybind11::module_& module);
 void bindSweep(pybind11::module_& module);
+
+/// Converts a dict such as {"bodies.0.mass": 0.1} to overrides.
+std::vector<SceneOverride> overridesFrom(const pybind11::dict& changes);
+
+// Bind parts of the Python class FluidBody, one source each.
+
+/// Binds from_mesh(), from_shape(), read(), write() and scaled().
+void bindMakers(pybind11::class_<FluidBody, std::shared_ptr<FluidBody>>& type);
+
+/// Binds export().
+void bindExport(pybind11::class_<FluidBody, std::shared_ptr<FluidBody>>& type);
 
 }  // namespace ambient

@@ -8,7 +8,6 @@
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "demos/python/arrays.h"
 #include "demos/python/bindings.h"
-#include "demos/python/fluid_body_bindings.h"
 #include "preprocess/base/fluid_body_writer.h"
 #include "preprocess/polar/polar.h"
 

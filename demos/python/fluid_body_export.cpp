@@ -1,7 +1,7 @@
 #include <pybind11/stl.h>
 
 #include "demos/python/arrays.h"
-#include "demos/python/fluid_body_bindings.h"
+#include "demos/python/bindings.h"
 #include "preprocess/hand_over/export_fluid_body.h"
 #include "preprocess/polar/polar.h"
 

@@ -1,5 +1,3 @@
-#include "demos/python/robot.h"
-
 #include <pybind11/stl.h>
 
 #include <limits>
@@ -9,6 +7,7 @@
 
 #include "demos/python/arrays.h"
 #include "demos/python/bindings.h"
+#include "demos/python/python_world.h"
 
 namespace ambient {
 namespace {

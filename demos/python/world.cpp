@@ -6,7 +6,6 @@
 #include "demos/python/bindings.h"
 #include "demos/python/motion.h"
 #include "demos/python/python_world.h"
-#include "demos/python/robot.h"
 #include "demos/scene/scene_reader.h"
 #include "demos/simulation/output/motion_recorder.h"
 #include "demos/simulation/scene_run.h"

@@ -64,8 +64,6 @@ SceneOverride parseOverride(const std::string& text) {
 void applyOverride(json& scene, const SceneOverride& change, const std::string& file) {
   const std::vector<std::string> path = splitPath(change.path);
   const std::string option = "--set " + change.path + "=" + change.value + ": ";
-  if (const std::string unknown = sceneSchema().unknownKey(path); !unknown.empty())
-    raiseInputError(file, option, unknown);
   json* place = &scene;
   try {
     std::vector<std::string> walked;

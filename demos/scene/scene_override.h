@@ -15,9 +15,10 @@ struct SceneOverride {
 /// @throws std::invalid_argument if there is no "=" or the path is empty.
 SceneOverride parseOverride(const std::string& text);
 
-/// Puts the value into the scene. Creates missing objects along a path that the schema knows.
-/// @throws std::runtime_error if the schema does not know the path or the scene has no such array
-/// element; messages name `file`.
+/// Puts the value into the scene. Creates missing objects along the path; a key that the schema
+/// does not know is refused when the scene is checked.
+/// @throws std::runtime_error if the scene has no such array element, or something else than an
+/// object on the way; messages name `file`.
 void applyOverride(nlohmann::json& scene, const SceneOverride& change, const std::string& file);
 
 }  // namespace ambient

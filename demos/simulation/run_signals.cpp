@@ -12,26 +12,26 @@ namespace ambient {
 namespace {
 
 // Written before the handlers are installed, then only read by the handler.
-std::vector<std::string> files, folders;
-std::atomic<bool> is_interrupted{false};
+std::vector<std::string> to_remove;
+std::atomic<bool> is_heard{false}, is_interrupted{false};
 
 // Signal handler: calls only async-signal-safe functions of POSIX.
 void handle(int signal) {
-  if (!is_interrupted.exchange(true)) return;
-  for (const std::string& file : files) ::unlink(file.c_str());
-  for (auto folder = folders.rbegin(); folder != folders.rend(); ++folder) ::rmdir(folder->c_str());
+  if (is_heard && !is_interrupted.exchange(true)) return;
+  for (auto at = to_remove.rbegin(); at != to_remove.rend(); ++at) ::rmdir(at->c_str());
   std::signal(signal, SIG_DFL);
   std::raise(signal);
 }
 
 }  // namespace
 
-void hearSignals(const Unfinished& unfinished) {
-  AMBIENT_ASSERT(files.empty() && folders.empty());
-  for (const std::filesystem::path& file : unfinished.files) files.push_back(file.string());
-  for (const std::filesystem::path& folder : unfinished.folders) folders.push_back(folder.string());
+void endOnSignals(const std::vector<std::filesystem::path>& folders) {
+  AMBIENT_ASSERT(to_remove.empty());
+  for (const std::filesystem::path& folder : folders) to_remove.push_back(folder.string());
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, handle);
 }
+
+void hearSignals() { is_heard = true; }
 
 bool wasInterrupted() noexcept { return is_interrupted; }
 

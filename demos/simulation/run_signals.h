@@ -5,14 +5,12 @@
 
 namespace ambient {
 
-/// Files and folders to remove if a run is aborted; outermost folder first.
-struct Unfinished {
-  std::vector<std::filesystem::path> files, folders;
-};
+/// Installs handlers for SIGINT, SIGTERM and SIGHUP that end the program, and before that remove
+/// these folders, outermost first, as far as they are empty. Call once.
+void endOnSignals(const std::vector<std::filesystem::path>& folders);
 
-/// Installs handlers for SIGINT, SIGTERM and SIGHUP. The first signal sets wasInterrupted(); the
-/// second one removes the unfinished files and folders and ends the program. Call once.
-void hearSignals(const Unfinished& unfinished = {});
+/// From now on the first signal only sets wasInterrupted().
+void hearSignals();
 
 /// True after a signal: runs check it after each step and stop.
 bool wasInterrupted() noexcept;

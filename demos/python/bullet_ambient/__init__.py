@@ -25,7 +25,8 @@ from ._core import (
     scene_names,
     water,
 )
-from .sweeps import CaseCounts, Rollout, collect, rollout, run_cases, write_cases
+from .cases import CaseCounts, collect, run_cases, write_cases
+from .sweeps import Rollout, rollout
 
 __version__ = library_version.split()[1].rstrip(",")
 

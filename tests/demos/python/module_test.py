@@ -649,9 +649,12 @@ class CasesTest(Temporary):
         for i in (1, 0):
             counts = ba.run_cases(cases, self.folder / "python", shard=(i, 2))
         self.assertEqual(counts, (3, 0, {}))
-        subprocess.run([DEMO, "--cases", cases, "--out", self.folder / "demo", "--quiet"], check=True)
-        for file in (self.folder / "demo").glob("*/trajectory.csv"):
-            self.assertEqual((self.folder / "python" / file.relative_to(self.folder / "demo")).read_bytes(), file.read_bytes())
+        (self.folder / "cases.json").write_text(json.dumps(STILL))
+        for mass in masses:
+            subprocess.run([DEMO, self.folder / "cases.json", "--out", self.folder / "demo", "--quiet", "--set", f"bodies.0.mass={mass}"], check=True)
+            key = ba.Scene(STILL, {"bodies.0.mass": mass, "model": "ambient"}).key
+            for name in ("trajectory.csv", "geometry.json"):
+                self.assertEqual((self.folder / "python" / key / name).read_bytes(), (self.folder / "demo" / name).read_bytes())
         table = ba.collect(cases, self.folder / "python")
         np.testing.assert_array_equal(table["case"], range(5))
         np.testing.assert_array_equal(table["bodies.0.mass"], masses)

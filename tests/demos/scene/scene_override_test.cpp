@@ -48,15 +48,15 @@ TEST(SceneOverride, RejectsAPathThatTheSchemaDoesNotKnow) {
   // The keys are those that a wrong key in a file is told of.
   nlohmann::json wrong = ballScene();
   wrong["bodies"][0]["weight"] = 1;
-  EXPECT_EQ(complaintAbout(ballScene(), {{"bodies.0.weight", "1"}}),
-            "--set bodies.0.weight=1: " + complaintAbout(wrong, {}));
-  EXPECT_EQ(
-      complaintAbout(ballScene(), {{"bodies.ball.mass", "1"}}),
-      "--set bodies.ball.mass=1: unknown key \"ball\" in bodies, whose elements have numbers");
+  EXPECT_EQ(complaintAbout(ballScene(), {{"bodies.0.weight", "1"}}), complaintAbout(wrong, {}));
+  EXPECT_NE(complaintAbout(ballScene(), {{"medum.density", "1"}}).find("unknown key \"medum\""),
+            std::string::npos);
+  EXPECT_EQ(complaintAbout(ballScene(), {{"bodies.ball.mass", "1"}}),
+            "--set bodies.ball.mass=1: bodies has 1 elements, no element ball");
   EXPECT_EQ(complaintAbout(ballScene(), {{"bodies..mass", "1"}}),
-            "--set bodies..mass=1: unknown key \"\" in bodies, whose elements have numbers");
+            "--set bodies..mass=1: bodies has 1 elements, no element ");
   EXPECT_EQ(complaintAbout(ballScene(), {{"duration.long", "1"}}),
-            "--set duration.long=1: unknown key \"long\" in duration, which has no keys");
+            "--set duration.long=1: duration is 2 and has no part long");
 }
 
 TEST(SceneOverride, RejectsAnElementThatTheSceneDoesNotHave) {
