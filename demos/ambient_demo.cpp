@@ -1,5 +1,9 @@
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <atomic>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -15,12 +19,9 @@
 #include "demos/scene/scene_lookup.h"
 #include "demos/scene/scene_reader.h"
 #include "demos/simulation/body_preparation.h"
-#include "demos/simulation/output/geometry_text.h"
 #include "demos/simulation/output/output_folder.h"
-#include "demos/simulation/output/trajectory_text.h"
-#include "demos/simulation/run_signals.h"
+#include "demos/simulation/output/run_files.h"
 #include "demos/simulation/scene_run.h"
-#include "demos/simulation/summary.h"
 #include "preprocess/base/output_file.h"
 #include "preprocess/builder/blocked_signals.h"
 #include "preprocess/builder/elapsed_display.h"
@@ -106,6 +107,26 @@ void printScenes() {
   }
 }
 
+// Written before the handlers are installed, then only read by the handler: folders, outermost
+// first.
+std::vector<std::string> to_remove;
+std::atomic<bool> is_heard{false}, is_interrupted{false};
+
+/// Handles a signal: removes the folders as far as they are empty, and ends the program. While a
+/// run hears signals, the first one only sets is_interrupted. Calls async-signal-safe functions of
+/// POSIX.
+void handle(int signal) {
+  if (is_heard && !is_interrupted.exchange(true)) return;
+  for (auto at = to_remove.rbegin(); at != to_remove.rend(); ++at) ::rmdir(at->c_str());
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
+void endOnSignals(const std::vector<fs::path>& folders) {
+  for (const fs::path& folder : folders) to_remove.push_back(folder.string());
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, handle);
+}
+
 /// The folder of a run. @throws std::runtime_error in one line if files cannot be written to it
 struct RunFolder : OutputFolder {
   explicit RunFolder(const fs::path& out) : OutputFolder(out) {
@@ -125,7 +146,7 @@ RunRecord runShown(const Scene& scene, const std::vector<PreparedBody>& bodies,
   ElapsedDisplay display(scene.name + ": simulating", arguments.quiet);
   const auto show = [&display](double share) {
     display.update(share);
-    return !wasInterrupted();
+    return !is_interrupted;
   };
   return runScene(scene, bodies, show, arguments.log);
 }
@@ -164,7 +185,7 @@ void runAndWrite(const Arguments& arguments) {
   for (const std::string& warning : cache.warnings())
     if (!arguments.quiet) warn(warning);
 
-  hearSignals();
+  is_heard = true;
   const RunRecord record = runShown(scene, bodies, arguments);
   {
     const BlockedSignals until_all_have_their_names;

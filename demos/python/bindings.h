@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
+#include "bullet_ambient/force/law/flow_settings.h"
+#include "bullet_ambient/force/medium/medium.h"
 #include "demos/scene/scene.h"
-#include "demos/scene/scene_override.h"
+#include "demos/scene/scene_reader.h"
 
 namespace ambient {
 
@@ -21,6 +23,14 @@ void bindMotion(pybind11::module_& module);
 void bindRobot(pybind11::module_& module);
 void bindWorld(pybind11::module_& module);
 void bindSweep(pybind11::module_& module);
+
+/// Converts a Medium of Python. @throws TypeError if it is none, ValueError if no fluid has its
+/// numbers
+Medium mediumFrom(const pybind11::object& settings);
+/// Converts FlowSettings of Python; None: the usual ones. @throws TypeError, ValueError
+FlowSettings flowFrom(const pybind11::object& settings);
+/// Makes a Medium of Python.
+pybind11::object toPython(const Medium& medium);
 
 /// Converts a dict such as {"bodies.0.mass": 0.1} to overrides.
 std::vector<SceneOverride> overridesFrom(const pybind11::dict& changes);

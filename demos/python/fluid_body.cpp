@@ -35,9 +35,9 @@ py::array_t<double> loadsFor(const BodyLoads& body_loads, const InputArray& twis
   return wrenches;
 }
 
-py::array_t<double> loads(const FluidBodyPtr& body, const InputArray& twists, const Medium& medium,
-                          const FlowSettings& flow) {
-  return loadsFor(BodyLoads(body, medium, flow), twists);
+py::array_t<double> loads(const FluidBodyPtr& body, const InputArray& twists,
+                          const py::object& medium, const py::object& flow) {
+  return loadsFor(BodyLoads(body, mediumFrom(medium), flowFrom(flow)), twists);
 }
 
 struct PolarRow {
@@ -61,9 +61,10 @@ PolarQuestion polarQuestion(const FluidBody& body, const py::kwargs& given) {
                            known.cast<std::string>());
   }
   PolarQuestion question;
-  question.medium =
-      get("medium", py::cast(Medium{1, 0, Vector3::Zero(), Vector3::Zero()})).cast<Medium>();
-  question.flow = get("flow", py::cast(FlowSettings())).cast<FlowSettings>();
+  question.medium.density = 1;
+  if (const py::object medium = get("medium", py::none()); !medium.is_none())
+    question.medium = mediumFrom(medium);
+  question.flow = flowFrom(get("flow", py::none()));
   PolarFlight& flight = question.flight;
   const auto forward = axisNamed(get("forward", py::str("x")).cast<std::string>());
   const auto up = axisNamed(get("up", py::str("z")).cast<std::string>());
@@ -163,7 +164,7 @@ void bindProperties(py::class_<FluidBody, FluidBodyPtr>& type) {
 
 void bindLoads(py::class_<FluidBody, FluidBodyPtr>& type) {
   type.def(
-          "loads", &loads, py::arg("twists"), py::arg("medium"), py::arg("flow") = FlowSettings(),
+          "loads", &loads, py::arg("twists"), py::arg("medium"), py::arg("flow") = py::none(),
           R"(Computes pressure and friction of the fluid on the body, without added mass and buoyancy.
 
 Parameters
@@ -182,10 +183,10 @@ True
 )")
       .def(
           "loads_in",
-          [](const FluidBodyPtr& body, const Medium& medium, const FlowSettings& flow) {
-            return BodyLoads(body, medium, flow);
+          [](const FluidBodyPtr& body, const py::object& medium, const py::object& flow) {
+            return BodyLoads(body, mediumFrom(medium), flowFrom(flow));
           },
-          py::arg("medium"), py::arg("flow") = FlowSettings(),
+          py::arg("medium"), py::arg("flow") = py::none(),
           R"(Returns loads() as a function of the twists, for many calls in one medium.
 
 Cost: some nanoseconds per face by the published law, some microseconds by the law "form".)")

@@ -132,8 +132,9 @@ ValueError: ...sphere_fall.json: duration is -1; must be > 0
       .def_readonly("time_step", &Scene::time_step, "Fixed time step of the world [s].")
       .def_readonly("output_step", &Scene::output_step,
                     "Time between two samples of the output [s].")
-      .def_readonly("medium", &Scene::medium,
-                    "Medium of all bodies without a density of their own.")
+      .def_property_readonly(
+          "medium", [](const Scene& scene) { return toPython(scene.medium); },
+          "Medium of all bodies without a density of their own.")
       .def_property_readonly("bodies", &bodyNames, "Names of the bodies.")
       .def_property_readonly(
           "key", &keyOf, "Hash (16 digits) of everything that a run depends on, see run_cases().");

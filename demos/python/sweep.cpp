@@ -7,9 +7,7 @@
 #include "demos/python/arrays.h"
 #include "demos/python/bindings.h"
 #include "demos/python/motion.h"
-#include "demos/simulation/output/geometry_text.h"
-#include "demos/simulation/output/trajectory_text.h"
-#include "demos/simulation/summary.h"
+#include "demos/simulation/output/run_files.h"
 
 namespace ambient {
 namespace {

@@ -141,8 +141,8 @@ void bindForces(py::class_<PythonBody>& type) {
           "Not of a link.")
       .def(
           "set_medium",
-          [](const PythonBody& b, const Medium& medium) {
-            b.world->simulation().setMedium(b.index, medium);
+          [](const PythonBody& b, const py::object& medium) {
+            b.world->simulation().setMedium(b.index, mediumFrom(medium));
           },
           py::arg("medium"),
           "Changes the fluid around the body where it is in no water or region of the scene. The "

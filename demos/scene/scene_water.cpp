@@ -7,7 +7,7 @@
 #include <string>
 
 #include "bullet_ambient/force/medium/waves.h"
-#include "demos/scene/json_values.h"
+#include "demos/scene/scene_parts.h"
 
 namespace ambient {
 namespace {

@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "demos/simulation/output/digits.h"
 #include "demos/simulation/output/motion_recorder.h"
+#include "demos/simulation/output/run_files.h"
 
 namespace ambient {
 

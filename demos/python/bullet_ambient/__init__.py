@@ -12,10 +12,8 @@ _os.environ["PATH"] = _os.pathsep.join([_os.environ.get("PATH", _os.defpath), st
 
 from ._core import (
     Body,
-    FlowSettings,
     FluidBody,
     Loads,
-    Medium,
     Motion,
     Robot,
     Scene,
@@ -26,6 +24,7 @@ from ._core import (
     water,
 )
 from .cases import CaseCounts, collect, run_cases, write_cases
+from .settings import FlowSettings, Medium
 from .sweeps import Rollout, rollout
 
 __version__ = library_version.split()[1].rstrip(",")

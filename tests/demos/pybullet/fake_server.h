@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "demos/pybullet/silent_helper.h"
+#include "demos/pybullet/pybullet_interface.h"
 
 namespace ambient::pybullet::test {
 

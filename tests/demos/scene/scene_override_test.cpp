@@ -1,5 +1,3 @@
-#include "demos/scene/scene_override.h"
-
 #include <gtest/gtest.h>
 
 #include "demos/integrators/integrators.h"

@@ -6,7 +6,7 @@
 #include <map>
 #include <mutex>
 
-#include "demos/simulation/output/trajectory_text.h"
+#include "demos/simulation/output/run_files.h"
 #include "tests/demos/scene/scene_text.h"
 #include "tests/support/no_more_threads.h"
 

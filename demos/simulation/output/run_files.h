@@ -1,12 +1,22 @@
 #pragma once
 
+#include <cstdio>
 #include <string>
 #include <vector>
 
 #include "demos/analysis/motion_sample.h"
 #include "demos/scene/scene.h"
+#include "demos/simulation/body_preparation.h"
+#include "demos/simulation/scene_run.h"
 
 namespace ambient {
+
+/// Text of a number with 17 significant digits.
+inline std::string digits17(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  return text;
+}
 
 /// First line of trajectory.csv; it has one row per output time and body, in the scene's order.
 constexpr const char* kTrajectoryHeader = "time,body,px,py,pz,qw,qx,qy,qz,wx,wy,wz,vx,vy,vz";
@@ -20,5 +30,14 @@ std::string makeTrajectoryText(const Scene& scene,
                                const std::vector<std::vector<MotionSample>>& motion,
                                const std::string& further_names = "",
                                const std::vector<std::vector<std::string>>& further = {});
+
+/// Text of geometry.json: data for a viewer of trajectory.csv to draw the bodies and the slip on
+/// their faces. Lengths have the digits of a float.
+std::string makeGeometryText(const Scene& scene, const std::vector<PreparedBody>& bodies);
+
+/// Text of summary.json: numbers of the scene, computational work, and for each body its path and,
+/// if it is a plate, its falling mode.
+std::string makeSummary(const Scene& scene, const std::vector<PreparedBody>& bodies,
+                        const RunRecord& record);
 
 }  // namespace ambient
