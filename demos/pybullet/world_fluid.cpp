@@ -17,14 +17,15 @@
 #include "bullet_ambient/fluid_body.h"
 #include "bullet_ambient/spatial/rotation.h"
 #include "demos/pybullet/server_world.h"
+#include "demos/scene/scene_parts.h"
 #include "preprocess/polar/frontal_area.h"
 
 namespace ambient::pybullet {
 namespace {
 
-Matrix3 readRotation(Command& command) {
-  if (!command.has("rotation")) return Matrix3::Identity();
-  const std::vector<double> q = command.numbers("rotation", 4, 4);
+Matrix3 readRotation(const Command& command) {
+  if (!command.values.contains("rotation")) return Matrix3::Identity();
+  const auto q = command.values.at("rotation").get<std::vector<double>>();
   const Quaternion rotation(q[3], q[0], q[1], q[2]);
   if (!(rotation.norm() > 0)) command.fail("rotation is x,y,z,w of a quaternion, not all 0");
   return rotation.normalized().toRotationMatrix();
@@ -229,23 +230,18 @@ void WorldFluid::restore(std::size_t state) {
   fluid_.restore(states_[state]);
 }
 
-ChosenBody readChosenBody(Command& command, const FlowSettings& flow) {
+ChosenBody readChosenBody(const Command& command, const FlowSettings& flow) {
+  const nlohmann::json& values = command.values;
   ChosenBody chosen;
   chosen.flow = flow;
-  chosen.file = command.text("file", "");
-  chosen.fluid_frame = {readRotation(command), command.vector("origin", Vector3::Zero())};
+  chosen.file = values.value("file", "");
+  chosen.fluid_frame = {readRotation(command), vectorOr(values, "origin", Vector3::Zero())};
   if (chosen.file.empty() && !chosen.fluid_frame.isIdentity())
     command.fail("origin and rotation are those of a file");
-  chosen.density = command.number("density", 0);
-  if (command.has("density") && !(chosen.density > 0)) command.fail("density must be > 0");
-  chosen.drag = command.vector("drag", Vector3::Zero());
-  if (command.has("drag") &&
-      !(chosen.drag.minCoeff() > 0 && chosen.drag.maxCoeff() <= kLargestDrag))
-    command.fail("drag has three numbers > 0, at most 1e6");
-  chosen.medium = command.text("medium", "");
-  if (!chosen.medium.empty() && chosen.medium != "water" && chosen.medium != "air")
-    command.fail("medium is one of: water, air");
-  chosen.flow.law = command.choose("law", kPressureLawNames, flow.law);
+  chosen.density = values.value("density", 0.0);
+  chosen.drag = vectorOr(values, "drag", Vector3::Zero());
+  chosen.medium = values.value("medium", "");
+  chosen.flow.law = lawOr(values, flow.law);
   return chosen;
 }
 

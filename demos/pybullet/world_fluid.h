@@ -30,9 +30,9 @@ struct ChosenBody {
   FlowSettings flow;
 };
 
-/// Reads the keys file, origin, rotation, density, drag, medium and law. `flow`: settings of all
-/// bodies. @throws std::invalid_argument with one line
-ChosenBody readChosenBody(Command& command, const FlowSettings& flow);
+/// Reads a command `body`. `flow`: settings of all bodies.
+/// @throws std::invalid_argument with one line
+ChosenBody readChosenBody(const Command& command, const FlowSettings& flow);
 
 /// Returns the definition of a link. `shape`: fluid body of its collision shape, in the frame of
 /// its centre of mass; used without a file. A density scales the body about its centre of volume.

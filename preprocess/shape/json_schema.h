@@ -26,6 +26,8 @@ class JsonSchema {
   /// "bodies[0].mass" for {"bodies", "0", "mass"}, the subject for {}.
   std::string placeName(const std::vector<std::string>& path) const;
 
+  const nlohmann::json& document() const { return document_; }
+
  private:
   const nlohmann::json& document_;
   std::string subject_;
