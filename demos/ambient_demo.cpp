@@ -54,9 +54,8 @@ void refuseCases(int argc, char** argv) {
   };
   if (std::any_of(argv + 1, argv + argc, is_cases))
     throw std::invalid_argument(
-        "--cases: cases of a file are run by python3 -m bullet_ambient --cases FILE.jsonl --out "
-        "DIR, "
-        "with the same options (CMake's -DBULLET_AMBIENT_PYTHON=ON)");
+        "--cases: run them by `python3 -m bullet_ambient --cases FILE.jsonl --out DIR`, with the "
+        "same options (CMake's -DBULLET_AMBIENT_PYTHON=ON)");
 }
 
 Parsed parseArguments(int argc, char** argv) {

@@ -35,12 +35,7 @@ pybind11::object toPython(const Medium& medium);
 /// Converts a dict such as {"bodies.0.mass": 0.1} to overrides.
 std::vector<SceneOverride> overridesFrom(const pybind11::dict& changes);
 
-// Bind parts of the Python class FluidBody, one source each.
-
-/// Binds from_mesh(), from_shape(), read(), write() and scaled().
+/// Binds from_mesh(), from_shape(), read(), write() and scaled() of the Python class FluidBody.
 void bindMakers(pybind11::class_<FluidBody, std::shared_ptr<FluidBody>>& type);
-
-/// Binds export().
-void bindExport(pybind11::class_<FluidBody, std::shared_ptr<FluidBody>>& type);
 
 }  // namespace ambient

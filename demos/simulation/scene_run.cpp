@@ -2,14 +2,20 @@
 
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
 
 #include "demos/simulation/output/motion_recorder.h"
-#include "demos/simulation/output/run_files.h"
 
 namespace ambient {
+
+std::string digits17(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  return text;
+}
 
 std::vector<double> outputTimes(const Scene& scene) {
   return timesOf(0, scene.duration, scene.output_step);

@@ -20,6 +20,9 @@ struct FluidLog {
   bool isEmpty() const { return !wrench && !wet; }
 };
 
+/// Text of a number with 17 significant digits.
+std::string digits17(double value);
+
 /// Reads "wrench", "wet" or "wrench,wet".
 /// @throws std::invalid_argument naming a word that is none of these.
 FluidLog parseFluidLog(const std::string& words);

@@ -63,6 +63,7 @@ def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 def _parsed(line: str) -> tuple[Any, dict[str, Any]]:
     """Returns scene and overrides of a case, the overrides sorted by path. Raises ValueError if it is none."""
+    line.encode()  # refuses bytes that are not UTF-8
     try:
         case = json.loads(line, object_pairs_hook=_object)
     except json.JSONDecodeError as error:
@@ -104,7 +105,7 @@ def _result(out: Path, key: str) -> list[_Row] | None:
     """Returns the rows of a case by its key; None if there is no readable summary.json."""
     try:
         return _rows((out / key / "summary.json").read_text(encoding="utf-8"))
-    except (OSError, ValueError, KeyError, TypeError):
+    except (OSError, ValueError, LookupError, TypeError):
         return None
 
 

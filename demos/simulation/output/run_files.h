@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -10,13 +9,6 @@
 #include "demos/simulation/scene_run.h"
 
 namespace ambient {
-
-/// Text of a number with 17 significant digits.
-inline std::string digits17(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  return text;
-}
 
 /// First line of trajectory.csv; it has one row per output time and body, in the scene's order.
 constexpr const char* kTrajectoryHeader = "time,body,px,py,pz,qw,qx,qy,qz,wx,wy,wz,vx,vy,vz";

@@ -5,7 +5,8 @@
 #include "bullet_ambient/spatial/vector_types.h"
 #include "demos/analysis/motion_sample.h"
 #include "demos/scene/scene.h"
-#include "demos/simulation/body_preparation.h"
+#include "demos/simulation/prepared_body.h"
+#include "demos/simulation/scene_body_cache.h"
 
 class btMultiBody;
 class btMultiBodyDynamicsWorld;
