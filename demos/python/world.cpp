@@ -137,8 +137,7 @@ void bindForces(py::class_<PythonBody>& type) {
           },
           py::arg("twist"),
           "Sets the twist (6,): angular velocity [rad/s], then velocity of the centre of mass "
-          "[m/s]. "
-          "Not of a link.")
+          "[m/s]. Not of a link.")
       .def(
           "set_medium",
           [](const PythonBody& b, const py::object& medium) {
@@ -292,8 +291,7 @@ True
           "finite.")
       .def("run", &run, py::arg("duration"), py::arg("output_step") = py::none(),
            "Makes steps for `duration` [s]. Returns the motion at multiples of the output step [s] "
-           "and "
-           "at the end.")
+           "and at the end.")
       .def_property_readonly(
           "time", [](const PythonWorld& w) { return w.simulation().time(); }, "Time [s].")
       .def_property_readonly("bodies", &bodiesOf, "Bodies by name, in the order of the scene.")
