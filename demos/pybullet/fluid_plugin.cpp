@@ -215,7 +215,7 @@ std::string FluidPlugin::wet(const Command& command) {
   return answer.dump();
 }
 
-std::string FluidPlugin::save(const Command& command) {
+std::string FluidPlugin::save(const Command&) {
   return std::to_string(requireCurrent().save());
 }
 
@@ -224,7 +224,7 @@ std::string FluidPlugin::restore(const Command& command) {
   return "";
 }
 
-std::string FluidPlugin::status(const Command& command) {
+std::string FluidPlugin::status(const Command&) {
   meetWorld();
   json status;
   for (const auto& [name, region] : regions_) status["regions"].push_back(name);
@@ -259,7 +259,7 @@ std::string FluidPlugin::status(const Command& command) {
 }
 
 // Ends the fluid: PyBullet simulates as without the plugin.
-std::string FluidPlugin::leave(const Command& command) {
+std::string FluidPlugin::leave(const Command&) {
   regions_.clear();
   forgetWorld();
   return "";
