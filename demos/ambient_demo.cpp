@@ -1,5 +1,11 @@
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <atomic>
+#include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -10,16 +16,12 @@
 #include <vector>
 
 #include "bullet_ambient/base/plain_text.h"
-#include "demos/cases_command.h"
 #include "demos/scene/scene_lookup.h"
 #include "demos/scene/scene_reader.h"
 #include "demos/simulation/body_preparation.h"
-#include "demos/simulation/output/geometry_text.h"
 #include "demos/simulation/output/output_folder.h"
-#include "demos/simulation/output/trajectory_text.h"
-#include "demos/simulation/run_signals.h"
+#include "demos/simulation/output/run_files.h"
 #include "demos/simulation/scene_run.h"
-#include "demos/simulation/summary.h"
 #include "preprocess/base/output_file.h"
 #include "preprocess/builder/blocked_signals.h"
 #include "preprocess/builder/elapsed_display.h"
@@ -37,7 +39,6 @@ struct Arguments {
   std::string out;
   FluidLog log;
   std::vector<SceneOverride> overrides;
-  CasesArguments cases;
 };
 
 /// The arguments, or the exit code if there is nothing more to do.
@@ -46,32 +47,15 @@ struct Parsed {
   std::optional<int> exit_code;
 };
 
-void addCasesOptions(CLI::App& app, CasesArguments& cases) {
-  auto* file = app.add_option("--cases", cases.cases,
-                              "Run many scenes: {\"scene\": ..., \"set\": {PATH: VALUE}} per line")
-                   ->type_name("FILE.jsonl");
-  app.add_option("--shard", cases.shard, "Of the cases those with index I modulo N (default: 0/1)")
-      ->type_name("I/N")
-      ->needs(file);
-  app.add_option("--threads", cases.threads, "That run cases (default, 0: all cores)")
-      ->check(CLI::Range(0, 1024))
-      ->needs(file);
-  app.add_flag("--summaries", cases.summaries, "Of cases: keep no motion, only summary.json")
-      ->needs(file);
-  app.add_option("--collect", cases.collect, "Write the table of the cases that are done, and stop")
-      ->type_name("FILE.csv")
-      ->needs(file);
-}
-
-/// One scene, many cases, or the list.
-void checkChoice(const Arguments& arguments) {
-  const bool has_cases = !arguments.cases.cases.empty();
-  const int choices = arguments.list + has_cases + !arguments.scene.empty();
-  if (choices != 1) throw CLI::RequiredError("One of SCENE, --cases or --list");
-  if (has_cases && arguments.out.empty()) throw CLI::RequiredError("--out (with --cases)");
-  if (has_cases && !(arguments.overrides.empty() && arguments.log.isEmpty()))
-    throw CLI::ExcludesError("--cases", "--set and --log");
-  if (has_cases) checkCases(arguments.cases);
+/// Cases of a file are run by the Python module. @throws std::invalid_argument that says so
+void refuseCases(int argc, char** argv) {
+  const auto is_cases = [](const char* argument) {
+    return std::strncmp(argument, "--cases", std::strlen("--cases")) == 0;
+  };
+  if (std::any_of(argv + 1, argv + argc, is_cases))
+    throw std::invalid_argument(
+        "--cases: run them by `python3 -m bullet_ambient --cases FILE.jsonl --out DIR`, with the "
+        "same options (CMake's -DBULLET_AMBIENT_PYTHON=ON)");
 }
 
 Parsed parseArguments(int argc, char** argv) {
@@ -90,14 +74,16 @@ Parsed parseArguments(int argc, char** argv) {
   app.add_option("--log", log, "Further columns of trajectory.csv: wrench, wet, or both")
       ->type_name("WORDS");
   app.add_flag("--quiet", parsed.arguments.quiet, "Print errors only");
-  addCasesOptions(app, parsed.arguments.cases);
+  app.footer("Many scenes: python3 -m bullet_ambient --help");
   try {
     const std::string empty = emptyArgument(argc, argv);
     if (!empty.empty()) throw std::invalid_argument(empty);
+    refuseCases(argc, argv);
     app.parse(argc, argv);
     for (const std::string& text : sets) parsed.arguments.overrides.push_back(parseOverride(text));
     parsed.arguments.log = parseFluidLog(log);
-    checkChoice(parsed.arguments);
+    if (parsed.arguments.list + !parsed.arguments.scene.empty() != 1)
+      throw CLI::RequiredError("One of SCENE or --list");
   } catch (const CLI::ParseError& error) {
     parsed.exit_code = exitAt(app, error);
   } catch (const std::invalid_argument& error) {
@@ -120,31 +106,38 @@ void printScenes() {
   }
 }
 
-/// Files that a run writes, none of them under its name yet.
-struct RunFiles {
-  explicit RunFiles(const fs::path& out)
-      : folder(out),
-        trajectory(out / "trajectory.csv"),
-        geometry(out / "geometry.json"),
-        summary(out / "summary.json") {
-    hearSignals({{trajectory.partial(), geometry.partial(), summary.partial()}, folder.made()});
-  }
+// Written before the handlers are installed, then only read by the handler: folders, outermost
+// first.
+std::vector<std::string> to_remove;
+std::atomic<bool> is_heard{false}, is_interrupted{false};
 
-  OutputFolder folder;
-  OutputFile trajectory, geometry, summary;
+/// Handles a signal: removes the folders as far as they are empty, and ends the program. While a
+/// run hears signals, the first one only sets is_interrupted. Calls async-signal-safe functions of
+/// POSIX.
+void handle(int signal) {
+  if (is_heard && !is_interrupted.exchange(true)) return;
+  for (auto at = to_remove.rbegin(); at != to_remove.rend(); ++at) ::rmdir(at->c_str());
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
 
-  void commit() {
-    trajectory.commit();
-    geometry.commit();
-    summary.commit();
-    folder.keep();
+void endOnSignals(const std::vector<fs::path>& folders) {
+  for (const fs::path& folder : folders) to_remove.push_back(folder.string());
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, handle);
+}
+
+/// The folder of a run. @throws std::runtime_error in one line if files cannot be written to it
+struct RunFolder : OutputFolder {
+  explicit RunFolder(const fs::path& out) : OutputFolder(out) {
+    const OutputFile can_be_written(out / "summary.json");
+    endOnSignals(made());
   }
 };
 
-/// Signals that come while the files are made arrive when all are known.
-RunFiles openFiles(const fs::path& out) {
+/// Signals that come while the folder is made arrive when they know it.
+RunFolder openFolder(const fs::path& out) {
   const BlockedSignals until_known;
-  return RunFiles(out);
+  return RunFolder(out);
 }
 
 RunRecord runShown(const Scene& scene, const std::vector<PreparedBody>& bodies,
@@ -152,7 +145,7 @@ RunRecord runShown(const Scene& scene, const std::vector<PreparedBody>& bodies,
   ElapsedDisplay display(scene.name + ": simulating", arguments.quiet);
   const auto show = [&display](double share) {
     display.update(share);
-    return !wasInterrupted();
+    return !is_interrupted;
   };
   return runScene(scene, bodies, show, arguments.log);
 }
@@ -163,44 +156,49 @@ long long bodiesWithLongSteps(const RunRecord& record) {
       [](long long sum, const AmbientCounters& work) { return sum + work.too_long; });
 }
 
+/// Writes the files of a run: all of them, or none if one cannot be written.
+void writeFiles(const fs::path& out, const Scene& scene, const std::vector<PreparedBody>& bodies,
+                const RunRecord& record, const FluidLog& log) {
+  OutputFile trajectory(out / "trajectory.csv"), geometry(out / "geometry.json"),
+      summary(out / "summary.json");
+  trajectory.write(makeTrajectoryText(scene, record.motion, fluidLogHeader(log), record.log));
+  geometry.write(makeGeometryText(scene, bodies));
+  summary.write(makeSummary(scene, bodies, record));
+  trajectory.commit();
+  geometry.commit();
+  summary.commit();
+}
+
+void warn(const std::string& sentence) {
+  std::fprintf(stderr, "warning: %s\n", plainLine(sentence).c_str());
+}
+
 void runAndWrite(const Arguments& arguments) {
   const Scene scene = readScene(findScene(arguments.scene, sceneFolders()), arguments.overrides);
   const fs::path out =
       arguments.out.empty() ? "out" / fs::path(scene.name) : fs::path(arguments.out);
+  RunFolder folder = openFolder(out);
   SceneBodyCache cache(out / "fluid_bodies", scene.threads,
                        arguments.quiet ? nullptr : printReport);
   const std::vector<PreparedBody> bodies = prepareBodies(scene, cache);
 
-  // Before, there is nothing to tidy up: signals end the program at once.
-  RunFiles files = openFiles(out);
-  files.geometry.write(makeGeometryText(scene, bodies));
+  is_heard = true;
   const RunRecord record = runShown(scene, bodies, arguments);
-  files.trajectory.write(
-      makeTrajectoryText(scene, record.motion, fluidLogHeader(arguments.log), record.log));
-  files.summary.write(makeSummary(scene, bodies, record));
   {
     const BlockedSignals until_all_have_their_names;
-    files.commit();
+    writeFiles(out, scene, bodies, record, arguments.log);
+    folder.keep();
     cache.save();
   }
-  if (!arguments.quiet) {
-    std::istringstream sentences(record.warning);
-    for (std::string sentence; std::getline(sentences, sentence);)
-      std::fprintf(stderr, "warning: %s\n", plainLine(sentence).c_str());
-    if (const long long count = bodiesWithLongSteps(record); count > 0)
-      std::fprintf(stderr, "warning: steps were too long for the motion of %lld of %zu bodies\n",
-                   count, record.work.size());
-    std::printf("%s: %lld steps in %.2f s; wrote trajectory.csv and summary.json to %s\n",
-                plainLine(scene.name).c_str(), record.steps, record.wall_seconds,
-                plainLine(files.folder.path().string()).c_str());
-  }
-}
-
-CasesArguments casesOf(const Arguments& arguments) {
-  CasesArguments cases = arguments.cases;
-  cases.out = arguments.out;
-  cases.quiet = arguments.quiet;
-  return cases;
+  if (arguments.quiet) return;
+  std::istringstream sentences(record.warning);
+  for (std::string sentence; std::getline(sentences, sentence);) warn(sentence);
+  if (const long long count = bodiesWithLongSteps(record); count > 0)
+    warn("steps were too long for the motion of " + std::to_string(count) + " of " +
+         std::to_string(record.work.size()) + " bodies");
+  std::printf("%s: %lld steps in %.2f s; wrote trajectory.csv and summary.json to %s\n",
+              plainLine(scene.name).c_str(), record.steps, record.wall_seconds,
+              plainLine(folder.path().string()).c_str());
 }
 
 int run(int argc, char** argv) {
@@ -208,8 +206,6 @@ int run(int argc, char** argv) {
   if (parsed.exit_code) return *parsed.exit_code;
   if (parsed.arguments.list)
     printScenes();
-  else if (!parsed.arguments.cases.cases.empty())
-    return runCasesCommand(casesOf(parsed.arguments)) ? 0 : kBadInput;
   else
     runAndWrite(parsed.arguments);
   return 0;

@@ -1,95 +1,70 @@
 #include "demos/pybullet/command.h"
 
-#include <cmath>
-#include <sstream>
+#include <optional>
 #include <stdexcept>
-#include <utility>
+
+#include "demos/scene/scene_parts.h"
+#include "demos/scene/scene_water.h"
+#include "preprocess/shape/json_text.h"
 
 namespace ambient::pybullet {
+namespace {
 
-Command::Command(const std::string& text, std::vector<int> integers)
-    : integers_(std::move(integers)) {
-  std::istringstream words(text);
-  words >> name_;
-  for (std::string word; words >> word;) {
-    const auto equals = word.find('=');
-    if (equals == std::string::npos) fail("'" + word + "' is not key=value");
-    values_[word.substr(0, equals)] = word.substr(equals + 1);
+nlohmann::json makeSchema() {
+  auto schema = nlohmann::json::parse(kCommandSchema);
+  schema["definitions"].update(sceneSchema().document().at("definitions"));
+  return schema;
+}
+
+FluidRegion readWater(const nlohmann::json& from) {
+  const CalmSea usual;
+  WaterDef water = toWater(from, Vector3(0, 0, -usual.gravity));
+  water.sea.up = vectorOr(from, "up", usual.up);
+  water.sea.gravity = from.value("gravity", usual.gravity);
+  std::optional<Medium> above;
+  if (from.contains("wind")) {
+    above = air();
+    above->velocity = toVector(from.at("wind"));
   }
+  return makeWaterRegion(water, above);
 }
 
-bool Command::has(const std::string& key) {
-  known_.insert(key);
-  return values_.count(key) > 0;
+FluidRegion readRegion(const Command& command) {
+  if (command.name == "water") return readWater(command.values);
+  const bool is_air = command.name == "air";
+  FluidRegion region;
+  region.below = toMedium(command.values, is_air ? air() : water());
+  if (is_air) region.below.velocity = vectorOr(command.values, "wind", Vector3::Zero());
+  region.bounds = toBounds(command.values);
+  return region;
 }
 
-std::string Command::text(const std::string& key, const std::string& absent) {
-  return has(key) ? values_[key] : absent;
+}  // namespace
+
+Command::Command(const std::string& text) {
+  if (text.empty())
+    throw std::invalid_argument("the command is empty: PyBullet drops texts of 1024 and more");
+  static const nlohmann::json document = makeSchema();
+  const nlohmann::json command = parseJson(text, "the command");
+  JsonSchema(document, "the command").check(command, "the command");
+  if (command.size() != 1)
+    throw std::invalid_argument("the command must have one name, not " +
+                                std::to_string(command.size()));
+  name = command.begin().key();
+  values = command.front();
 }
 
-double Command::number(const std::string& key, double absent) {
-  return has(key) ? numbers(key, 1, 1)[0] : absent;
-}
+void Command::fail(const std::string& why) const { throw std::invalid_argument(name + ": " + why); }
 
-Vector3 Command::vector(const std::string& key, const Vector3& absent) {
-  if (!has(key)) return absent;
-  const std::vector<double> x = numbers(key, 3, 3);
-  return {x[0], x[1], x[2]};
-}
-
-std::vector<double> Command::numbers(const std::string& key, std::size_t fewest, std::size_t most) {
-  return parse(key, text(key, ""), fewest, most);
-}
-
-std::vector<std::vector<double>> Command::lists(const std::string& key, std::size_t fewest,
-                                                std::size_t most) {
-  std::vector<std::vector<double>> lists;
-  std::istringstream parts(text(key, ""));
-  for (std::string part; std::getline(parts, part, ';');)
-    lists.push_back(parse(key, part, fewest, most));
-  return lists;
-}
-
-std::vector<double> Command::parse(const std::string& key, const std::string& value,
-                                   std::size_t fewest, std::size_t most) const {
-  std::vector<double> numbers;
-  std::istringstream words(value);
-  for (std::string word; std::getline(words, word, ',');) {
-    std::size_t used = 0;
-    double number = 0;
-    try {
-      number = std::stod(word, &used);
-    } catch (const std::exception&) {
-      used = std::string::npos;
-    }
-    if (used != word.size() || !std::isfinite(number))
-      fail(key + ": '" + word + "' is not a finite number");
-    numbers.push_back(number);
+FluidRegion makeRegion(const Command& command) {
+  try {
+    FluidRegion region = readRegion(command);
+    region.priority = command.values.value("priority", 0);
+    checkRegion(region);
+    return region;
+  } catch (const std::invalid_argument& error) {
+    command.fail(error.what());
   }
-  if (numbers.size() < fewest || numbers.size() > most) {
-    const std::string upper = most == fewest ? "" : " to " + std::to_string(most);
-    fail(key + " takes " + std::to_string(fewest) + upper + " numbers, not " +
-         std::to_string(numbers.size()));
-  }
-  return numbers;
-}
-
-int Command::body() const {
-  if (integers_.empty()) fail("takes the number of a body, intArgs=[body, link]");
-  return integers_[0];
-}
-
-void Command::finish() const {
-  for (const auto& [key, value] : values_) {
-    if (known_.count(key)) continue;
-    std::string keys;
-    for (const std::string& known : known_) keys += " " + known;
-    fail("there is no '" + key + "'; there are:" + keys);
-  }
-}
-
-void Command::fail(const std::string& why) const {
-  throw std::invalid_argument(name_ + ": " + why);
 }
 
 }  // namespace ambient::pybullet

@@ -13,8 +13,8 @@
 
 #include "bullet_ambient/reading.h"
 #include "bullet_ambient/robot_dynamics.h"
-#include "demos/pybullet/region_command.h"
 #include "demos/pybullet/server_world.h"
+#include "demos/scene/scene_parts.h"
 
 namespace ambient::pybullet {
 namespace {
@@ -58,7 +58,7 @@ std::shared_ptr<FluidBodyCache> sharedShapes(const std::string& folder) {
 
 }  // namespace
 
-const FluidPlugin::NamedAnswer FluidPlugin::kCommands[] = {
+const std::map<std::string, FluidPlugin::Answer> FluidPlugin::kCommands = {
     {"water", &FluidPlugin::setRegion},
     {"air", &FluidPlugin::setRegion},
     {"region", &FluidPlugin::setRegion},
@@ -137,8 +137,8 @@ WorldFluid& FluidPlugin::requireCurrent() {
   return requireFluid();
 }
 
-std::string FluidPlugin::setRegion(Command& command) {
-  const std::string name = command.text("name", command.name());
+std::string FluidPlugin::setRegion(const Command& command) {
+  const std::string name = command.values.value("name", command.name);
   FluidRegion region = makeRegion(command);
   meetWorld();
   const auto ours = regions_.find(name);
@@ -150,57 +150,48 @@ std::string FluidPlugin::setRegion(Command& command) {
   return refusal_;
 }
 
-std::string FluidPlugin::removeRegion(Command& command) {
-  const auto region = regions_.find(command.text("name", "water"));
-  command.finish();
+std::string FluidPlugin::removeRegion(const Command& command) {
+  const auto region = regions_.find(command.values.value("name", "water"));
   if (region == regions_.end()) command.fail("there is no such region");
   if (fluid_) fluid_->fluid().removeRegion(region->second.id);
   regions_.erase(region);
   return "";
 }
 
-std::string FluidPlugin::setSettings(Command& command) {
+std::string FluidPlugin::setSettings(const Command& command) {
   if (fluid_ && !fluid_->fluid().isWorldAlive()) forgetWorld();
   if (fluid_ && fluid_->hasBodies())
     command.fail("comes too late: bodies are in the fluid; give it before the first step");
-  FlowSettings flow = flow_;
-  flow.law = command.choose("law", kPressureLawNames, flow.law);
-  flow.separation_angle = command.number("separation", flow.separation_angle);
-  const std::string folder = command.text("folder", folder_);
-  command.finish();
-  flow_ = flow;
+  flow_.law = lawOr(command.values, flow_.law);
+  flow_.separation_angle = command.values.value("separation", flow_.separation_angle);
+  const std::string folder = command.values.value("folder", folder_);
   if (folder != folder_) shapes_.reset();
   folder_ = folder;
   return "";
 }
 
-std::string FluidPlugin::exclude(Command& command) {
-  command.finish();
+std::string FluidPlugin::exclude(const Command& command) {
   requireFluid().exclude(command.body(), command.link(WorldFluid::kAllLinks));
   return "";
 }
 
-std::string FluidPlugin::chooseBody(Command& command) {
+std::string FluidPlugin::chooseBody(const Command& command) {
   const ChosenBody chosen = readChosenBody(command, flow_);
-  command.finish();
   requireFluid().choose(command.body(), command.link(-1), chosen, shapes());
   return "";
 }
 
-std::string FluidPlugin::inertia(Command& command) {
-  command.finish();
+std::string FluidPlugin::inertia(const Command& command) {
   return text(requireCurrent().require(command.body(), command.link(-1)).inertia());
 }
 
-std::string FluidPlugin::massMatrix(Command& command) {
-  command.finish();
+std::string FluidPlugin::massMatrix(const Command& command) {
   WorldFluid& fluid = requireCurrent();
   return text(ambientMassMatrix(fluid.fluid(), fluid.multiBody(command.body())));
 }
 
 // Returns the parts of the fluid's wrench. They are computed in each step from the first call on.
-std::string FluidPlugin::wrench(Command& command) {
-  command.finish();
+std::string FluidPlugin::wrench(const Command& command) {
   const Immersed one = requireCurrent().require(command.body(), command.link(-1));
   one.readWrench(true);
   const FluidWrench parts = one.wrench();
@@ -212,8 +203,7 @@ std::string FluidPlugin::wrench(Command& command) {
   return answer.dump();
 }
 
-std::string FluidPlugin::wet(Command& command) {
-  command.finish();
+std::string FluidPlugin::wet(const Command& command) {
   const WetState wet = requireCurrent().require(command.body(), command.link(-1)).wet();
   const Vector3& centre = wet.centre_of_buoyancy;
   json answer;
@@ -225,21 +215,16 @@ std::string FluidPlugin::wet(Command& command) {
   return answer.dump();
 }
 
-std::string FluidPlugin::save(Command& command) {
-  command.finish();
+std::string FluidPlugin::save(const Command&) {
   return std::to_string(requireCurrent().save());
 }
 
-std::string FluidPlugin::restore(Command& command) {
-  command.finish();
-  const int state = command.body();
-  if (state < 0) command.fail("there are no states below 0");
-  requireCurrent().restore(static_cast<std::size_t>(state));
+std::string FluidPlugin::restore(const Command& command) {
+  requireCurrent().restore(command.values.at("state").get<std::size_t>());
   return "";
 }
 
-std::string FluidPlugin::status(Command& command) {
-  command.finish();
+std::string FluidPlugin::status(const Command&) {
   meetWorld();
   json status;
   for (const auto& [name, region] : regions_) status["regions"].push_back(name);
@@ -274,8 +259,7 @@ std::string FluidPlugin::status(Command& command) {
 }
 
 // Ends the fluid: PyBullet simulates as without the plugin.
-std::string FluidPlugin::leave(Command& command) {
-  command.finish();
+std::string FluidPlugin::leave(const Command&) {
   regions_.clear();
   forgetWorld();
   return "";
@@ -288,16 +272,8 @@ std::string FluidPlugin::execute(const Arguments& arguments) {
     pieces_ += piece.substr(1);
     return "";
   }
-  const std::string whole = std::exchange(pieces_, "") + piece;
-  Command command(whole, {arguments.ints, arguments.ints + arguments.int_count});
-  std::string names;
-  for (const NamedAnswer& known : kCommands) {
-    if (command.name() == known.name) return (this->*known.answer)(command);
-    names += (names.empty() ? "" : ", ") + std::string(known.name);
-  }
-  if (command.name().empty())
-    throw std::invalid_argument("the command is empty: PyBullet drops texts of 1024 and more");
-  command.fail("there is no such command; there are: " + names);
+  const Command command(std::exchange(pieces_, "") + piece);
+  return (this->*kCommands.at(command.name))(command);
 }
 
 }  // namespace ambient::pybullet

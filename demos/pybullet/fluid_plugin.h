@@ -26,26 +26,22 @@ class FluidPlugin {
   std::string execute(const Arguments& arguments);
 
  private:
-  using Answer = std::string (FluidPlugin::*)(Command&);
-  struct NamedAnswer {
-    const char* name;
-    Answer answer;
-  };
-  static const NamedAnswer kCommands[];
+  using Answer = std::string (FluidPlugin::*)(const Command&);
+  static const std::map<std::string, Answer> kCommands;  // those of commands.schema.json
 
-  std::string setRegion(Command& command);
-  std::string removeRegion(Command& command);
-  std::string setSettings(Command& command);
-  std::string chooseBody(Command& command);
-  std::string exclude(Command& command);
-  std::string inertia(Command& command);
-  std::string massMatrix(Command& command);
-  std::string wrench(Command& command);
-  std::string wet(Command& command);
-  std::string save(Command& command);
-  std::string restore(Command& command);
-  std::string status(Command& command);
-  std::string leave(Command& command);
+  std::string setRegion(const Command& command);
+  std::string removeRegion(const Command& command);
+  std::string setSettings(const Command& command);
+  std::string chooseBody(const Command& command);
+  std::string exclude(const Command& command);
+  std::string inertia(const Command& command);
+  std::string massMatrix(const Command& command);
+  std::string wrench(const Command& command);
+  std::string wet(const Command& command);
+  std::string save(const Command& command);
+  std::string restore(const Command& command);
+  std::string status(const Command& command);
+  std::string leave(const Command& command);
 
   // Makes the fluid of the present world, or sets refusal_. Does nothing if that was done before.
   void meetWorld();

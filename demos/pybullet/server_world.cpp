@@ -7,8 +7,6 @@
 #include <cstring>
 #include <typeinfo>
 
-#include "demos/pybullet/silent_helper.h"
-
 namespace ambient::pybullet {
 namespace {
 

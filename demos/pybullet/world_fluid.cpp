@@ -6,14 +6,40 @@
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
+#include <cmath>
 #include <cstdio>
 #include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "bullet_ambient/base/elementary.h"
+#include "bullet_ambient/fluid_body.h"
+#include "bullet_ambient/spatial/rotation.h"
 #include "demos/pybullet/server_world.h"
+#include "demos/scene/scene_parts.h"
+#include "preprocess/polar/frontal_area.h"
 
 namespace ambient::pybullet {
 namespace {
+
+Matrix3 readRotation(const Command& command) {
+  if (!command.values.contains("rotation")) return Matrix3::Identity();
+  const auto q = command.values.at("rotation").get<std::vector<double>>();
+  const Quaternion rotation(q[3], q[0], q[1], q[2]);
+  if (!(rotation.norm() > 0)) command.fail("rotation is x,y,z,w of a quaternion, not all 0");
+  return rotation.normalized().toRotationMatrix();
+}
+
+// Scales a body to a volume about its centre of volume.
+void scaleTo(double volume, FluidBody& body, FrameOffset& frame) {
+  if (!(body.volume > 0))
+    throw std::invalid_argument("body: '" + body.name +
+                                "' has no volume, so that it cannot have a density");
+  const double factor = portable::cbrt(volume / body.volume);
+  frame.translation += (1 - factor) * (frame.rotation * body.centre_of_volume);
+  body = scaled(body, factor);
+}
 
 const char* const kHulls = "hulls";  // entry of printed_: it was said
 constexpr std::size_t kKeptSentences = 100;
@@ -202,6 +228,37 @@ void WorldFluid::restore(std::size_t state) {
     throw std::invalid_argument("this world has " + std::to_string(states_.size()) +
                                 " saved states, and no state " + std::to_string(state));
   fluid_.restore(states_[state]);
+}
+
+ChosenBody readChosenBody(const Command& command, const FlowSettings& flow) {
+  const nlohmann::json& values = command.values;
+  ChosenBody chosen;
+  chosen.flow = flow;
+  chosen.file = values.value("file", "");
+  chosen.fluid_frame = {readRotation(command), vectorOr(values, "origin", Vector3::Zero())};
+  if (chosen.file.empty() && !chosen.fluid_frame.isIdentity())
+    command.fail("origin and rotation are those of a file");
+  chosen.density = values.value("density", 0.0);
+  chosen.drag = vectorOr(values, "drag", Vector3::Zero());
+  chosen.medium = values.value("medium", "");
+  chosen.flow.law = lawOr(values, flow.law);
+  return chosen;
+}
+
+AttachDef definitionOf(const ChosenBody& chosen, std::shared_ptr<const FluidBody> shape,
+                       double mass) {
+  AttachDef def;
+  def.flow = chosen.flow;
+  def.fluid_frame = chosen.fluid_frame;
+  if (chosen.medium == "water") def.medium = water();
+  if (chosen.medium == "air") def.medium = air();
+  def.fluid_body = chosen.file.empty() ? std::move(shape) : loadFluidBody(chosen.file);
+  if (chosen.density == 0 && chosen.drag.isZero(0)) return def;
+  FluidBody own = *def.fluid_body;
+  if (chosen.density > 0) scaleTo(mass / chosen.density, own, def.fluid_frame);
+  if (!chosen.drag.isZero(0)) setMeasuredDrag(chosen.drag, own);
+  def.fluid_body = std::make_shared<const FluidBody>(std::move(own));
+  return def;
 }
 
 }  // namespace ambient::pybullet

@@ -8,8 +8,8 @@
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "demos/python/arrays.h"
 #include "demos/python/bindings.h"
-#include "demos/python/fluid_body_bindings.h"
 #include "preprocess/base/fluid_body_writer.h"
+#include "preprocess/hand_over/export_fluid_body.h"
 #include "preprocess/polar/polar.h"
 
 namespace ambient {
@@ -36,9 +36,9 @@ py::array_t<double> loadsFor(const BodyLoads& body_loads, const InputArray& twis
   return wrenches;
 }
 
-py::array_t<double> loads(const FluidBodyPtr& body, const InputArray& twists, const Medium& medium,
-                          const FlowSettings& flow) {
-  return loadsFor(BodyLoads(body, medium, flow), twists);
+py::array_t<double> loads(const FluidBodyPtr& body, const InputArray& twists,
+                          const py::object& medium, const py::object& flow) {
+  return loadsFor(BodyLoads(body, mediumFrom(medium), flowFrom(flow)), twists);
 }
 
 struct PolarRow {
@@ -62,9 +62,10 @@ PolarQuestion polarQuestion(const FluidBody& body, const py::kwargs& given) {
                            known.cast<std::string>());
   }
   PolarQuestion question;
-  question.medium =
-      get("medium", py::cast(Medium{1, 0, Vector3::Zero(), Vector3::Zero()})).cast<Medium>();
-  question.flow = get("flow", py::cast(FlowSettings())).cast<FlowSettings>();
+  question.medium.density = 1;
+  if (const py::object medium = get("medium", py::none()); !medium.is_none())
+    question.medium = mediumFrom(medium);
+  question.flow = flowFrom(get("flow", py::none()));
   PolarFlight& flight = question.flight;
   const auto forward = axisNamed(get("forward", py::str("x")).cast<std::string>());
   const auto up = axisNamed(get("up", py::str("z")).cast<std::string>());
@@ -162,9 +163,31 @@ void bindProperties(py::class_<FluidBody, FluidBodyPtr>& type) {
       "Hash of all data that act on the motion: equal bodies have equal hashes.");
 }
 
+// NOLINTNEXTLINE(readability-function-size): one parameter for each argument in Python
+py::object exportAs(const FluidBodyPtr& body, const std::string& format_name,
+                    const py::object& path, const py::object& medium, double gravity,
+                    const std::optional<double>& mass, const py::object& centre_of_mass,
+                    const std::string& forward, const std::string& up,
+                    const std::optional<double>& draught, const std::optional<double>& speed) {
+  const ExportFormat format = exportFormatOf(format_name);
+  ExportSettings settings{medium.is_none() ? water() : mediumFrom(medium),
+                          gravity,
+                          mass,
+                          std::nullopt,
+                          axisNamed(forward),
+                          axisNamed(up),
+                          draught,
+                          speed};
+  if (!centre_of_mass.is_none())
+    settings.centre_of_mass = vectorFrom(py::cast<InputArray>(centre_of_mass), "centre_of_mass");
+  const ExportedBody made = exportFluidBody(body, format, settings);
+  if (!path.is_none()) writeOrOsError([&] { made.write(pathFrom(path)); });
+  return py::str(made.bytes);
+}
+
 void bindLoads(py::class_<FluidBody, FluidBodyPtr>& type) {
   type.def(
-          "loads", &loads, py::arg("twists"), py::arg("medium"), py::arg("flow") = FlowSettings(),
+          "loads", &loads, py::arg("twists"), py::arg("medium"), py::arg("flow") = py::none(),
           R"(Computes pressure and friction of the fluid on the body, without added mass and buoyancy.
 
 Parameters
@@ -183,10 +206,10 @@ True
 )")
       .def(
           "loads_in",
-          [](const FluidBodyPtr& body, const Medium& medium, const FlowSettings& flow) {
-            return BodyLoads(body, medium, flow);
+          [](const FluidBodyPtr& body, const py::object& medium, const py::object& flow) {
+            return BodyLoads(body, mediumFrom(medium), flowFrom(flow));
           },
-          py::arg("medium"), py::arg("flow") = FlowSettings(),
+          py::arg("medium"), py::arg("flow") = py::none(),
           R"(Returns loads() as a function of the twists, for many calls in one medium.
 
 Cost: some nanoseconds per face by the published law, some microseconds by the law "form".)")
@@ -203,6 +226,37 @@ forward, up : axes of F with a sign; default "x", "z"
 reference_area, reference_length : default: silhouette along up [m^2], extent along forward [m]
 
 Returns a structured array: attack, side_slip [rad], C_L, C_D, C_Y, C_l, C_m, C_n about F's origin.)");
+}
+
+void bindExport(py::class_<FluidBody, FluidBodyPtr>& type) {
+  type.def(
+      "export", &exportAs, py::arg("format"), py::arg("path") = py::none(), py::kw_only(),
+      py::arg("medium") = py::none(), py::arg("gravity") = 9.81, py::arg("mass") = py::none(),
+      py::arg("centre_of_mass") = py::none(), py::arg("forward") = "x", py::arg("up") = "z",
+      py::arg("draught") = py::none(), py::arg("speed") = py::none(),
+      R"(Converts the body to the format of another program; docs/file_format.md lists what each format leaves out.
+
+Parameters
+----------
+format : "sdf" (SDFormat, Gazebo), "mjcf" (MuJoCo) or "fossen" (JSON)
+path : file that is also written, completely or not at all
+medium : only its density and viscosity are used; default: water()
+gravity : [m/s^2]
+mass : [kg]; default: mass of the displaced fluid
+centre_of_mass : (3,) in F [m]; default: centre of a mass spread evenly
+forward, up : axes of F with a sign
+draught : depth of the lowest point below the surface of the fluid [m]; default: no surface is near
+speed : along forward [m/s], for the linearised drag of "fossen"
+
+Returns the text of the file. Raises ValueError in one line if a number is not physical or the body
+has no parts for a draught.
+
+>>> import json
+>>> ball = FluidBody.from_shape({"type": "sphere", "radius": 0.1})
+>>> matrices = json.loads(ball.export("fossen"))
+>>> round(matrices["M_A"][0][0] / matrices["mass"], 3)
+0.5
+)");
 }
 
 }  // namespace

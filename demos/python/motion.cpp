@@ -66,8 +66,7 @@ void bindMotion(py::module_& module) {
                     "Unit quaternions (..., B, 4) w, x, y, z from the shape's axes to the world's.")
       .def_readonly("twist", &Motion::twist,
                     "Twists (..., B, 6): angular velocity [rad/s], then velocity of the centre of "
-                    "mass [m/s], "
-                    "in world axes.")
+                    "mass [m/s], in world axes.")
       .def_property_readonly(
           "orientation_xyzw", [](const Motion& m) { return scalarLast(m.orientation); },
           "Unit quaternions (..., B, 4) x, y, z, w, the order of SciPy and PyBullet.")

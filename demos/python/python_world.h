@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "demos/simulation/body_preparation.h"
+#include "demos/simulation/robots/scene_robot.h"
 #include "demos/simulation/scene_body_cache.h"
 #include "demos/simulation/simulation.h"
 
@@ -95,6 +96,14 @@ class PythonWorld {
   SceneBodyCache fluid_bodies_;
   std::unique_ptr<Simulation> simulation_;
   bool is_stepping_ = false;  // true: a thread steps the world; guarded by the interpreter's lock
+};
+
+/// One robot of a world; keeps the world alive.
+struct PythonRobot {
+  std::shared_ptr<PythonWorld> world;
+  std::size_t index = 0;
+
+  SceneRobot& get() const { return world->simulation().robot(index); }
 };
 
 }  // namespace ambient

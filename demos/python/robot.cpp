@@ -1,5 +1,3 @@
-#include "demos/python/robot.h"
-
 #include <pybind11/stl.h>
 
 #include <limits>
@@ -9,6 +7,7 @@
 
 #include "demos/python/arrays.h"
 #include "demos/python/bindings.h"
+#include "demos/python/python_world.h"
 
 namespace ambient {
 namespace {
@@ -66,10 +65,9 @@ void setJoint(const PythonRobot& robot, const std::string& joint, std::optional<
 }
 
 void bindMotion(py::class_<PythonRobot>& type) {
-  type.def(
-          "set_pose", &setPose, py::arg("position"), py::arg("orientation") = py::none(),
-          "Puts the root link's frame to a position (3,) [m], with an orientation (4,) w, x, y, z; "
-          "default: the present one.")
+  type.def("set_pose", &setPose, py::arg("position"), py::arg("orientation") = py::none(),
+           "Puts the root link's frame to a position (3,) [m], with an orientation (4,) w, x, y, "
+           "z; default: the present one.")
       .def(
           "set_twist",
           [](const PythonRobot& r, const InputArray& twist) {
@@ -77,8 +75,7 @@ void bindMotion(py::class_<PythonRobot>& type) {
           },
           py::arg("twist"),
           "Sets the twist (6,) of the root link: angular velocity [rad/s], then velocity of its "
-          "centre "
-          "of mass [m/s], world axes.")
+          "centre of mass [m/s], world axes.")
       .def("set_joint", &setJoint, py::arg("joint"), py::kw_only(),
            py::arg("position") = py::none(), py::arg("velocity") = py::none(),
            "Sets position [rad] or [m] and velocity [rad/s] or [m/s] of a joint; default: as they "
@@ -101,10 +98,8 @@ void bindJoints(py::class_<PythonRobot>& type) {
            py::arg("effort") = std::numeric_limits<double>::infinity(),
            py::arg("position_gain") = 0.1, py::arg("velocity_gain") = 1.0,
            "Drives a joint to a position or at a velocity from now on, in place of the scene's "
-           "motor. "
-           "The effort is limited by `effort` and by the joint's own limit; 0 switches the motor "
-           "off. "
-           "Gains: share of the error that one step corrects.")
+           "motor. The effort is limited by `effort` and by the joint's own limit; 0 switches the "
+           "motor off. Gains: share of the error that one step corrects.")
       .def(
           "apply_torque",
           [](const PythonRobot& r, const std::string& joint, double torque) {
@@ -112,8 +107,7 @@ void bindJoints(py::class_<PythonRobot>& type) {
           },
           py::arg("joint"), py::arg("torque"),
           "Adds a torque [N m] or force [N] at a joint for one step. Limits of the joint's effort "
-          "do "
-          "not apply.")
+          "do not apply.")
       .def(
           "measure", [](const PythonRobot& r, const std::string& joint) { r.get().measure(joint); },
           py::arg("joint"),
@@ -125,10 +119,8 @@ void bindJoints(py::class_<PythonRobot>& type) {
           },
           py::arg("joint"),
           "Returns the wrench (6,) of the parent on the link in the last step: torque [N m] about "
-          "the "
-          "origin of the link's frame, then force [N], in world axes. Does not contain the effort "
-          "of "
-          "the joint's motor. Call measure() before.");
+          "the origin of the link's frame, then force [N], in world axes. Does not contain the "
+          "effort of the joint's motor. Call measure() before.");
 }
 
 }  // namespace
@@ -153,8 +145,7 @@ void bindRobot(py::module_& module) {
           },
           py::arg("link"),
           "Returns the matrix (4, 4) that maps coordinates in the frame of a link to the world's. "
-          "Knows "
-          "links, too, that a fixed joint has made part of another link.");
+          "Knows links, too, that a fixed joint has made part of another link.");
 }
 
 }  // namespace ambient

@@ -1,12 +1,15 @@
-#include "demos/python/scene.h"
-
 #include <pybind11/stl.h>
 
+#include <nlohmann/json.hpp>
+
+#include "bullet_ambient/base/fnv1a.h"
 #include "demos/python/arrays.h"
 #include "demos/python/bindings.h"
 #include "demos/scene/scene_lookup.h"
 #include "demos/scene/scene_reader.h"
-#include "demos/sweep/case_file.h"
+#include "preprocess/builder/fluid_body_builder.h"
+#include "preprocess/shape/json_text.h"
+#include "preprocess/shape/shape_mesh.h"
 
 namespace ambient {
 namespace {
@@ -34,6 +37,28 @@ std::vector<std::string> sceneNames() {
   std::vector<std::string> names;
   for (const auto& file : listScenes(sceneFolders())) names.push_back(file.stem().string());
   return names;
+}
+
+/// Converts integers to floating point: 8 and 8.0 get the same key.
+void unifyNumbers(nlohmann::json& value) {
+  if (value.is_number_integer()) value = value.get<double>();
+  if (value.is_structured())
+    for (nlohmann::json& part : value) unifyNumbers(part);
+}
+
+/// Key of a run's result, 16 hexadecimal digits: hash of the scene without description, schema and
+/// threads, of the files that its shapes name, and of version and solver of this library.
+/// @throws std::runtime_error if one of these files cannot be read.
+std::string keyOf(const Scene& scene) {
+  auto document = nlohmann::json::parse(scene.text);
+  for (const char* key : {"$schema", "description", "threads"}) document.erase(key);
+  unifyNumbers(document);
+  std::string content = libraryVersion() + "\n" + document.dump();
+  for (const BodyDef& body : scene.bodies) {
+    const std::filesystem::path file = fileOf(body.shape);
+    if (!file.empty()) content += "\n" + std::to_string(fnv1a64(readBytes(file)));
+  }
+  return hashText(fnv1a64(content));
 }
 
 // Comparison, hash, print and pickle: scenes of one text and file are equal.
@@ -107,11 +132,18 @@ ValueError: ...sphere_fall.json: duration is -1; must be > 0
       .def_readonly("time_step", &Scene::time_step, "Fixed time step of the world [s].")
       .def_readonly("output_step", &Scene::output_step,
                     "Time between two samples of the output [s].")
-      .def_readonly("medium", &Scene::medium,
-                    "Medium of all bodies without a density of their own.")
+      .def_property_readonly(
+          "medium", [](const Scene& scene) { return toPython(scene.medium); },
+          "Medium of all bodies without a density of their own.")
       .def_property_readonly("bodies", &bodyNames, "Names of the bodies.")
       .def_property_readonly(
           "key", &keyOf, "Hash (16 digits) of everything that a run depends on, see run_cases().");
+  module.def(
+      "_parse_scene",
+      [](const py::dict& document, const py::object& file, const py::dict& changes) {
+        return parseScene(jsonFrom(document), pathFrom(file), overridesFrom(changes));
+      },
+      py::arg("document"), py::arg("file"), py::arg("overrides"));
   module.def("scene_names", &sceneNames,
              "Returns the names of the scenes that come with the library.");
 }

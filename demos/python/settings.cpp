@@ -1,57 +1,78 @@
+#include <pybind11/stl.h>
+
+#include <array>
 #include <sstream>
 #include <stdexcept>
+#include <string>
 
 #include "bullet_ambient/base/plain_text.h"
-#include "bullet_ambient/force/law/flow_settings.h"
-#include "bullet_ambient/force/medium/medium.h"
 #include "demos/python/bindings.h"
-#include "demos/python/record.h"
 
 namespace ambient {
+namespace {
 
-// Not in an anonymous namespace, so that templates of record.h find these overloads by their
-// argument.
+namespace py = pybind11;
 
-static pybind11::object toPython(const PressureLaw& law) {
-  return pybind11::str(wordOf(kPressureLawNames, law));
+/// A class of bullet_ambient/settings.py.
+py::object settingsClass(const char* name) {
+  return py::module_::import("bullet_ambient.settings").attr(name);
 }
 
-static void fromPython(pybind11::handle from, PressureLaw& to) {
-  const auto word = from.cast<std::string>();
-  const auto law = valueOf(kPressureLawNames, word);
-  if (!law) throw std::invalid_argument("law is \"" + word + "\"; must be form or published");
-  to = *law;
+void requireClass(const py::object& settings, const char* name) {
+  if (!py::isinstance(settings, settingsClass(name)))
+    throw py::type_error(py::repr(settings).cast<std::string>() + " is no " + name);
 }
 
-static void checkMedium(const Medium& medium) {
+Vector3 vectorAt(const py::object& settings, const char* name) {
+  const auto numbers = settings.attr(name).cast<std::array<double, 3>>();
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+}  // namespace
+
+Medium mediumFrom(const py::object& settings) {
+  requireClass(settings, "Medium");
+  const Medium medium{settings.attr("density").cast<double>(),
+                      settings.attr("viscosity").cast<double>(), vectorAt(settings, "velocity"),
+                      vectorAt(settings, "acceleration")};
   const auto fault = faultOf(medium);
-  if (!fault) return;
+  if (!fault) return medium;
   std::ostringstream sentence;
   sentence << "Medium: " << fault->quantity << " [" << fault->unit << "] is " << fault->value
            << "; must be " << fault->limit;
   throw std::invalid_argument(sentence.str());
 }
 
-void bindSettings(pybind11::module_& module) {
-  Record<Medium>(module, "Medium", "Fluid around a body; vectors in world axes.")
-      .field("density", &Medium::density, "Density [kg/m^3], >= 0; default 0, a vacuum.")
-      .field("viscosity", &Medium::viscosity,
-             "Dynamic viscosity [Pa s], >= 0; 0: no skin friction.")
-      .field("velocity", &Medium::velocity, "Velocity of the undisturbed flow at the body [m/s].")
-      .field("acceleration", &Medium::acceleration, "Rate of change of that velocity [m/s^2].")
-      .checkedBy(&checkMedium);
-  Record<FlowSettings>(module, "FlowSettings", "Settings of the flow along the surface of a body.")
-      .field(
-          "separation_angle", &FlowSettings::separation_angle,
-          "Separation angle, from pi/2 (default) to pi [rad]; larger: flow stays attached longer.")
-      .field("skin_friction", &FlowSettings::skin_friction, "False: no skin friction.")
-      .field("law", &FlowSettings::law, "Law of the pressure: 'form' (default) or 'published'.")
-      .field("maximum_load_error", &FlowSettings::maximum_load_error,
-             "Largest relative error of reduced loads, from 0 (sums all faces) to 1; default 0.01.")
-      .field("stall_lag", &FlowSettings::stall_lag,
-             "Time by which stall lags with the law 'form', in body lengths over speed; 0: none.");
-  module.def("air", &air, "Returns air at 20 C and sea level.");
-  module.def("water", &water, "Returns fresh water at 20 C.");
+FlowSettings flowFrom(const py::object& settings) {
+  FlowSettings flow;
+  if (settings.is_none()) return flow;
+  requireClass(settings, "FlowSettings");
+  const auto word = settings.attr("law").cast<std::string>();
+  const auto law = valueOf(kPressureLawNames, word);
+  if (!law) throw std::invalid_argument("law is \"" + word + "\"; must be form or published");
+  flow.law = *law;
+  flow.separation_angle = settings.attr("separation_angle").cast<double>();
+  flow.skin_friction = settings.attr("skin_friction").cast<bool>();
+  flow.maximum_load_error = settings.attr("maximum_load_error").cast<double>();
+  flow.stall_lag = settings.attr("stall_lag").cast<double>();
+  return flow;
+}
+
+py::object toPython(const Medium& medium) {
+  const auto tuple = [](const Vector3& v) { return py::make_tuple(v.x(), v.y(), v.z()); };
+  return settingsClass("Medium")(py::arg("density") = medium.density,
+                                 py::arg("viscosity") = medium.viscosity,
+                                 py::arg("velocity") = tuple(medium.velocity),
+                                 py::arg("acceleration") = tuple(medium.acceleration));
+}
+
+void bindSettings(py::module_& module) {
+  module.def("_check_medium", [](const py::object& settings) { mediumFrom(settings); });
+  module.def("_check_flow", [](const py::object& settings) { flowFrom(settings); });
+  module.def(
+      "air", [] { return toPython(air()); }, "Returns air at 20 C and sea level.");
+  module.def(
+      "water", [] { return toPython(water()); }, "Returns fresh water at 20 C.");
 }
 
 }  // namespace ambient

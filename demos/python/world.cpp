@@ -6,7 +6,6 @@
 #include "demos/python/bindings.h"
 #include "demos/python/motion.h"
 #include "demos/python/python_world.h"
-#include "demos/python/robot.h"
 #include "demos/scene/scene_reader.h"
 #include "demos/simulation/output/motion_recorder.h"
 #include "demos/simulation/scene_run.h"
@@ -138,12 +137,11 @@ void bindForces(py::class_<PythonBody>& type) {
           },
           py::arg("twist"),
           "Sets the twist (6,): angular velocity [rad/s], then velocity of the centre of mass "
-          "[m/s]. "
-          "Not of a link.")
+          "[m/s]. Not of a link.")
       .def(
           "set_medium",
-          [](const PythonBody& b, const Medium& medium) {
-            b.world->simulation().setMedium(b.index, medium);
+          [](const PythonBody& b, const py::object& medium) {
+            b.world->simulation().setMedium(b.index, mediumFrom(medium));
           },
           py::arg("medium"),
           "Changes the fluid around the body where it is in no water or region of the scene. The "
@@ -293,8 +291,7 @@ True
           "finite.")
       .def("run", &run, py::arg("duration"), py::arg("output_step") = py::none(),
            "Makes steps for `duration` [s]. Returns the motion at multiples of the output step [s] "
-           "and "
-           "at the end.")
+           "and at the end.")
       .def_property_readonly(
           "time", [](const PythonWorld& w) { return w.simulation().time(); }, "Time [s].")
       .def_property_readonly("bodies", &bodiesOf, "Bodies by name, in the order of the scene.")

@@ -1,4 +1,4 @@
-#include "demos/scene/scene_robots.h"
+#include "demos/scene/scene_parts.h"
 #include "preprocess/mesh/input_error.h"
 
 namespace ambient {

@@ -1,5 +1,3 @@
-#include "demos/scene/scene_checks.h"
-
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -8,6 +6,7 @@
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
+#include "demos/scene/scene_parts.h"
 #include "demos/scene/scene_water.h"
 #include "preprocess/mesh/input_error.h"
 

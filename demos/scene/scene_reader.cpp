@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <utility>
 
 #include "bullet_ambient/base/pi.h"
-#include "demos/scene/json_values.h"
-#include "demos/scene/scene_checks.h"
-#include "demos/scene/scene_robots.h"
-#include "demos/scene/scene_schema.h"
+#include "demos/scene/scene_parts.h"
 #include "demos/scene/scene_water.h"
+#include "preprocess/mesh/input_error.h"
 #include "preprocess/shape/json_text.h"
 #include "preprocess/shape/shape_reader.h"
 
@@ -18,6 +17,65 @@ namespace ambient {
 namespace {
 
 using nlohmann::json;
+
+/// Splits bodies.0.mass or bodies[0].mass into {"bodies", "0", "mass"}; keeps empty tokens.
+std::vector<std::string> splitPath(const std::string& path) {
+  std::vector<std::string> tokens(1);
+  for (const char c : path) {
+    if (c == '.' || c == '[')
+      tokens.emplace_back();
+    else if (c != ']')
+      tokens.back() += c;
+  }
+  return tokens;
+}
+
+/// Parses a value; a text that is not JSON becomes a string, which must be UTF-8.
+json parseValue(const std::string& text, const std::string& source) {
+  if (json::accept(text)) return parseJson(text, source);
+  json value(text);
+  try {
+    static_cast<void>(value.dump());
+  } catch (const json::type_error&) {
+    raiseInputError(source, "the value is not valid UTF-8");
+  }
+  return value;
+}
+
+/// Returns the element or member of `parent` named by `token`; creates a missing member.
+json& descend(json& parent, const std::string& token, const std::string& parent_name) {
+  if (parent.is_array()) {
+    if (!isIndex(token) || std::stoul(token) >= parent.size())
+      throw std::out_of_range(parent_name + " has " + std::to_string(parent.size()) +
+                              " elements, no element " + token);
+    return parent[std::stoul(token)];
+  }
+  if (parent.is_null()) parent = json::object();
+  if (!parent.is_object() || isIndex(token))
+    throw std::out_of_range(parent_name + " is " + (parent.empty() ? "not given" : parent.dump()) +
+                            " and has no part " + token);
+  return parent[token];
+}
+
+/// Puts the value into the scene. Creates missing objects along the path; a key that the schema
+/// does not know is refused when the scene is checked.
+/// @throws std::runtime_error if the scene has no such array element, or something else than an
+/// object on the way; messages name `file`.
+void applyOverride(json& scene, const SceneOverride& change, const std::string& file) {
+  const std::vector<std::string> path = splitPath(change.path);
+  const std::string option = "--set " + change.path + "=" + change.value + ": ";
+  json* place = &scene;
+  try {
+    std::vector<std::string> walked;
+    for (const std::string& token : path) {
+      place = &descend(*place, token, sceneSchema().placeName(walked));
+      walked.push_back(token);
+    }
+  } catch (const std::out_of_range& error) {
+    raiseInputError(file, option, error.what());
+  }
+  *place = parseValue(change.value, file + ": --set " + change.path);
+}
 
 /// Symmetric matrix of the array xx, yy, zz, xy, xz, yz.
 Matrix3 toInertia(const json& v) {
@@ -121,6 +179,13 @@ void removeRounding(Scene& scene) {
 }
 
 }  // namespace
+
+SceneOverride parseOverride(const std::string& text) {
+  const auto equals = text.find('=');
+  if (equals == std::string::npos || equals == 0)
+    throw std::invalid_argument("--set " + text + ": must be PATH=VALUE");
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
 
 Scene readScene(const std::filesystem::path& file, const std::vector<SceneOverride>& overrides) {
   return parseScene(readBytes(file), file, overrides);

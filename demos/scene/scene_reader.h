@@ -5,9 +5,18 @@
 #include <vector>
 
 #include "demos/scene/scene.h"
-#include "demos/scene/scene_override.h"
 
 namespace ambient {
+
+/// One option "--set PATH=VALUE". PATH: bodies.0.mass or bodies[0].mass; VALUE: JSON, or a string.
+struct SceneOverride {
+  std::string path;
+  std::string value;
+};
+
+/// Splits PATH=VALUE at the first "=".
+/// @throws std::invalid_argument if there is no "=" or the path is empty.
+SceneOverride parseOverride(const std::string& text);
 
 /// Reads a scene file: applies the overrides, then checks the schema and all limits. Does not open
 /// shape files.

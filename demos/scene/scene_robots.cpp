@@ -1,5 +1,3 @@
-#include "demos/scene/scene_robots.h"
-
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -7,8 +5,7 @@
 
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
-#include "demos/scene/json_values.h"
-#include "demos/scene/scene_checks.h"
+#include "demos/scene/scene_parts.h"
 #include "demos/scene/scene_water.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/robot/urdf_reader.h"

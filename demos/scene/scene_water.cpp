@@ -7,7 +7,7 @@
 #include <string>
 
 #include "bullet_ambient/force/medium/waves.h"
-#include "demos/scene/json_values.h"
+#include "demos/scene/scene_parts.h"
 
 namespace ambient {
 namespace {
@@ -24,13 +24,6 @@ Vector3 cornerAt(const json& bounds, const char* key, double open) {
     if (!side.is_null()) corner[axis] = side.get<double>();
   }
   return corner;
-}
-
-std::optional<RegionBounds> toBounds(const json& parent) {
-  const auto found = parent.find("bounds");
-  if (found == parent.end()) return std::nullopt;
-  constexpr double kOpen = std::numeric_limits<double>::infinity();
-  return RegionBounds{cornerAt(*found, "lowest", -kOpen), cornerAt(*found, "highest", kOpen)};
 }
 
 WaveComponent toWave(const json& from) {
@@ -59,20 +52,6 @@ std::vector<WaveComponent> toWaves(const json& water) {
   if (water.contains("waves"))
     for (const json& wave : water.at("waves")) waves.push_back(toWave(wave));
   return waves;
-}
-
-FluidRegion makeWaterRegion(const WaterDef& water, const Medium& above) {
-  FluidRegion region;
-  region.bounds = water.bounds;
-  region.below = water.medium;
-  region.above = above;
-  if (water.waves.empty()) {
-    region.surface = std::make_shared<StillWater>(water.sea.level, water.sea.up);
-    region.below.velocity = water.sea.current;
-  } else {
-    region.surface = std::make_shared<AiryWaves>(water.sea, water.waves);
-  }
-  return region;
 }
 
 // Checks a region of makeRegions(); messages use the name of the region in the scene file.
@@ -115,6 +94,27 @@ FluidRegion toRegion(const json& from) {
   region.bounds = toBounds(from);
   region.below = toMedium(from.at("medium"), Medium{});
   region.priority = from.value("priority", 0);
+  return region;
+}
+
+std::optional<RegionBounds> toBounds(const json& parent) {
+  const auto found = parent.find("bounds");
+  if (found == parent.end()) return std::nullopt;
+  constexpr double kOpen = std::numeric_limits<double>::infinity();
+  return RegionBounds{cornerAt(*found, "lowest", -kOpen), cornerAt(*found, "highest", kOpen)};
+}
+
+FluidRegion makeWaterRegion(const WaterDef& water, const std::optional<Medium>& above) {
+  FluidRegion region;
+  region.bounds = water.bounds;
+  region.below = water.medium;
+  region.above = above;
+  if (water.waves.empty()) {
+    region.surface = std::make_shared<StillWater>(water.sea.level, water.sea.up);
+    region.below.velocity = water.sea.current;
+  } else {
+    region.surface = std::make_shared<AiryWaves>(water.sea, water.waves);
+  }
   return region;
 }
 

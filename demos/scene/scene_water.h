@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <vector>
 
 #include "demos/scene/scene.h"
@@ -15,6 +16,12 @@ Medium toMedium(const nlohmann::json& from, const Medium& absent);
 WaterDef toWater(const nlohmann::json& from, const Vector3& gravity);
 
 FluidRegion toRegion(const nlohmann::json& from);
+
+/// Reads the key "bounds"; none if it is missing.
+std::optional<RegionBounds> toBounds(const nlohmann::json& parent);
+
+/// Makes the region of a water; `above`: the fluid above its surface, unset as in FluidRegion.
+FluidRegion makeWaterRegion(const WaterDef& water, const std::optional<Medium>& above);
 
 /// Regions of a scene in the order in which to add them: the water, with the scene's medium above,
 /// then the others. @throws std::invalid_argument naming value and limit.

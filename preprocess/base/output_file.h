@@ -21,9 +21,6 @@ class OutputFile {
   /// Renames the temporary file. @throws std::runtime_error in one line, if any write failed.
   void commit();
 
-  /// Path of the temporary file that holds the text until commit().
-  const std::filesystem::path& partial() const { return partial_; }
-
  private:
   std::filesystem::path file_;
   std::filesystem::path target_;

@@ -34,26 +34,6 @@ Node resolved(const Node& node) {
   return {node.document.at(json::json_pointer(target.substr(1))), node.document};
 }
 
-/// Returns the parts of the schema that apply to a place, under every condition; empty if the
-/// schema does not know the place.
-std::vector<Node> nodesAt(const Node& unresolved, Path::const_iterator part,
-                          Path::const_iterator end) {
-  const Node node = resolved(unresolved);
-  if (part == end) return {node};
-  std::vector<Node> found;
-  const auto descend = [&](const json& schema, Path::const_iterator from) {
-    for (const Node& deeper : nodesAt({schema, node.document}, from, end)) found.push_back(deeper);
-  };
-  const json& child = member(member(node.schema, "properties"), part->c_str());
-  if (!child.is_null()) descend(child, part + 1);
-  const json& others = member(node.schema, "additionalProperties");
-  if (others.is_object()) descend(others, part + 1);
-  const json& items = member(node.schema, "items");
-  if (isIndex(*part) && !items.is_null()) descend(items, part + 1);
-  for (const json& branch : member(node.schema, "allOf")) descend(branch["then"], part);
-  return found;
-}
-
 bool hasType(const json& value, const json& type) {
   if (type.is_array()) {
     return std::any_of(type.begin(), type.end(),
@@ -77,15 +57,6 @@ std::string keysOf(const json& object) {
   std::string keys;
   for (const auto& entry : object.items()) keys += (keys.empty() ? "" : ", ") + entry.key();
   return keys;
-}
-
-/// The properties of an object, under every condition.
-json propertiesOf(const Node& node) {
-  json all = member(node.schema, "properties");
-  if (all.is_null()) all = json::object();
-  for (const json& branch : member(node.schema, "allOf"))
-    all.update(propertiesOf({branch["then"], node.document}));
-  return all;
 }
 
 /// Goes through a value and its schema side by side.
@@ -183,29 +154,6 @@ JsonSchema::JsonSchema(const json& document, std::string subject)
 
 void JsonSchema::check(const json& value, const std::string& source) const {
   Checker(*this, source).check(value, {document_, document_});
-}
-
-std::string JsonSchema::unknownKey(const Path& path) const {
-  const Node root{document_, document_};
-  auto unknown = path.begin();
-  std::vector<Node> parents = nodesAt(root, path.begin(), unknown);
-  while (unknown != path.end()) {
-    std::vector<Node> nodes = nodesAt(root, path.begin(), unknown + 1);
-    if (nodes.empty()) break;
-    parents = std::move(nodes);
-    ++unknown;
-  }
-  if (unknown == path.end()) return "";
-  bool has_items = false;
-  json keys = json::object();  // in the order of their names
-  for (const Node& node : parents) {
-    has_items = has_items || node.schema.contains("items");
-    keys.update(propertiesOf(node));
-  }
-  return "unknown key " + json(*unknown).dump(-1, ' ', false, json::error_handler_t::replace) +
-         " in " + placeName(Path(path.begin(), unknown)) +
-         (keys.empty() ? (has_items ? ", whose elements have numbers" : ", which has no keys")
-                       : ", which has " + keysOf(keys));
 }
 
 std::string JsonSchema::placeName(const Path& path) const {

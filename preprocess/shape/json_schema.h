@@ -23,13 +23,10 @@ class JsonSchema {
   /// value and what the schema wants.
   void check(const nlohmann::json& value, const std::string& source) const;
 
-  /// Returns empty if the schema knows a place, such as {"bodies", "0", "mass"}, under some
-  /// condition; else a sentence about the first unknown part and the known keys there. In an array
-  /// any index is known.
-  std::string unknownKey(const std::vector<std::string>& path) const;
-
   /// "bodies[0].mass" for {"bodies", "0", "mass"}, the subject for {}.
   std::string placeName(const std::vector<std::string>& path) const;
+
+  const nlohmann::json& document() const { return document_; }
 
  private:
   const nlohmann::json& document_;

@@ -180,40 +180,45 @@ TEST(AmbientDemo, EscapesInNamesDoNotReachTheTerminal) {
   EXPECT_EQ((result.output + result.errors).find_first_of("\033\302"), std::string::npos);
 }
 
-TEST(AmbientDemo, RunsCasesAndCollectsThem) {
+TEST(AmbientDemo, SaysThatItsFolderCannotBeMadeBeforeItReadsAMesh) {
   const TemporaryFolder folder;
-  const std::string good = nlohmann::json{{"scene", smallBall()}}.dump() + "\n";
-  const nlohmann::json torn{{"bodies.0.linear_velocity", {1e200, 0, 0}}};
-  const std::string bad = nlohmann::json{{"scene", smallBall()}, {"set", torn}}.dump() + "\n";
-  const std::string cases = folder / "cases.jsonl", out = folder / "out";
-  writeText(cases, good + bad);
-  const ProgramResult failed = demo({"--cases", cases, "--out", out});
-  EXPECT_EQ(failed.exit_code, 1);
-  EXPECT_NE(failed.output.find("2 cases, 0 done before, 2 run in "), std::string::npos);
-  EXPECT_NE(failed.errors.find("1 of 2 cases failed"), std::string::npos) << failed.errors;
-  const ProgramResult shard = demo({"--cases", cases, "--out", out, "--shard", "0/2", "--quiet"});
-  EXPECT_EQ(shard.exit_code, 0);
-  EXPECT_EQ(shard.output + shard.errors, "");
-  const std::string table = folder / "table.csv";
-  EXPECT_EQ(demo({"--cases", cases, "--out", out, "--collect", table, "--quiet"}).exit_code, 0);
-  const std::string text = readText(table);
-  EXPECT_EQ(text.rfind("case,key,body,mass,end_time,", 0), 0u);
-  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2);
+  const std::string file = writeScene(folder, smallBall().dump());
+  const std::string mesh = R"(bodies.0.shape={"type": "mesh", "file": "gone.obj"})";
+  for (const std::string& out : {file, file + "/below"}) {
+    const ProgramResult result = demo({file, "--out", out, "--set", mesh});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_EQ(result.errors.rfind("ambient_demo: " + out + ": cannot be made: ", 0), 0u)
+        << result.errors;
+  }
+  std::filesystem::create_directory(folder / "out");
+  std::filesystem::create_symlink("/dev/null", folder / "out/summary.json");
+  const ProgramResult result = demo({file, "--out", folder / "out", "--set", mesh});
+  EXPECT_NE(result.errors.find("summary.json: is not a regular file"), std::string::npos)
+      << result.errors;
 }
 
-TEST(AmbientDemo, ARunOfCasesThatIsInterruptedSaysSo) {
+TEST(AmbientDemo, ASignalWhileAFlowIsSolvedLeavesNothing) {
   nlohmann::json scene = smallBall();
-  scene["model"] = "vacuum";
-  scene["duration"] = scene["output_step"] = 1e7;
-  const TemporaryFolder folder;
-  const std::string cases = folder / "cases.jsonl", out = folder / "out";
-  writeText(cases, nlohmann::json{{"scene", scene}}.dump());
+  scene["bodies"][0]["shape"] = {{"type", "mesh"}, {"file", AMBIENT_DATA "/meshes/bunny.obj"}};
+  scene["bodies"][0]["waterline_table"] = 4;  // minutes of flows
+  const TemporaryFolder input, output;
+  const std::string file = writeScene(input, scene.dump());
   const ProgramResult result =
-      interruptProgram(AMBIENT_DEMO_PROGRAM, {"--cases", cases, "--out", out}, 500);
-  EXPECT_EQ(result.exit_code, 1);
-  EXPECT_NE(result.errors.find("interrupted"), std::string::npos) << result.errors;
-  for (const auto& entry : std::filesystem::directory_iterator(out))
-    EXPECT_EQ(entry.path().filename(), "fluid_bodies");  // solved flows remain
+      interruptProgram(AMBIENT_DEMO_PROGRAM, {file, "--out", output / "a/b"}, 500);
+  EXPECT_EQ(result.exit_code, -1) << result.errors;
+  EXPECT_TRUE(output.empty());
+}
+
+TEST(AmbientDemo, SaysWhoRunsCases) {
+  for (const Arguments& arguments :
+       {Arguments{"--cases", "c.jsonl", "--out", "o", "--shard", "0/2"}, {"--cases=c.jsonl"}}) {
+    const ProgramResult result = demo(arguments);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.errors.find("python3 -m bullet_ambient --cases FILE.jsonl --out DIR"),
+              std::string::npos)
+        << result.errors;
+    EXPECT_EQ(result.errors.find('\n'), result.errors.size() - 1);
+  }
 }
 
 TEST(AmbientDemo, RefusesALinearDragThatIsNotPositive) {
@@ -228,44 +233,17 @@ TEST(AmbientDemo, RefusesAnUnknownScene) {
 }
 
 TEST(AmbientDemo, BadUsageExitsWithTwo) {
-  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
-           {},
-           {"plate_8cm", "--no-such-option"},
-           {"plate_8cm", "--set", "duration"},
-           {"plate_8cm", "plate_9cm"},
-           {"--cases", "cases.jsonl"},
-           {"--cases", "cases.jsonl", "--out", "out", "--shard", "2/2"},
-           {"--cases", "cases.jsonl", "--out", "out", "plate_8cm"},
-           {"plate_8cm", "--shard", "0/2"}}) {
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{},
+                                             {"plate_8cm", "--no-such-option"},
+                                             {"plate_8cm", "--set", "duration"},
+                                             {"plate_8cm", "plate_9cm"},
+                                             {"plate_8cm", "--shard", "0/2"}}) {
     const ProgramResult result = demo(arguments);
     EXPECT_EQ(result.exit_code, 2);
     EXPECT_EQ(result.errors.find("ambient_demo: "), 0u) << result.errors;
   }
   EXPECT_EQ(demo({"--help"}).exit_code, 0);
-}
-
-/// Returns the file names of a run with one case.
-std::vector<std::string> filesOfCase(const Arguments& more) {
-  const TemporaryFolder folder;
-  nlohmann::json scene = smallBall();
-  scene["model"] = "vacuum";
-  const std::string cases = folder / "cases.jsonl", out = folder / "out";
-  writeText(cases, nlohmann::json{{"scene", scene}}.dump() + "\n");
-  Arguments arguments{"--cases", cases, "--out", out, "--quiet"};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  EXPECT_EQ(demo(arguments).exit_code, 0);
-  std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(out))
-    if (entry.is_regular_file() && entry.path().extension() != ".ambient")
-      names.push_back(entry.path().filename());
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
-TEST(AmbientDemo, SummariesAreAllThatIsKeptWhereAskedFor) {
-  using Names = std::vector<std::string>;
-  EXPECT_EQ(filesOfCase({}), (Names{"geometry.json", "summary.json", "trajectory.csv"}));
-  EXPECT_EQ(filesOfCase({"--summaries"}), Names{"summary.json"});
 }
 
 }  // namespace

@@ -14,6 +14,8 @@ from blocks import COMMANDS, ROOT, all_blocks, pages
 
 BUILD = None
 REFERENCE = ROOT / "docs/file_format.md"  # its forms have all options
+MODULE = "bullet_ambient"
+PROGRAMS = ("ambient_demo", "ambient_preprocess", MODULE)
 OTHERS = "build/crates cd conan cp ctest npm parallel sbatch seq snakemake tar vcpkg".split()
 INLINE = re.compile(r"`((?:ambient_(?:demo|preprocess) |build/\w+/bin/|demos/run|tests/run|cmake |ctest )[^`]*)`")
 OPTION = re.compile(r"(?<![\w:=-])--?[a-z][a-z_-]*")
@@ -27,10 +29,12 @@ def words_of(*patterns):
 
 @cache
 def options_of(program, command):
-    """What --help of one of the two programs shows: for each option its names."""
-    arguments = [command, "--help"] if command else ["--help"]
-    run = subprocess.run([BUILD / "bin" / program, *arguments], capture_output=True, text=True, check=True)
-    return [set(names.split(",")) for names in re.findall(r"^  (-[\w,-]+)", run.stdout, re.MULTILINE)]
+    """What --help of one of the two programs, or of the Python module, shows: for each option its names."""
+    run = [sys.executable, "-m", program] if program == MODULE else [BUILD / "bin" / program]
+    environment = {**os.environ, "PYTHONPATH": str(BUILD / "python")}
+    question = [*run, *([command] if command else []), "--help"]
+    shown = subprocess.run(question, capture_output=True, text=True, check=True, env=environment).stdout
+    return [set(names.split(",")) for names in re.findall(r"^  (-[\w,-]+)", shown, re.MULTILINE)]
 
 
 def command_lines(block):
@@ -40,7 +44,9 @@ def command_lines(block):
         words = [word for word in line.split() if not re.match(r"\w+=", word)]
         while words and words[0] in ("do", "done", "for"):
             words = words[1:] if words[0] == "do" else []
-        if words:
+        if words[:3] == ["/usr/bin/python3", "-m", MODULE]:
+            yield MODULE, words[3:]
+        elif words:
             yield words[0], words[1:]
 
 
@@ -61,7 +67,7 @@ def wrong_in_cmake(words):
 
 def wrong_options(program, words):
     used = set(OPTION.findall(" ".join(words)))
-    if program in ("ambient_demo", "ambient_preprocess"):
+    if program in PROGRAMS:
         command = words[0] if program == "ambient_preprocess" else None
         known = set().union(*options_of(program, command))
     else:
@@ -73,6 +79,8 @@ def wrong_in_command(program, words):
     """What a command names that is not there."""
     name = re.sub(r"^build/\w+/bin/", "", program)
     script = ROOT / program
+    if name == MODULE:
+        return list(wrong_options(name, words))
     if name != program or name.startswith("ambient_"):
         if name.removesuffix("-float64") not in words_of("**/CMakeLists.txt"):
             return [f"there is no target {name}"]
@@ -121,7 +129,7 @@ class CommandTest(unittest.TestCase):
                     key = program, words[0] if program == "ambient_preprocess" else None
                     shown.setdefault(key, set()).update(OPTION.findall(" ".join(words)))
         for (program, command), options in shown.items():
-            if program.startswith("ambient_"):
+            if program in PROGRAMS:
                 with self.subTest(program=program, command=command):
                     missing = [names for names in options_of(program, command) if not names & (options | {"--help"})]
                     self.assertEqual(missing, [])

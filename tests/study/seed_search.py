@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Looks for winged seeds that begin to autorotate from rest by the default law.
 
 Draws the nut, wing and masses of data/meshes/make_winged_seed.py at random, keeps those whose centre of mass lies within
@@ -10,9 +10,10 @@ import csv
 import importlib.util
 import json
 import random
-import subprocess
 from math import cos, pi, sin, sqrt
 from pathlib import Path
+
+from bullet_ambient import run_cases
 
 ROOT = Path(__file__).resolve().parents[2]
 CHORD, LEADING_EDGE = 11e-3, 3.2e-3  # of the wing [m]
@@ -65,7 +66,6 @@ def autorotates(folder):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program", type=Path, help="ambient_demo")
     parser.add_argument("out", type=Path, help="folder for seeds and runs")
     parser.add_argument("--seeds", type=int, default=30)
     parser.add_argument("--chord", type=float, nargs=2, default=(0.25, 0.5), help="range of the centre of mass")
@@ -83,7 +83,8 @@ def main():
             changes = [{"bodies.0.orientation": release} for release in releases]
             changes += [SPUN | {"bodies.0.angular_velocity": [0, 0, spin]} for spin in (-200, 200)]
             cases.writelines(json.dumps({"scene": str(path), "set": change}) + "\n" for change in changes)
-    subprocess.run([arguments.program, "--cases", out / "cases.jsonl", "--out", out / "runs", "--quiet"], check=True)
+    if failures := run_cases(out / "cases.jsonl", out / "runs").failures:
+        raise SystemExit(f"{len(failures)} cases failed; the first: {failures[min(failures)]}")
     counts = {"from rest": [0, 0], "spun": [0, 0]}
     for summary in (out / "runs").glob("*/summary.json"):
         start = json.loads(summary.read_text())["bodies"][0]["start"]

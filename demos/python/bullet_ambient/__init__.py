@@ -12,10 +12,8 @@ _os.environ["PATH"] = _os.pathsep.join([_os.environ.get("PATH", _os.defpath), st
 
 from ._core import (
     Body,
-    FlowSettings,
     FluidBody,
     Loads,
-    Medium,
     Motion,
     Robot,
     Scene,
@@ -25,7 +23,9 @@ from ._core import (
     scene_names,
     water,
 )
-from .sweeps import CaseCounts, Rollout, collect, rollout, run_cases, write_cases
+from .cases import CaseCounts, collect, run_cases, write_cases
+from .settings import FlowSettings, Medium
+from .sweeps import Rollout, rollout
 
 __version__ = library_version.split()[1].rstrip(",")
 

@@ -10,6 +10,7 @@ All bodies of the world then float or sink in the water, also those that are add
 
 import importlib
 import json
+import math
 import tempfile
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Iterable, Mapping, Sequence
@@ -24,8 +25,8 @@ from bullet_ambient import FluidBody
 __all__ = ["Fluid", "Spectrum", "Wave", "plugin_path"]
 
 _PIECE = 1000  # largest number of bytes sent at once; PyBullet takes at most 1023
+_SPECTRUM = ("significant_height", "peak_period", "direction", "peak_enhancement", "components", "seed")  # of scenes
 _Vector = Sequence[float]
-_Value = Union[str, float, Iterable[Any], None]
 
 
 class Wave(NamedTuple):
@@ -53,22 +54,17 @@ def plugin_path() -> str:
     return str(Path(__file__).parent / "libbullet_ambient_pybullet.so")
 
 
-def _text(numbers: Iterable[Any]) -> str:
-    """Returns numbers, also of nested sequences, separated by commas."""
-    flat: list[float] = []
-    for number in numbers:
-        flat.extend(number if isinstance(number, Iterable) else [number])
-    return ",".join(repr(float(x)) for x in flat)
+def _plain(value: Any) -> Any:
+    """Converts what JSON does not know: arrays and numbers of NumPy."""
+    return value.tolist()
 
 
-def _word(key: str, value: _Value) -> str:
-    """Returns key=value, one word of a command."""
-    if isinstance(value, str):
-        if any(space in value for space in " \t\n"):
-            raise ValueError(f"{key}: '{value}' has spaces, which commands of PyBullet cannot have")
-        return f"{key}={value}"
-    numbers: Iterable[Any] = value if isinstance(value, Iterable) else [value]
-    return f"{key}={_text(numbers)}"
+def _corners(bounds: Optional[_Vector]) -> Optional[dict[str, Any]]:
+    """Converts six numbers to the bounds of a scene; infinite ones are open."""
+    if bounds is None:
+        return None
+    sides = [None if math.isinf(side) else float(side) for side in bounds]
+    return {"lowest": sides[:3], "highest": sides[3:]}
 
 
 class Fluid:
@@ -110,14 +106,15 @@ class Fluid:
         `bounds`: six numbers, lowest and highest corner [m]. `up`: direction against gravity. Where regions overlap, the
         one with the highest priority counts, and among equals the one added last.
         """
-        wave_text = None if waves is None else ";".join(_text(Wave(*wave)) for wave in waves)
-        self._give("water", level=level, density=density, viscosity=viscosity, current=current, waves=wave_text or None,
-                     spectrum=spectrum, wind=wind, bounds=bounds, up=up, priority=priority, name=name)
+        single = None if waves is None else [Wave(*wave)._asdict() for wave in waves]
+        sea = None if spectrum is None else dict(zip(_SPECTRUM, Spectrum(*spectrum)))
+        self._give("water", level=level, density=density, viscosity=viscosity, current=current, waves=single, spectrum=sea,
+                   wind=wind, bounds=_corners(bounds), up=up, priority=int(priority), name=name)
 
     def air(self, wind: Optional[_Vector] = None, *, bounds: Optional[_Vector] = None, density: Optional[float] = None,
             priority: int = 0, name: str = "air") -> None:
         """Adds or changes air with a wind [m/s], everywhere or within bounds."""
-        self._give("air", wind=wind, bounds=bounds, density=density, priority=priority, name=name)
+        self._give("air", wind=wind, bounds=_corners(bounds), density=density, priority=int(priority), name=name)
 
     def region(self, name: str = "region", *, density: Optional[float] = None, viscosity: Optional[float] = None,
                velocity: Optional[_Vector] = None, bounds: Optional[_Vector] = None, priority: int = 0) -> None:
@@ -125,12 +122,12 @@ class Fluid:
 
         Units: density [kg/m^3], viscosity [Pa s], velocity [m/s].
         """
-        self._give("region", name=name, density=density, viscosity=viscosity, velocity=velocity, bounds=bounds,
-                     priority=priority)
+        self._give("region", name=name, density=density, viscosity=viscosity, velocity=velocity, bounds=_corners(bounds),
+                   priority=int(priority))
 
     def remove(self, name: str = "water") -> None:
         """Removes a region."""
-        self._command("remove", name=name)
+        self._give("remove", name=name)
 
     def body(self, body: int, link: int = -1, source: Union[str, Path, FluidBody, Mapping[str, Any], None] = None, *,
              density: Optional[float] = None, drag: Optional[_Vector] = None, medium: Optional[str] = None,
@@ -145,17 +142,19 @@ class Fluid:
         """
         more: dict[str, Any] = {"density": density, "drag": drag, "medium": medium, "law": law}
         if source is None:
-            return self._give("body", [body, link], **more)
+            self._give("body", body=body, link=link, **more)
+            return
         inertial = self._bullet.getDynamicsInfo(body, link, physicsClientId=self._client)[3:5]
         more["origin"], more["rotation"] = self._bullet.invertTransform(*inertial)
         if isinstance(source, Mapping):
             source = FluidBody.from_shape(source, origin=(0, 0, 0))
         if isinstance(source, (str, Path)):
-            return self._give("body", [body, link], file=str(Path(source).resolve()), **more)
+            self._give("body", body=body, link=link, file=str(Path(source).resolve()), **more)
+            return
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder) / "chosen.ambient"
             source.write(file)
-            self._give("body", [body, link], file=str(file), **more)
+            self._give("body", body=body, link=link, file=str(file), **more)
 
     def read_urdf(self, body: int, file: Union[str, Path]) -> None:
         """Honours the `<ambient>` elements of the URDF file that a body came from; PyBullet itself passes over them.
@@ -182,7 +181,7 @@ class Fluid:
 
     def exclude(self, body: int, link: Optional[int] = None) -> None:
         """Removes a body, or one link of it (-1: the base), from the fluid for good; it then moves as in stock PyBullet."""
-        self._command("exclude", [body] if link is None else [body, link])
+        self._give("exclude", body=body, link=link)
 
     def settings(self, *, law: Optional[str] = None, separation: Optional[float] = None,
                  folder: Optional[str] = None) -> None:
@@ -195,7 +194,7 @@ class Fluid:
 
     def inertia(self, body: int, link: int = -1) -> npt.NDArray[np.float64]:
         """Returns the total inertia (6, 6) of a body or link, rotation first, in its frame at its centre of mass."""
-        return np.array(json.loads(self._command("inertia", [body, link])))
+        return np.array(json.loads(self._give("inertia", body=body, link=link)))
 
     def mass_matrix(self, body: int) -> npt.NDArray[np.float64]:
         """Returns the joint-space inertia with the fluid, 6 + joints rows and columns.
@@ -203,7 +202,7 @@ class Fluid:
         The first six are the angular velocity and the velocity of the base in world axes. `pybullet.calculateMassMatrix`
         computes it without a fluid.
         """
-        return np.array(json.loads(self._command("mass_matrix", [body])))
+        return np.array(json.loads(self._give("mass_matrix", body=body)))
 
     def wrench(self, body: int, link: int = -1) -> dict[str, npt.NDArray[np.float64]]:
         """Returns wrenches on a body or link in the last substep, by part.
@@ -212,7 +211,7 @@ class Fluid:
         "friction", "buoyancy", "waves", "wind" and "added_mass"; "constraints" are those of contacts and joints. The first
         call returns those of the present pose and velocity, without the last two; later ones those of the last substep.
         """
-        parts = json.loads(self._command("wrench", [body, link]))
+        parts = json.loads(self._give("wrench", body=body, link=link))
         return {name: np.array(part) for name, part in parts.items()}
 
     def wet(self, body: int, link: int = -1) -> dict[str, Any]:
@@ -221,7 +220,7 @@ class Fluid:
         "volume" [m^3], "share" of its volume, "draught" of its lowest point [m] (None without a surface), "area" [m^2],
         "centre_of_buoyancy" [m].
         """
-        answer: dict[str, Any] = json.loads(self._command("wet", [body, link]))
+        answer: dict[str, Any] = json.loads(self._give("wet", body=body, link=link))
         return answer
 
     def wet_volume(self, body: int, link: int = -1) -> float:
@@ -230,11 +229,11 @@ class Fluid:
 
     def save(self) -> int:
         """Saves the state of world and fluid, and returns its number. `pybullet.saveState` does not save the fluid."""
-        return int(self._command("save"))
+        return int(self._give("save"))
 
     def restore(self, state: int) -> None:
         """Restores a state of save(), from which the motion goes on bit for bit."""
-        self._command("restore", [state])
+        self._give("restore", state=state)
 
     def status(self) -> dict[str, Any]:
         """Returns the names of regions, counters of the steps, the first 100 reports of the fluid ("said"), and "bodies".
@@ -242,7 +241,7 @@ class Fluid:
         "shapes" says how many forms of shapes the process has "made", and "read" from files. Each of "bodies" has the numbers of body and link, "mass" [kg], "volume" [m^3], their "density", and how its fluid
         body was "made".
         """
-        answer: dict[str, Any] = json.loads(self._command("status"))
+        answer: dict[str, Any] = json.loads(self._give("status"))
         return answer
 
     def off(self) -> None:
@@ -250,23 +249,22 @@ class Fluid:
 
         Do not call `pybullet.unloadPlugin`: the next `loadPlugin` after it, of any plugin, ends the process.
         """
-        self._command("off")
+        self._give("off")
 
-    def _give(self, command: str, integers: Sequence[int] = (), /, **values: _Value) -> None:
-        self._command(command, integers, **{key: value for key, value in values.items() if value is not None})
-
-    def _command(self, name: str, integers: Sequence[int] = (), /, **values: _Value) -> str:
-        text = " ".join([name, *(_word(key, value) for key, value in values.items())])
+    def _give(self, name: str, /, **values: Any) -> str:
+        """Gives the plugin a command with all values that are not None, and returns its answer."""
+        given = {key: value for key, value in values.items() if value is not None}
+        text = json.dumps({name: given}, default=_plain, allow_nan=False)
         while len(text) > _PIECE:
-            self._send("+" + text[:_PIECE], ())
+            self._send("+" + text[:_PIECE])
             text = text[_PIECE:]
             if text.startswith("+"):  # of a number; as the last text it would be taken for one more piece
-                self._send("+" + text[:1], ())
+                self._send("+" + text[:1])
                 text = text[1:]
-        return self._send(text, integers)
+        return self._send(text)
 
-    def _send(self, text: str, integers: Sequence[int]) -> str:
-        answer = self._bullet.executePluginCommand(self._plugin, text, list(integers), physicsClientId=self._client)
+    def _send(self, text: str) -> str:
+        answer = self._bullet.executePluginCommand(self._plugin, text, physicsClientId=self._client)
         if not isinstance(answer, tuple):
             if answer < 0:
                 raise ValueError("the command failed, and PyBullet does not say why; is the client connected?")

@@ -1,4 +1,4 @@
-"""Many runs at a time: in memory, or as cases of a file with their results in a folder."""
+"""Many runs at a time, in memory."""
 
 from __future__ import annotations
 
@@ -6,8 +6,7 @@ import json
 import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Any, NamedTuple, Optional, Union
+from typing import Any, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -45,12 +44,40 @@ class Rollout:
         np.savez_compressed(path, **arrays)
 
 
-class CaseCounts(NamedTuple):
-    """Counts of one shard: its cases, cases that had results before, and error messages of cases that failed, by index."""
+def _columns() -> dict[str, tuple[str | int, ...]]:
+    """Returns the columns of a summary, with their places in a body's entry of summary.json."""
+    places: dict[str, tuple[str | int, ...]] = {"body": ("name",), "mass": ("mass",), "end_time": ("end", "time")}
+    for vector, axes in (("position", "xyz"), ("orientation", "wxyz"), ("linear_velocity", "xyz"), ("angular_velocity", "xyz")):
+        places.update({f"end_{vector}_{axis}": ("end", vector, i) for i, axis in enumerate(axes)})
+    places["path_length"] = ("path", "length")
+    places.update({name: ("path", name) for name in ("largest_speed", "largest_height")})
+    places["landing_time"] = ("path", "landing", "time")
+    places.update({f"landing_{axis}": ("path", "landing", "position", i) for i, axis in enumerate("xyz")})
+    fall = ("mode", "overturns", "swings", "turns", "largest_swing", "descent_speed", "drift_speed")
+    places.update({name: ("fall", name) for name in fall})
+    places.update({name: ("work", name) for name in ("substeps", "load_evaluations")})
+    places["guarded_evaluations"] = ("work", "guarded")
+    places.update({f"{name}_steps": ("work", name) for name in ("coarse", "halted")})
+    places["energy_removed"] = ("work", "energy_removed")
+    return places
 
-    cases: int
-    done_before: int
-    failures: dict[int, str]
+
+_COLUMNS = _columns()
+
+
+def _cell(name: str, body: Any) -> str | float:
+    """Returns a word or a number of a body's entry of summary.json; "" or NaN if it has none."""
+    value = body
+    for step in _COLUMNS[name]:
+        value = value.get(step) if isinstance(value, dict) else value and value[step]
+    if name in ("body", "mode"):
+        return value or ""
+    return float("nan") if value is None else float(value)
+
+
+def _rows(summary: str) -> list[list[str | float]]:
+    """Converts the text of a summary.json to one row per body: end pose, path, fall and computational work."""
+    return [[_cell(name, body) for name in _COLUMNS] for body in json.loads(summary)["bodies"]]
 
 
 def _structured(columns: Sequence[str], rows: Sequence[Sequence[str | float]]) -> npt.NDArray[Any]:
@@ -115,57 +142,18 @@ def rollout(
         runs = list(scenes)
     if duration is not None:
         runs = [scene.replace({"duration": duration}) for scene in runs]
-    arrays, columns, rows, errors = _core._rollout(runs, threads, motion, cache, progress)
-    blank = [[float("nan")] * len(columns)] * len(runs[0].bodies)
-    table = _structured(columns, [row for run in rows for row in run or blank])
+    if not runs:
+        raise ValueError("there are no scenes")
+    bodies = [len(scene.bodies) for scene in runs]
+    for i, count in enumerate(bodies):
+        if count != bodies[0]:
+            raise ValueError(f"scene {i} has {count} bodies, scene 0 has {bodies[0]}")
+    rows: list[list[list[str | float]]] = [[[float("nan")] * len(_COLUMNS)] * bodies[0] for _ in runs]
+
+    def take(index: int, summary: str, *_: str) -> None:
+        rows[index] = _rows(summary)
+
+    more = {"threads": threads, "motion": motion, "texts": False, "cache": cache, "report": True, "progress": progress}
+    arrays, errors = _core._run_scenes(runs, take, **more)
+    table = _structured(list(_COLUMNS), [row for run in rows for row in run])
     return Rollout(arrays, table.reshape(len(runs), -1), errors)
-
-
-def write_cases(path: _Path, scene: str | Mapping[str, Any], overrides: Mapping[str, Any]) -> int:
-    """Writes a file of cases, one per line: a scene by name, path or content, and the i-th value of each override.
-
-    Returns the number of cases. For all combinations of values, give numpy.meshgrid(...) raveled.
-    """
-    sets = _override_sets(overrides)
-
-    def plain(value: Any) -> Any:
-        return value.tolist()
-
-    lines = [json.dumps({"scene": scene, "set": one}, default=plain) + "\n" for one in sets]
-    Path(path).write_text("".join(lines))
-    return len(lines)
-
-
-def run_cases(
-    cases: _Path,
-    out: _Path,
-    *,
-    shard: tuple[int, int] = (0, 1),
-    threads: int = 0,
-    motion: bool = True,
-    progress: _Progress = None,
-) -> CaseCounts:
-    """Runs the cases of a file that have no result in the folder yet, as `ambient_demo --cases` does.
-
-    Parameters
-    ----------
-    cases : file of lines {"scene": name, path or scene, "set": {path: value}}
-    out : folder for the results of all shards; each case has a folder there, named by its key
-    shard : (i, n): cases with index i modulo n
-    threads : 0 (default): all cores
-    motion : False: keep summary.json alone
-    progress : called with the numbers of ended and of all runs
-
-    It may be stopped at any moment and called again, by other processes, too, and ends with the same results. Cases that
-    failed are listed in `out`.
-    """
-    return CaseCounts(*_core._run_cases(cases, out, shard, threads=threads, motion=motion, progress=progress))
-
-
-def collect(cases: _Path, out: _Path) -> npt.NDArray[Any]:
-    """Returns the results of finished cases in the order of the file: a structured array, one row per body.
-
-    Columns: case, key, the overrides by their paths, and the columns of Rollout.summary.
-    """
-    return _structured(*_core._collect(cases, out))
-

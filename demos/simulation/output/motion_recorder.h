@@ -6,6 +6,12 @@
 
 namespace ambient {
 
+/// Interpolates between two samples: cubic Hermite in position and rotation vector, linear in the
+/// twist. For smooth motion the error of the pose is of fourth order in the interval. At either
+/// end the result is the sample, bit for bit.
+/// @pre from.time <= time <= to.time
+MotionSample interpolateMotion(const MotionSample& from, const MotionSample& to, double time);
+
 /// Records the motion of bodies at chosen times from samples at successive steps of a world;
 /// interpolates between two steps. Successive quaternions have a positive scalar product.
 class MotionRecorder {

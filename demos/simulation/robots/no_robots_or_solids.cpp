@@ -1,4 +1,4 @@
-#include "demos/scene/scene_robots.h"
+#include "demos/scene/scene_parts.h"
 #include "demos/simulation/robots/robots_in_world.h"
 #include "preprocess/mesh/input_error.h"
 

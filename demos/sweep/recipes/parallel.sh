@@ -6,4 +6,4 @@ cases=$1 out=$2
 shift 2
 mkdir -p "$out"
 seq 0 63 | parallel --joblog "$out/parallel.log" --resume-failed "$@" \
-  ambient_demo --cases "$cases" --out "$out" --shard {}/64 --threads 1 --quiet
+  /usr/bin/python3 -m bullet_ambient --cases "$cases" --out "$out" --shard {}/64 --threads 1 --quiet

@@ -50,12 +50,11 @@ void FakeServer::unload() {  // b3PluginManager.cpp:340: without a server in the
   plugin_ = nullptr;
 }
 
-std::string FakeServer::command(const std::string& text, const std::vector<int>& integers) {
+std::string FakeServer::command(const std::string& text) {
   Arguments arguments{};
   // PhysicsClientC_API.cpp: a text that does not fit is left out.
   if (text.size() < sizeof arguments.text)
     std::memcpy(arguments.text, text.c_str(), text.size() + 1);
-  for (const int integer : integers) arguments.ints[arguments.int_count++] = integer;
   Context context = makeContext();
   context.server = this;
   const int result =

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "demos/pybullet/silent_helper.h"
+#include "demos/pybullet/pybullet_interface.h"
 
 namespace ambient::pybullet::test {
 
@@ -29,7 +29,7 @@ class FakeServer : public Server, public Client {
   /// p.unloadPlugin()
   void unload();
   /// p.executePluginCommand(): the result, a space and the answer
-  std::string command(const std::string& text, const std::vector<int>& integers = {});
+  std::string command(const std::string& text);
   /// p.resetSimulation(); `in_one_round`: other clients' commands run before notifications come
   void reset(bool in_one_round = false);
   /// p.setPhysicsEngineParameter(constraintSolverType=)

@@ -411,10 +411,19 @@ class LifeTest(Case):
         self.fluid.water(level=0, waves=[Wave(1e-4, 2 + 0.01 * i, phase=1e5) for i in range(200)])
         self.assertTrue(self.floats())
 
+    def test_names_may_have_spaces_and_pools_open_sides(self):
+        self.fluid.off()
+        self.fluid.water(level=0, bounds=(-math.inf, -math.inf, -math.inf, 1e3, 1e3, math.inf), name="a pool")
+        self.assertEqual(self.fluid.status()["regions"], ["a pool"])
+        self.assertTrue(self.floats())
+        self.fluid.remove("a pool")
+        self.assertFalse(self.floats())
+
     def test_bad_values(self):
         for call in (lambda: self.fluid.water(density=-1), lambda: self.fluid.water(level=math.nan),
                      lambda: self.fluid.inertia(77), lambda: self.fluid.settings(law="any"), lambda: self.fluid.restore(0),
-                     lambda: self.fluid.remove("pool"), lambda: self.fluid.water(name="a b")):
+                     lambda: self.fluid.remove("pool"), lambda: self.fluid.water(waves=[Wave(-1, 2)]),
+                     lambda: self.fluid.water(spectrum=Spectrum(1, 5, components=1.5)), lambda: self.fluid.air(bounds=[0, 1])):
             with self.assertRaises(ValueError) as caught:
                 call()
             self.assertNotIn("\n", str(caught.exception))

@@ -59,10 +59,15 @@ class SettingsTest(unittest.TestCase):
         self.assertNotEqual(water, 3)
 
     def test_bad_keywords_and_words_are_refused(self):
-        with self.assertRaisesRegex(TypeError, "known are density, viscosity"):
+        with self.assertRaisesRegex(TypeError, "unexpected keyword argument 'densty'"):
             ba.Medium(densty=1)
         with self.assertRaisesRegex(TypeError, r"Medium.velocity cannot be \(1, 2\)"):
             ba.Medium(velocity=(1, 2))
+        for wrong in ({"density": "1"}, {"density": None}, {"velocity": 1}, {"velocity": ("1", 0, 0)}):
+            with self.assertRaisesRegex(TypeError, f"Medium.{next(iter(wrong))} cannot be "):
+                ba.Medium(**wrong)
+        with self.assertRaisesRegex(TypeError, "1 is no Medium"):
+            ba.FluidBody.from_shape({"type": "sphere", "radius": 1}).loads([0] * 6, 1)
         with self.assertRaisesRegex(ValueError, 'law is "mine"; must be form or published'):
             ba.FlowSettings(law="mine")
         with self.assertRaisesRegex(ValueError, r"Medium: density \[kg/m\^3\] is nan; must be zero or positive"):
@@ -163,7 +168,7 @@ class FluidBodyTest(Temporary):
             body.polar(0, forward="w")
         with self.assertRaisesRegex(TypeError, "unknown keyword velocity"):
             body.polar(0, velocity=3)
-        with self.assertRaisesRegex(TypeError, r"^Medium\(\): takes keywords alone: density, viscosity, velocity, acceleration$"):
+        with self.assertRaisesRegex(TypeError, "takes 1 positional argument"):
             ba.Medium(1.2, 1e-5)
 
     def test_files_and_pickles_are_the_same_body(self):
@@ -652,9 +657,12 @@ class CasesTest(Temporary):
         for i in (1, 0):
             counts = ba.run_cases(cases, self.folder / "python", shard=(i, 2))
         self.assertEqual(counts, (3, 0, {}))
-        subprocess.run([DEMO, "--cases", cases, "--out", self.folder / "demo", "--quiet"], check=True)
-        for file in (self.folder / "demo").glob("*/trajectory.csv"):
-            self.assertEqual((self.folder / "python" / file.relative_to(self.folder / "demo")).read_bytes(), file.read_bytes())
+        (self.folder / "cases.json").write_text(json.dumps(STILL))
+        for mass in masses:
+            subprocess.run([DEMO, self.folder / "cases.json", "--out", self.folder / "demo", "--quiet", "--set", f"bodies.0.mass={mass}"], check=True)
+            key = ba.Scene(STILL, {"bodies.0.mass": mass, "model": "ambient"}).key
+            for name in ("trajectory.csv", "geometry.json"):
+                self.assertEqual((self.folder / "python" / key / name).read_bytes(), (self.folder / "demo" / name).read_bytes())
         table = ba.collect(cases, self.folder / "python")
         np.testing.assert_array_equal(table["case"], range(5))
         np.testing.assert_array_equal(table["bodies.0.mass"], masses)

@@ -1,7 +1,6 @@
-#include "demos/simulation/output/geometry_text.h"
-
 #include <gtest/gtest.h>
 
+#include "demos/simulation/output/run_files.h"
 #include "tests/demos/scene/scene_text.h"
 #include "tests/demos/simulation/scenes/run_scene.h"
 

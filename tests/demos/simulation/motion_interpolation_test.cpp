@@ -1,8 +1,8 @@
-#include "demos/simulation/output/motion_interpolation.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "demos/simulation/output/motion_recorder.h"
 
 namespace ambient {
 namespace {

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "demos/scene/scene_lookup.h"
-#include "demos/simulation/output/trajectory_text.h"
+#include "demos/simulation/output/run_files.h"
 #include "preprocess/shape/shape_mesh.h"
 #include "tests/demos/simulation/scenes/run_scene.h"
 #include "tests/support/temporary_folder.h"

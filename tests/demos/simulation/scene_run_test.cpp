@@ -5,8 +5,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "demos/simulation/output/trajectory_text.h"
-#include "demos/simulation/summary.h"
+#include "demos/simulation/output/run_files.h"
 #include "preprocess/base/fluid_body_writer.h"
 #include "preprocess/builder/shape_builder.h"
 #include "tests/demos/scene/scene_text.h"

@@ -1,16 +1,14 @@
 #!/usr/bin/python3
-"""Cases of ambient_demo that are killed in the midst, again and again, end with the results of a run that was not."""
+"""Cases that are killed in the midst, again and again, end with the results of a run that was not."""
 
 import json
 import subprocess
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-from sweep_cases import done, kill_after, write_cases
+from sweep_cases import SWEEP, done, kill_after, write_cases
 
-PROGRAM = sys.argv.pop(1)
 CASES = 60
 
 
@@ -23,7 +21,7 @@ class KilledTest(unittest.TestCase):
         write_cases(self.cases, CASES)
 
     def command(self, out, *more):
-        return [PROGRAM, "--cases", self.cases, "--out", out, "--quiet", *more]
+        return [*SWEEP, "--cases", self.cases, "--out", out, "--quiet", *more]
 
     def table(self, out):
         file = self.folder / f"{out.name}.csv"

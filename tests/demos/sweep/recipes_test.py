@@ -12,7 +12,7 @@ import time
 import unittest
 from pathlib import Path
 
-from sweep_cases import done, kill_after, write_cases
+from sweep_cases import SWEEP, done, kill_after, write_cases
 
 BIN = Path(sys.argv.pop(1)).resolve()
 ROOT = Path(__file__).resolve().parents[3]
@@ -51,12 +51,12 @@ class RecipesTest(unittest.TestCase):
 
     def table(self, out):
         file = self.folder / "table.csv"
-        subprocess.run([BIN / "ambient_demo", "--cases", self.cases, "--out", out, "--collect", file, "--quiet"], check=True)
+        subprocess.run([*SWEEP, "--cases", self.cases, "--out", out, "--collect", file, "--quiet"], check=True)
         return file.read_text()
 
     def assertResultsAreRight(self):
         whole = self.folder / "whole"
-        subprocess.run([BIN / "ambient_demo", "--cases", self.cases, "--out", whole, "--quiet"], check=True)
+        subprocess.run([*SWEEP, "--cases", self.cases, "--out", whole, "--quiet"], check=True)
         self.assertEqual(done(self.out), CASES)
         self.assertEqual(self.table(self.out), self.table(whole))
 
@@ -68,7 +68,7 @@ class RecipesTest(unittest.TestCase):
         self.assertLess(done(self.out), CASES)
         # One worker is killed under the next start, which says so; the third ends it.
         process = subprocess.Popen(command, **options)
-        while not (workers := [pid for pid in children(process.pid) if named(pid, "ambient_demo\0--cases")]):
+        while not (workers := [pid for pid in children(process.pid) if named(pid, "bullet_ambient\0--cases")]):
             time.sleep(0.001)
         os.kill(workers[-1], signal.SIGKILL)
         self.assertNotEqual(process.wait(), 0)

@@ -4,7 +4,10 @@ import json
 import os
 import signal
 import subprocess
+import sys
 import time
+
+SWEEP = (sys.executable, "-m", "bullet_ambient")
 
 
 def write_cases(file, count, duration=2):

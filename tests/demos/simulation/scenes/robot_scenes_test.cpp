@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "demos/simulation/output/trajectory_text.h"
+#include "demos/simulation/output/run_files.h"
 #include "demos/simulation/simulation.h"
 #include "tests/demos/simulation/scenes/run_scene.h"
 #include "tests/reference/ellipsoid_added_mass.h"

@@ -1,4 +1,4 @@
-#include "demos/sweep/sweep.h"
+#include "demos/simulation/sweep.h"
 
 #include <atomic>
 #include <chrono>

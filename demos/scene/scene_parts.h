@@ -5,8 +5,34 @@
 #include "bullet_ambient/base/plain_text.h"
 #include "bullet_ambient/force/law/pressure_law.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
+#include "demos/scene/scene.h"
+#include "preprocess/shape/json_schema.h"
+
+// What the sources that read scenes share.
 
 namespace ambient {
+
+/// Content of data/schema/scene.schema.json, compiled into the program.
+const JsonSchema& sceneSchema();
+
+/// Checks all conditions on a scene that the schema does not express.
+/// @throws std::runtime_error, one line that names the file, the place, the value and the limit.
+void checkScene(const Scene& scene);
+
+/// Tolerance for the norm of an orientation: rounding of printed digits.
+constexpr double kQuaternionTolerance = 1e-6;
+
+/// Tolerance for the limits of a separation angle: rounding of printed digits [rad].
+constexpr double kAngleTolerance = 1e-6;
+
+/// End of the line that refuses what is built with BULLET_AMBIENT_WHOLE_DEMO=ON only.
+constexpr char kNeedsWholeDemo[] =
+    "needs the whole ambient_demo: `demos/run SCENE`, or CMake's -DBULLET_AMBIENT_WHOLE_DEMO=ON";
+
+/// Reads the entry of a robot and its URDF file. Adds the robot to scene.robots, and each link with
+/// a collision shape to scene.bodies, named robot/link. @pre the schema has accepted the entry
+/// @throws std::runtime_error, one line that names the file, the place, the value and the limit.
+void addRobot(const nlohmann::json& from, Scene& scene);
 
 // Values of keys of a scene. @pre the schema has accepted them
 

@@ -5,6 +5,8 @@
 
 #include "demos/analysis/motion_sample.h"
 #include "demos/scene/scene.h"
+#include "demos/simulation/body_preparation.h"
+#include "demos/simulation/scene_run.h"
 
 namespace ambient {
 
@@ -20,5 +22,14 @@ std::string makeTrajectoryText(const Scene& scene,
                                const std::vector<std::vector<MotionSample>>& motion,
                                const std::string& further_names = "",
                                const std::vector<std::vector<std::string>>& further = {});
+
+/// Text of geometry.json: data for a viewer of trajectory.csv to draw the bodies and the slip on
+/// their faces. Lengths have the digits of a float.
+std::string makeGeometryText(const Scene& scene, const std::vector<PreparedBody>& bodies);
+
+/// Text of summary.json: numbers of the scene, computational work, and for each body its path and,
+/// if it is a plate, its falling mode.
+std::string makeSummary(const Scene& scene, const std::vector<PreparedBody>& bodies,
+                        const RunRecord& record);
 
 }  // namespace ambient
