@@ -78,12 +78,8 @@ int frequencyFor(int faces) { return std::max(2, static_cast<int>(std::sqrt(face
 
 /// Makes the solid of a hull.
 Solid makeHullSolid(const Hull& hull, const SolidResolution& resolution, const std::string& name) {
-  // Hulls of more triangles than those of 64 points, which convex decompositions make, are taken
-  // for round bodies that their points lie on.
-  constexpr Eigen::Index kMostOfPolyhedron = 124;
-  const TriangleMesh mesh = hullOf(hull.points, name);
-  Solid solid = solidOf(evenlyDivided(mesh, resolution.faces));
-  solid.is_polyhedron = mesh.triangleCount() <= kMostOfPolyhedron;
+  Solid solid = solidOf(evenlyDivided(hullOf(hull.points, name), resolution.faces));
+  solid.is_polyhedron = true;
   return solid;
 }
 
