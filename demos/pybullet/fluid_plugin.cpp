@@ -215,9 +215,7 @@ std::string FluidPlugin::wet(const Command& command) {
   return answer.dump();
 }
 
-std::string FluidPlugin::save(const Command&) {
-  return std::to_string(requireCurrent().save());
-}
+std::string FluidPlugin::save(const Command&) { return std::to_string(requireCurrent().save()); }
 
 std::string FluidPlugin::restore(const Command& command) {
   requireCurrent().restore(command.values.at("state").get<std::size_t>());
