@@ -9,7 +9,7 @@ namespace {
 
 static_assert(sizeof(LinkState::axis) == kMaxJointAxes * sizeof(AxisPair));
 
-AxisRow rowOf(const Vector3& a) { return {{a[0], a[1], a[2], 0}}; }
+AxisRow rowOf(const Vector3& a) { return AxisRow{{a[0], a[1], a[2], 0}}; }
 template <class Block>
 AxisMatrix matrixOf(const Block& m) {
   return {{rowOf(m.col(0)), rowOf(m.col(1)), rowOf(m.col(2))}};
@@ -102,11 +102,11 @@ void LinkDynamics::takeModel(const Link& link, LinkState& state) noexcept {
     state.flow_W = rowOf(s.ambient_velocity);
     state.flow_acceleration_W = rowOf(s.ambient_acceleration);
   } else {
-    state.inertia = {matrixOf(Matrix3(link.inertia.asDiagonal())),
-                     {},
+    state.inertia = {matrixOf(Matrix3(link.inertia.asDiagonal())), AxisMatrix{},
                      matrixOf(Matrix3(link.mass * Matrix3::Identity()))};
-    state.coupling_transposed = {};
-    state.buoyancy_W = state.centre_of_volume = state.flow_W = state.flow_acceleration_W = {};
+    state.coupling_transposed = AxisMatrix{};
+    state.buoyancy_W = state.centre_of_volume = state.flow_W = state.flow_acceleration_W =
+        AxisRow{};
   }
   state.applied_W = pairOf(applied);
 }
@@ -185,7 +185,7 @@ void LinkDynamics::takeJointForces() noexcept {
 void LinkDynamics::respond(const CoordinatesIn& force, CoordinatesOut response) noexcept {
   AMBIENT_ASSERT(force.size() == coordinates_ && response.size() == coordinates_);
   for (LinkState& link : links_) {
-    link.force = {};
+    link.force = AxisPair{};
     for (int i = 0; i < link.axis_count; ++i) link.rest[i] = force[link.first + i];
   }
   const Matrix3 to_base = rotation(0).transpose();

@@ -23,7 +23,7 @@ AxisRow spread(const AxisRow& a) {
 inline AxisRow nextAxes(const AxisRow& a) {
   return {__builtin_shufflevector(a.at, a.at, 1, 2, 0, 3)};
 }
-inline AxisRow rowOf(const double* xyz) { return {{xyz[0], xyz[1], xyz[2], 0}}; }
+inline AxisRow rowOf(const double* xyz) { return AxisRow{{xyz[0], xyz[1], xyz[2], 0}}; }
 inline double sum(const AxisRow& a) { return a.at[0] + a.at[1] + a.at[2]; }
 inline double dot(const AxisRow& a, const AxisRow& b) { return sum(a * b); }
 inline AxisRow cross(const AxisRow& a, const AxisRow& b) {
@@ -136,7 +136,7 @@ void place(LinkState* links, int count) noexcept {
     link.external = {to_link * link.applied_W.angular + cross(link.centre_of_volume, buoyancy),
                      to_link * link.applied_W.linear + buoyancy};
     if (link.accelerates_flow)
-      link.external = link.external + times(link, {{}, to_link * link.flow_acceleration_W});
+      link.external = link.external + times(link, {AxisRow{}, to_link * link.flow_acceleration_W});
   }
 }
 
