@@ -41,7 +41,8 @@ _threads.__name__ = "number from 0 to 1024"
 
 def _arguments() -> argparse.Namespace:
     text = 'Runs many scenes: {"scene": ..., "set": {PATH: VALUE}} per line.'
-    parser = _Parser(prog="bullet_ambient", usage="python3 -m bullet_ambient --cases FILE.jsonl --out DIR [OPTIONS]", description=text, add_help=False, allow_abbrev=False)
+    usage = "python3 -m bullet_ambient --cases FILE.jsonl --out DIR [OPTIONS]"
+    parser = _Parser(prog="bullet_ambient", usage=usage, description=text, add_help=False, allow_abbrev=False)
     parser.add_argument("--help", action="help", help="print this")
     parser.add_argument("--cases", metavar="FILE.jsonl", required=True, help="the cases")
     parser.add_argument("--out", metavar="DIR", required=True, help="folder of the results of all shards")

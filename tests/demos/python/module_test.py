@@ -659,7 +659,8 @@ class CasesTest(Temporary):
         self.assertEqual(counts, (3, 0, {}))
         (self.folder / "cases.json").write_text(json.dumps(STILL))
         for mass in masses:
-            subprocess.run([DEMO, self.folder / "cases.json", "--out", self.folder / "demo", "--quiet", "--set", f"bodies.0.mass={mass}"], check=True)
+            command = [DEMO, self.folder / "cases.json", "--out", self.folder / "demo", "--quiet"]
+            subprocess.run([*command, "--set", f"bodies.0.mass={mass}"], check=True)
             key = ba.Scene(STILL, {"bodies.0.mass": mass, "model": "ambient"}).key
             for name in ("trajectory.csv", "geometry.json"):
                 self.assertEqual((self.folder / "python" / key / name).read_bytes(), (self.folder / "demo" / name).read_bytes())
