@@ -149,7 +149,7 @@ inline SymmetricOf<Real> stiffened(const SymmetricOf<Real>& inertia,
       for (int j = i; j < 6; ++j) entry(K, i, j) = entry(K, i, j) + scale * N[i] * N[j];
   };
   add(modes.heave, modes.stiffness[0]);
-  for (int i = 0; i < 2; ++i) add({modes.tilt[i], {}}, modes.stiffness[i + 1]);
+  for (int i = 0; i < 2; ++i) add({modes.tilt[i], VectorsOf<Real>{}}, modes.stiffness[i + 1]);
   return K;
 }
 
