@@ -226,6 +226,50 @@ class AttachedFormLoads final : public SurfaceLoads {
   std::shared_ptr<const SurfaceLoads> separated_, attached_;
 };
 
+/// Loads on a sphere that the surface of its fluid may cut, from those on unitSphere() in a fluid
+/// with the viscosity over R: with lengths in radii forces grow by R^2, torques by R^3.
+class WetSphereLoads final : public SurfaceLoads {
+ public:
+  WetSphereLoads(std::shared_ptr<const SurfaceLoads> on_unit, const FluidBody& sphere)
+      : on_unit_(std::move(on_unit)),
+        centre_(sphere.centre_of_volume),
+        radius_(sphere.sphere_radius) {}
+
+  Wrench load(const Twist& x) const noexcept override { return parts(x).total(); }
+  FaceLoads parts(const Twist& x) const noexcept override {
+    return enlarged(on_unit_->parts(inRadii(x)));
+  }
+  Wrench wetLoad(const Twist& x, const WetPart& wet) const noexcept override {
+    const PlaneInRadii surface(wet.plane, centre_, radius_);
+    return enlarged(on_unit_->wetLoad(inRadii(x), {surface.plane, wet.share}));
+  }
+  FaceLoads wetParts(const Twist& x, const WetPart& wet) const noexcept override {
+    const PlaneInRadii surface(wet.plane, centre_, radius_);
+    return enlarged(on_unit_->wetParts(inRadii(x), {surface.plane, wet.share}));
+  }
+  int faces() const noexcept override { return on_unit_->faces(); }
+  bool needsGuard() const noexcept override { return on_unit_->needsGuard(); }
+  double wakeShare() const noexcept override { return on_unit_->wakeShare(); }
+  /// Frame at the sphere's centre with the axes of F.
+  FrameOffset frame(const FrameOffset& fluid_frame) const override {
+    return {fluid_frame.rotation, fluid_frame.rotation * centre_ + fluid_frame.translation};
+  }
+
+ private:
+  Twist inRadii(const Twist& x) const noexcept { return {radius_ * x.angular, x.linear}; }
+  Wrench enlarged(const Wrench& load) const noexcept {
+    const double square = radius_ * radius_;
+    return {square * radius_ * load.torque, square * load.force};
+  }
+  FaceLoads enlarged(const FaceLoads& loads) const noexcept {
+    return {enlarged(loads.pressure), enlarged(loads.friction)};
+  }
+
+  std::shared_ptr<const SurfaceLoads> on_unit_;
+  Vector3 centre_;
+  double radius_;
+};
+
 // Checks the faces of a fluid body that the user's code may have filled.
 void checkFaces(const FluidBody& body) {
   const FaceTable& faces = body.faces;
@@ -336,7 +380,8 @@ std::shared_ptr<const SurfaceLoads> waterlineLawOf(const Body& body, const LoadS
   if (!(body->sphere_radius > 0)) return waterlineLoadsOnFaces(body, settings, on_all);
   LoadSettings in_radii = ofBall(settings);
   in_radii.viscosity /= body->sphere_radius;
-  return makeWetSphereLoads(waterlineLoadsOnFaces(unitSphere(), in_radii, on_all), *body);
+  return std::make_shared<WetSphereLoads>(waterlineLoadsOnFaces(unitSphere(), in_radii, on_all),
+                                          *body);
 }
 
 // False for a medium without loads, and for one that later checks reject.

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
-#include "bullet_ambient/force/loads/surface_loads.h"
+#include "bullet_ambient/force/medium/surface_plane.h"
 
 namespace ambient {
 
@@ -11,10 +11,14 @@ namespace ambient {
 /// take the loads on their wet part from these, whatever faces they have. Made once per process.
 std::shared_ptr<const FluidBody> unitSphere();
 
-/// Makes the loads on a sphere that the surface of its fluid may cut. `on_unit`: those on
-/// unitSphere() in a fluid with the viscosity over R. With lengths in radii forces grow by R^2,
-/// torques by R^3.
-std::shared_ptr<const SurfaceLoads> makeWetSphereLoads(std::shared_ptr<const SurfaceLoads> on_unit,
-                                                       const FluidBody& sphere);
+/// Surface of the fluid at a sphere of a radius [m] and a centre in F [m], with lengths in radii
+/// about the centre. `plane_at_centre` is in a frame at the centre with the axes of F.
+struct PlaneInRadii {
+  PlaneInRadii(const SurfacePlane& plane_at_centre, const Vector3& centre, double radius) noexcept;
+  PlaneInRadii(const PlaneInRadii&) = delete;  // plane points to sides
+
+  SurfacePlane plane;
+  PoolSides sides;
+};
 
 }  // namespace ambient
