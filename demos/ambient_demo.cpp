@@ -3,8 +3,10 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <filesystem>
@@ -47,15 +49,28 @@ struct Parsed {
   std::optional<int> exit_code;
 };
 
-/// Cases of a file are run by the Python module. @throws std::invalid_argument that says so
-void refuseCases(int argc, char** argv) {
-  const auto is_cases = [](const char* argument) {
-    return std::strncmp(argument, "--cases", std::strlen("--cases")) == 0;
-  };
-  if (std::any_of(argv + 1, argv + argc, is_cases))
-    throw std::invalid_argument(
-        "--cases: run them by `python3 -m bullet_ambient --cases FILE.jsonl --out DIR`, with the "
-        "same options (CMake's -DBULLET_AMBIENT_PYTHON=ON)");
+bool isCases(const char* argument) {
+  return std::strncmp(argument, "--cases", std::strlen("--cases")) == 0;
+}
+
+/// Becomes `python3 -m bullet_ambient` with the same arguments, which runs files of cases.
+/// @throws std::runtime_error in one line if there is no Python module, or no Python
+[[noreturn]] void runCases(int argc, char** argv) {
+  if (*AMBIENT_PYTHON == '\0')
+    throw std::runtime_error(
+        "ambient_demo: --cases needs the Python module: build with -DBULLET_AMBIENT_PYTHON=ON, or "
+        "where it is installed, python3 -m bullet_ambient --cases FILE.jsonl --out DIR");
+  std::vector<std::string> words{AMBIENT_PYTHON, "-m", "bullet_ambient"};
+  words.insert(words.end(), argv + 1, argv + argc);
+  const char* others = std::getenv("PYTHONPATH");
+  const std::string path = AMBIENT_PYTHON_PATH + (others ? ":" + std::string(others) : "");
+  ::setenv("PYTHONPATH", path.c_str(), 1);
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  ::execv(AMBIENT_PYTHON, arguments.data());
+  throw std::runtime_error("ambient_demo: " AMBIENT_PYTHON " cannot be started: " +
+                           std::string(std::strerror(errno)));
 }
 
 Parsed parseArguments(int argc, char** argv) {
@@ -74,11 +89,10 @@ Parsed parseArguments(int argc, char** argv) {
   app.add_option("--log", log, "Further columns of trajectory.csv: wrench, wet, or both")
       ->type_name("WORDS");
   app.add_flag("--quiet", parsed.arguments.quiet, "Print errors only");
-  app.footer("Many scenes: python3 -m bullet_ambient --help");
+  app.footer("Many scenes: --cases FILE.jsonl --out DIR [--shard I/N], by the Python module");
   try {
     const std::string empty = emptyArgument(argc, argv);
     if (!empty.empty()) throw std::invalid_argument(empty);
-    refuseCases(argc, argv);
     app.parse(argc, argv);
     for (const std::string& text : sets) parsed.arguments.overrides.push_back(parseOverride(text));
     parsed.arguments.log = parseFluidLog(log);
@@ -202,6 +216,7 @@ void runAndWrite(const Arguments& arguments) {
 }
 
 int run(int argc, char** argv) {
+  if (std::any_of(argv + 1, argv + argc, isCases)) runCases(argc, argv);
   const Parsed parsed = parseArguments(argc, argv);
   if (parsed.exit_code) return *parsed.exit_code;
   if (parsed.arguments.list)

@@ -209,15 +209,21 @@ TEST(AmbientDemo, ASignalWhileAFlowIsSolvedLeavesNothing) {
   EXPECT_TRUE(output.empty());
 }
 
-TEST(AmbientDemo, SaysWhoRunsCases) {
-  for (const Arguments& arguments :
-       {Arguments{"--cases", "c.jsonl", "--out", "o", "--shard", "0/2"}, {"--cases=c.jsonl"}}) {
-    const ProgramResult result = demo(arguments);
-    EXPECT_EQ(result.exit_code, 2);
-    EXPECT_NE(result.errors.find("python3 -m bullet_ambient --cases FILE.jsonl --out DIR"),
-              std::string::npos)
-        << result.errors;
+TEST(AmbientDemo, RunsCasesByThePythonModule) {
+  const TemporaryFolder folder;
+  writeText(folder / "cases.jsonl",
+            R"({"scene": ")" + (folder / "ball.json").string() + R"(", "set": {"duration": 0.1}})");
+  writeText(folder / "ball.json", smallBall().dump());
+  const ProgramResult result = demo({"--cases", (folder / "cases.jsonl").string(), "--shard", "0/1",
+                                     "--out", (folder / "out").string()});
+  if (AMBIENT_HAS_PYTHON) {
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_FALSE(std::filesystem::is_empty(folder / "out"));
+  } else {
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_NE(result.errors.find("BULLET_AMBIENT_PYTHON=ON"), std::string::npos) << result.errors;
     EXPECT_EQ(result.errors.find('\n'), result.errors.size() - 1);
+    EXPECT_FALSE(std::filesystem::exists(folder / "out"));
   }
 }
 
