@@ -1,237 +1,212 @@
 #include "tests/study/reality/falling_cases.h"
 
-#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
 #include <utility>
+#include <variant>
 
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
+#include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/mesh/shapes/primitives.h"
-#include "tests/study/reality/falling_bodies.h"
+#include "preprocess/potential_flow/results/ellipsoid_added_mass.h"
+#include "preprocess/shape/json_text.h"
+#include "preprocess/shape/shape_reader.h"
 
 namespace ambient {
 namespace {
 
-constexpr double kBroadside = 1.17;  // C_D for speed and gravity scales if a case has no other
-const Medium kUnitFluid{1, 1.0 / 2000, Vector3::Zero(), Vector3::Zero()};
+using nlohmann::json;
 
-/// Sets fluid and gravity so that terminal speed broadside is 1.
-void weigh(FallingCase& falling, double area) {
-  falling.medium = kUnitFluid;
-  falling.gravity = kBroadside * area / (2 * (falling.mass - falling.body->volume));
-  falling.time_step = 1.0 / 60;
-  falling.duration = 120;
-}
+/// What follows from a shape, axes along x, y, z.
+struct FallingShape {
+  TriangleMesh mesh;
+  Vector3 size;  ///< full lengths; of a sheet z = 0 [m]
+  /// Principal moments of a mass with these full lengths [kg m^2].
+  Vector3 (*inertia)(double mass, const Vector3& size);
+  std::optional<Matrix6> added_mass = {};  ///< per unit density; none: the flow is solved
+  bool is_round = true;                    ///< false: a box or rectangle
+  double sphere_radius = 0;
 
-using Cases = std::vector<FallingCase>;
-
-void addReleases(Cases& cases, FallingCase falling, const std::vector<double>& tilts) {
-  for (const double tilt : tilts) {
-    falling.tilt = tilt;
-    cases.push_back(falling);
-  }
-}
-
-/// Field et al. 1997: discs by dimensionless moment of inertia I*.
-void addDiscs(Cases& cases) {
-  FallingCase disc{"disc", "disc"};
-  disc.body = sheetOf(makeEllipticSheetMesh(0.5, 0.5, 300), addedMassOfDisc(0.5));
-  for (const double inertia : {.001, .002, .004, .006, .015, .02, .03, .1, .2, .5}) {
-    disc.parameter = inertia;
-    disc.mass = 16 * inertia;
-    disc.inertia = disc.mass / 16 * Vector3(1, 1, 2);
-    weigh(disc, kPi / 4);
-    addReleases(cases, disc, {5, 45, 85});
-  }
-}
-
-/// Discs with round edges, 10 : 1, by dimensionless moment of inertia I*.
-void addSpheroids(Cases& cases) {
-  FallingCase disc{"spheroid", "spheroid 10:1"};
-  const Vector3 semi_axes(0.5, 0.5, 0.05);
-  disc.body = solidOf(makeEllipsoidMesh(semi_axes, 720), addedMassOfEllipsoid(semi_axes));
-  for (const double inertia : {.004, .006, .008, .015, .03, .1, .2, .3}) {
-    disc.parameter = inertia;
-    disc.mass = 20 * inertia;  // I = m d^2 / 20, about a diameter
-    disc.inertia = disc.mass / 5 * Vector3(0.2525, 0.2525, 0.5);
-    weigh(disc, kPi / 4);
-    addReleases(cases, disc, {5, 45, 85});
-  }
-}
-
-/// Belmonte et al. 1998: strips by Froude number.
-void addStrips(Cases& cases) {
-  const Vector3 size(1, 8, 0);
-  FallingCase strip{"strip", "strip"};
-  strip.body = sheetOf(makeRectangularSheetMesh(size.x(), size.y(), 300), addedMassOfStrip(size));
-  for (const double froude : {.3, .4, .5, .55, .6, .65, .7, .75, .85, 1.0, 1.3, 2.0}) {
-    strip.parameter = froude;
-    strip.mass = froude * froude * size.y();
-    strip.inertia = inertiaOfBox(strip.mass, size);
-    weigh(strip, size.y());
-    addReleases(cases, strip, {20, 45, 70});
-  }
-}
-
-/// Andersen et al. 2005: aluminium plates in water, by thickness over chord.
-void addPlates(Cases& cases) {
-  constexpr double kThickness = 0.81e-3;
-  for (const int slenderness : {14, 8, 5}) {
-    const double chord = slenderness * kThickness;
-    const Vector3 size(chord, 8 * chord, kThickness);
-    FallingCase plate{"plate", "1/" + std::to_string(slenderness), 1.0 / slenderness};
-    plate.body = solidOf(makeBoxMesh(size / 2, 600), addedMassOfStrip(size));
-    plate.mass = 2700 * size.prod();
-    plate.inertia = inertiaOfBox(plate.mass, size);
-    plate.medium = water();
-    plate.time_step = 1e-3;
-    plate.duration = 4;
-    for (const double tilt : {11.5, 30.0, 60.0}) {
-      plate.tilt = tilt;
-      plate.keeps_path = tilt == 11.5;
-      cases.push_back(plate);
-    }
-  }
-}
-
-struct Card {
-  const char* name;
-  double width, length, mass_per_area;
+  double plan() const { return (is_round ? kPi / 4 : 1) * size.x() * size.y(); }
+  double volume() const { return (is_round ? kPi / 6 : 1) * size.prod(); }
 };
 
-FallingCase cardOf(const char* family, const Card& c) {
-  FallingCase card{family, c.name, c.mass_per_area};
-  card.body = sheetOf(makeRectangularSheetMesh(c.width, c.length, 400));
-  card.mass = c.mass_per_area * c.width * c.length;
-  card.inertia = inertiaOfBox(card.mass, {c.width, c.length, 0});
-  card.medium = air();
-  card.time_step = 1.0 / 240;
-  card.duration = 6;
-  return card;
+Matrix6 diagonal(const Vector3& rotation, const Vector3& translation) {
+  Matrix6 made = Matrix6::Zero();
+  made.diagonal() << rotation, translation;
+  return made;
 }
 
-/// Cards in air that tumble about their long axis.
-void addCards(Cases& cases) {
-  const Card cards[] = {{"business card 300 g/m2", .055, .085, .3},
-                        {"paper 160 g/m2", .05, .1, .16},
-                        {"board 1000 g/m2", .055, .085, 1},
-                        {"strip of paper 80 g/m2", .02, .07, .08}};
-  for (const Card& c : cards) addReleases(cases, cardOf("card", c), {60, 85});
+Matrix6 addedMassOfEllipsoid(const Vector3& semi_axes) {
+  return ellipsoidAddedMass(semi_axes).asDiagonal();
 }
 
-/// Mahadevan et al. 1999: long cards, by width and by mass per area.
-void addLongCards(Cases& cases) {
-  const Card cards[] = {{"width 30 mm", .03, .3, .3},
-                        {"width 45 mm", .045, .3, .3},
-                        {"width 60 mm", .06, .3, .3},
-                        {"150 g/m2", .045, .3, .15},
-                        {"600 g/m2", .045, .3, .6}};
-  for (const Card& c : cards) addReleases(cases, cardOf("long card", c), {60});
+Matrix6 addedMassOfDisc(double radius) {
+  const double turn = 16 * portable::pow(radius, 5) / 45;
+  return diagonal({turn, turn, 0}, {0, 0, 8 * portable::pow(radius, 3) / 3});
 }
 
-/// Flat round coin without relief, released 5 degrees off level.
-FallingCase coinOf(const char* family, const std::string& name, double mass, double diameter,
-                   double density) {
-  const double radius = diameter / 2, height = mass / (density * kPi * radius * radius);
-  FallingCase coin{family, name, mass, 5};
-  coin.body = solidOf(makeCylinderMesh(radius, height, 600), addedMassOfDisc(radius));
-  coin.mass = mass;
+/// Elliptic cylinder of chord, span and thickness (x, y, z), flow in the x-z plane.
+Matrix6 addedMassOfStrip(const Vector3& size) {
+  const double a = size.x() / 2, c = size.z() / 2, span = size.y();
+  const double turn = kPi / 8 * portable::pow(a * a - c * c, 2) * span;
+  const double x = kPi * c * c * span, z = kPi * a * a * span;
+  return diagonal({z * span * span / 12, turn, x * span * span / 12}, {x, 0, z});
+}
+
+Vector3 inertiaOfBox(double mass, const Vector3& size) {
+  const Vector3 squares = size.cwiseProduct(size);
+  return mass / 12 * (Vector3::Constant(squares.sum()) - squares);
+}
+
+Vector3 inertiaOfEllipsoid(double mass, const Vector3& size) {
+  const Vector3 q = (size / 2).cwiseAbs2();
+  return mass / 5 * Vector3(q.y() + q.z(), q.z() + q.x(), q.x() + q.y());
+}
+
+Vector3 inertiaOfBall(double mass, const Vector3& size) {
+  return Vector3::Constant(mass * size.x() * size.x() / 10);
+}
+
+Vector3 inertiaOfDisc(double mass, const Vector3& size) {
+  return mass / 16 * size.x() * size.x() * Vector3(1, 1, 2);
+}
+
+Vector3 inertiaOfCylinder(double mass, const Vector3& size) {
+  const double radius = size.x() / 2, height = size.z();
   const double across = mass * (3 * radius * radius + height * height) / 12;
-  coin.inertia = {across, across, mass * radius * radius / 2};
-  return coin;
+  return {across, across, mass * radius * radius / 2};
 }
 
-/// A Czech coin in water; the density is that of plated steel.
-FallingCase czechCoin(const char* family, const std::string& name, double mass, double diameter) {
-  FallingCase coin = coinOf(family, name, mass, diameter, 7800);
-  coin.medium = water();
-  coin.time_step = 1.0 / 480;
-  coin.duration = 4;
-  return coin;
+FallingShape shapeOf(const Ellipsoid& e, int faces) {
+  return {makeEllipsoidMesh(e.semi_axes, faces), 2 * e.semi_axes, inertiaOfEllipsoid,
+          addedMassOfEllipsoid(e.semi_axes)};
 }
 
-/// Czech coins in water.
-void addCoins(Cases& cases) {
-  cases.push_back(czechCoin("coin", "coin_2", 3.70e-3, 21.5e-3));
-  cases.push_back(czechCoin("coin", "coin_5", 4.80e-3, 23.0e-3));
-  cases.push_back(czechCoin("coin", "coin_10", 7.62e-3, 24.5e-3));
-  cases.push_back(czechCoin("coin", "coin_20", 8.42e-3, 26e-3));
-  cases.push_back(czechCoin("coin", "coin_50", 9.70e-3, 27.5e-3));
+FallingShape shapeOf(const Sphere& s, int faces) {
+  FallingShape made = shapeOf(Ellipsoid{Vector3::Constant(s.radius)}, faces);
+  made.inertia = inertiaOfBall;
+  made.sphere_radius = s.radius;
+  return made;
 }
 
-/// Motions drawn after the law was frozen: coins in a tank of 38 cm, a US cent in air, and playing
-/// cards dropped flat and on edge.
-void addDrawn(Cases& cases) {
-  Cases coins;
-  addCoins(coins);
-  coins.insert(coins.begin(), czechCoin("coin", "coin_1", 3.60e-3, 20.0e-3));
-  for (FallingCase& coin : coins) {
-    coin.family = "dropped coin";
-    coin.depth = 0.38;
-    addReleases(cases, coin, {2, 5, 10});
-  }
-  FallingCase cent = coinOf("dropped coin", "cent", 2.5e-3, 19.05e-3, 7140);  // mostly zinc
-  cent.medium = air();
-  cent.time_step = 1.0 / 480;
-  cent.duration = 8;
-  addReleases(cases, cent, {2, 5, 10});
-  FallingCase card = cardOf("playing card", {"flat", .063, .088, .325});
-  card.duration = 3;
-  addReleases(cases, card, {2, 5, 10});
-  card.name = "on edge";
-  addReleases(cases, card, {80, 85, 88});
+FallingShape shapeOf(const EllipseSheet& e, int faces) {
+  const double radius = e.semi_axes.x(), d = 2 * radius;
+  return {makeEllipticSheetMesh(radius, radius, faces),
+          {d, d, 0},
+          inertiaOfDisc,
+          addedMassOfDisc(radius)};
 }
 
-/// Cubes and balls of wood and of stone in water, by size.
-void addCubesAndSpheres(Cases& cases) {
-  const auto cube = solidOf(makeBoxMesh(Vector3::Constant(0.5), 1200));
-  const auto ball = ballOf(0.5);
-  for (const double density : {600.0, 2500.0}) {
-    for (const double size : {0.05, 0.1, 0.2, 0.4}) {
-      FallingCase falling{"cube", std::to_string(static_cast<int>(density)), size, 3};
-      falling.body = std::make_shared<FluidBody>(scaled(*cube, size));
-      falling.mass = density * portable::pow(size, 3);
-      falling.inertia = inertiaOfBox(falling.mass, Vector3::Constant(size));
-      falling.medium = water();
-      falling.time_step = 1.0 / 60;
-      falling.duration = 12 * std::sqrt(size);
-      cases.push_back(falling);
-      falling.family = "sphere";
-      falling.body = std::make_shared<FluidBody>(scaled(*ball, size));
-      falling.mass *= kPi / 6;
-      falling.inertia = Vector3::Constant(falling.mass * size * size / 10);
+/// A coin, with the added mass of a disc.
+FallingShape shapeOf(const Cylinder& c, int faces) {
+  const double d = 2 * c.radius;
+  return {makeCylinderMesh(c.radius, c.height, faces),
+          {d, d, c.height},
+          inertiaOfCylinder,
+          addedMassOfDisc(c.radius)};
+}
+
+FallingShape shapeOf(const Box& b, int faces) {
+  return {makeBoxMesh(b.half_sizes, faces), 2 * b.half_sizes, inertiaOfBox, {}, false};
+}
+
+FallingShape shapeOf(const RectangleSheet& r, int faces) {
+  const double x = r.size.x(), y = r.size.y();
+  return {makeRectangularSheetMesh(x, y, faces), {x, y, 0}, inertiaOfBox, {}, false};
+}
+
+template <class Other>
+FallingShape shapeOf(const Other&, int) {
+  throw std::runtime_error("no falls of this shape");
+}
+
+FluidBody bodyOf(const FallingShape& shape) {
+  BuildSettings settings;
+  settings.name = "falling body";
+  settings.origin = Eigen::Vector3d::Zero();
+  settings.flow.max_panels = 800;
+  settings.flow.sheet = shape.size.z() == 0;
+  settings.sphere_radius = shape.sphere_radius;
+  settings.added_mass = shape.added_mass;
+  return makeFluidBody(shape.mesh, settings);
+}
+
+double massOf(const json& fall, const FallingShape& shape, double scale) {
+  if (fall.contains("mass")) return fall["mass"];
+  if (!fall.contains("density"))
+    return fall.at("mass_per_area").get<double>() * shape.size.x() * shape.size.y();
+  return fall["density"].get<double>() * portable::pow(scale, 3) * shape.volume();
+}
+
+/// Sets fluid, and in the unit fluid gravity, so that the terminal speed broadside is 1.
+void immerse(FallingCase& falling, const std::string& fluid, double plan) {
+  constexpr double kBroadside = 1.17;  // C_D
+  falling.medium = fluid == "water" ? water()
+                   : fluid == "air" ? air()
+                                    : Medium{1, 1.0 / 2000, Vector3::Zero(), Vector3::Zero()};
+  if (fluid != "unit") return;
+  falling.gravity = kBroadside * plan / (2 * (falling.mass - falling.body->volume));
+}
+
+/// Makes the cases of a file; bodies of one shape share the flow.
+class CaseReader {
+ public:
+  explicit CaseReader(std::string source) : source_(std::move(source)) {}
+
+  void add(const json& fall) {
+    const ShapeDescription description = readShape(fall.at("shape"), {}, source_);
+    FallingShape shape = std::visit([&](const auto& s) { return shapeOf(s, description.faces); },
+                                    description.geometry);
+    if (fall.contains("added_mass")) shape.added_mass = addedMassOfStrip(shape.size);
+    const double scale = fall.value("scale", 1.0);
+    FallingCase falling{fall.at("family"), fall.at("name"), fall.at("parameter")};
+    falling.body = scaledBody(description.text, shape, scale);
+    falling.mass = massOf(fall, shape, scale);
+    falling.inertia = shape.inertia(falling.mass, scale * shape.size);
+    immerse(falling, fall.at("fluid"), shape.plan());
+    falling.time_step = 1 / fall.at("hertz").get<double>();
+    falling.duration = fall.at("duration");
+    falling.depth = fall.value("depth", 0.0);
+    for (const json& tilt : fall.at("tilts")) {
+      falling.tilt = tilt;
+      falling.keeps_path = fall.value("keeps_path", 0.0) == falling.tilt;
       cases.push_back(falling);
     }
   }
-}
 
-struct Group {
-  const char* name;
-  void (*add)(Cases&);
+  std::vector<FallingCase> cases;
+
+ private:
+  std::shared_ptr<const FluidBody> scaledBody(const std::string& text, const FallingShape& shape,
+                                              double scale) {
+    std::shared_ptr<const FluidBody>& body = bodies_[text];
+    if (!body) body = std::make_shared<FluidBody>(bodyOf(shape));
+    return scale == 1 ? body : std::make_shared<const FluidBody>(scaled(*body, scale));
+  }
+
+  std::string source_;
+  std::map<std::string, std::shared_ptr<const FluidBody>> bodies_;  ///< by the text of their shape
 };
-
-constexpr Group kGroups[] = {{"cubes and balls", addCubesAndSpheres},
-                             {"cards", addCards},
-                             {"long cards", addLongCards},
-                             {"coins", addCoins},
-                             {"plates", addPlates},
-                             {"strips", addStrips},
-                             {"discs", addDiscs},
-                             {"spheroids", addSpheroids},
-                             {"drawn", addDrawn}};
 
 }  // namespace
 
-std::vector<std::string> fallingGroups() {
-  std::vector<std::string> names;
-  for (const Group& group : kGroups) names.emplace_back(group.name);
-  return names;
-}
-
-std::vector<FallingCase> makeFallingCases(const std::string& group) {
-  Cases cases;
-  for (const Group& known : kGroups)
-    if (known.name == group) known.add(cases);
-  return cases;
+std::vector<FallingCase> readFallingCases(const std::filesystem::path& file,
+                                          const std::string& group) {
+  CaseReader reader(file.string());
+  const json data = parseJson(readBytes(file), file.string());
+  for (const json& known : data.at("groups")) {
+    if (!group.empty() && known.at("name") != group) continue;
+    for (const json& fall : known.at("falls")) {
+      json whole = known.at("all");
+      whole.update(fall);
+      reader.add(whole);
+    }
+  }
+  return reader.cases;
 }
 
 }  // namespace ambient

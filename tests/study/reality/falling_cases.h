@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -27,10 +28,10 @@ struct FallingCase {
   double depth = 0;  ///< at which the horizontal distance from the release is taken [m]; 0: nowhere
 };
 
-/// Names of groups of bodies with a measured fall: "cubes and balls", "cards", ...
-std::vector<std::string> fallingGroups();
-
-/// Returns the cases of one group; empty for an unknown group.
-std::vector<FallingCase> makeFallingCases(const std::string& group);
+/// Reads the cases of a group of data/reality/falls.json, such as "cards"; of all without a name.
+/// Solves the flow around each body once.
+/// @throws std::runtime_error or nlohmann::json::exception if the file is damaged.
+std::vector<FallingCase> readFallingCases(const std::filesystem::path& file,
+                                          const std::string& group = {});
 
 }  // namespace ambient

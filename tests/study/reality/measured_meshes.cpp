@@ -5,6 +5,8 @@
 
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
+#include "preprocess/mesh/graded_grid.h"
+#include "preprocess/mesh/shapes/convex_hull.h"
 #include "preprocess/mesh/shapes/primitives.h"
 
 namespace ambient {
@@ -31,17 +33,7 @@ class MeshWriter {
     addTriangle(a, b, c);
     addTriangle(a, c, d);
   }
-  TriangleMesh mesh() const {
-    TriangleMesh made;
-    made.vertices.resize(3, static_cast<Eigen::Index>(vertices_.size()));
-    made.triangles.resize(3, static_cast<Eigen::Index>(triangles_.size()));
-    for (std::size_t i = 0; i < vertices_.size(); ++i)
-      made.vertices.col(static_cast<Eigen::Index>(i)) = vertices_[i];
-    for (std::size_t i = 0; i < triangles_.size(); ++i)
-      made.triangles.col(static_cast<Eigen::Index>(i)) = triangles_[i];
-    return made;
-  }
-  const std::vector<Vector>& vertices() const { return vertices_; }
+  TriangleMesh mesh() const { return makeTriangleMesh(vertices_, triangles_); }
 
  private:
   std::vector<Vector> vertices_;
@@ -58,30 +50,6 @@ std::vector<int> addRing(MeshWriter& writer, double radius, double z) {
         writer.addVertex({radius * portable::cos(angle), radius * portable::sin(angle), z}));
   }
   return ring;
-}
-
-/// Points in the plane of three, if all others lie behind this plane: a side of the hull.
-std::vector<int> sideThrough(const std::vector<Vector>& points, const Vector& origin,
-                             const Vector& normal) {
-  const double size = (points.front() - points.back()).norm();
-  std::vector<int> side;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double height = (points[i] - origin).dot(normal);
-    if (height > 1e-9 * size) return {};
-    if (height > -1e-9 * size) side.push_back(static_cast<int>(i));
-  }
-  return side;
-}
-
-/// Sorts points of a side counter-clockwise about the normal.
-void sortRound(std::vector<int>& side, const std::vector<Vector>& points, const Vector& normal) {
-  Vector centre = Vector::Zero();
-  for (const int i : side) centre += points[i] / static_cast<double>(side.size());
-  const Vector x = (points[side[0]] - centre).normalized(), y = normal.cross(x);
-  const auto angle = [&](int i) {
-    return portable::atan2((points[i] - centre).dot(y), (points[i] - centre).dot(x));
-  };
-  std::sort(side.begin(), side.end(), [&](int a, int b) { return angle(a) < angle(b); });
 }
 
 /// Half thickness of the NACA four-digit series over the thickness, closed at the tail; x from the
@@ -108,26 +76,9 @@ TriangleMesh turnedMesh(const Profile& profile) {
 }
 
 TriangleMesh hullMesh(const std::vector<Vector>& points) {
-  MeshWriter writer;
-  for (const Vector& p : points) writer.addVertex(p);
-  const int count = static_cast<int>(points.size());
-  for (int a = 0; a < count; ++a) {
-    for (int b = 0; b < count; ++b) {
-      for (int c = a + 1; c < count; ++c) {
-        const Vector normal = (points[b] - points[a]).cross(points[c] - points[a]);
-        if (b <= a || b == c || normal.norm() == 0) continue;
-        std::vector<int> side = sideThrough(points, points[a], normal.normalized());
-        // Takes each side once: from its three points of least index, in either order.
-        if (side.size() < 3 || side[0] != a || std::min(b, c) != side[1] ||
-            std::max(b, c) != side[2])
-          continue;
-        sortRound(side, points, normal.normalized());
-        for (std::size_t i = 2; i < side.size(); ++i)
-          writer.addTriangle(side[0], side[i - 1], side[i]);
-      }
-    }
-  }
-  return writer.mesh();
+  return makeConvexHull(Eigen::Map<const Eigen::Matrix3Xd>(
+                            points.front().data(), 3, static_cast<Eigen::Index>(points.size())),
+                        "hull");
 }
 
 TriangleMesh prismMesh(const Profile& section, double length) {

@@ -83,10 +83,9 @@ void addFalls(const FallingCase& c, std::string& table, std::string& paths) {
   }
 }
 
-void writeFalls(const fs::path& folder) {
+void writeFalls(const fs::path& falls, const fs::path& folder) {
   std::string table = fallHeader(), paths = pathHeader();
-  for (const std::string& group : fallingGroups())
-    for (const FallingCase& c : makeFallingCases(group)) addFalls(c, table, paths);
+  for (const FallingCase& c : readFallingCases(falls)) addFalls(c, table, paths);
   writeFile(folder / "falls.csv", table);
   writeFile(folder / "paths.csv", paths);
 }
@@ -96,7 +95,7 @@ int run(const fs::path& measurements, const fs::path& folder) {
   writeFile(folder / "coefficients.csv", coefficients(measurements));
   writeFile(folder / "plate.csv", plateCurve());
   out.keep();
-  writeFalls(folder);
+  writeFalls(measurements.parent_path() / "falls.json", folder);
   return 0;
 }
 
@@ -107,7 +106,8 @@ int main(int argc, char** argv) {
   std::string measurements, out;
   CLI::App app("Measured coefficients and falls of bodies by both pressure laws, as CSV.",
                "reality");
-  app.add_option("MEASUREMENTS", measurements, "data/reality/measurements.json")
+  app.add_option("MEASUREMENTS", measurements,
+                 "data/reality/measurements.json; falls are those of falls.json beside it")
       ->required()
       ->check(CLI::ExistingFile);
   app.add_option("--out", out, "Folder of coefficients.csv, plate.csv, falls.csv and paths.csv")

@@ -21,9 +21,15 @@ namespace {
 
 constexpr PressureLaw kPublished = PressureLaw::kPublished, kForm = PressureLaw::kForm;
 
+const std::string kData = std::string(AMBIENT_DATA) + "/reality/";
+
 nlohmann::json measurements() {
-  const std::string file = std::string(AMBIENT_DATA) + "/reality/measurements.json";
+  const std::string file = kData + "measurements.json";
   return parseJson(readBytes(file), file).at("rows");
+}
+
+std::vector<FallingCase> fallsOf(const std::string& group) {
+  return readFallingCases(kData + "falls.json", group);
 }
 
 /// Each shape is solved once.
@@ -106,7 +112,7 @@ TEST(Measurements, CanBeComputedOneAndAll) {
 
 TEST(Measurements, DrawnOnesHaveTheirBodies) {
   std::set<std::string> bodies;
-  for (const FallingCase& c : makeFallingCases("drawn")) bodies.insert(c.family + "/" + c.name);
+  for (const FallingCase& c : fallsOf("drawn")) bodies.insert(c.family + "/" + c.name);
   const std::set<std::string> known{"descent", "reach", "mode"};
   int coefficients = 0, motions = 0;
   for (const nlohmann::json& row : measurements()) {
@@ -145,7 +151,7 @@ TEST(Measurements, AreNearerToTheFormLaw) {
 }
 
 TEST(Falls, ACardTumblesByTheFormLaw) {
-  const FallingCase card = makeFallingCases("cards").front();
+  const FallingCase card = fallsOf("cards").front();
   const FallingRun run = runFall(card, kForm);
   EXPECT_EQ(run.fall.mode, FallingMode::kTumbling);
   EXPECT_NEAR(run.fall.descent_speed, 1.0, 0.05);
@@ -153,7 +159,7 @@ TEST(Falls, ACardTumblesByTheFormLaw) {
 }
 
 TEST(Falls, ReachIsTheHorizontalDistanceAtTheDepth) {
-  const FallingCase coin = makeFallingCases("drawn").front();
+  const FallingCase coin = fallsOf("drawn").front();
   const FallingRun run = runFall(coin, kForm);
   const auto deep = std::find_if(run.motion.begin(), run.motion.end(), [&](const MotionSample& s) {
     return s.position.z() < -coin.depth;
@@ -166,7 +172,7 @@ TEST(Falls, ReachIsTheHorizontalDistanceAtTheDepth) {
 }
 
 TEST(Falls, ACubeOfWoodRisesByTheFormLawAtOneSubstepPerStep) {
-  const FallingCase cube = makeFallingCases("cubes and balls").front();
+  const FallingCase cube = fallsOf("cubes and balls").front();
   const FallingRun run = runFall(cube, kForm);
   // 0.94 of the terminal speed of a drag coefficient 1.05, measured face on.
   EXPECT_NEAR(run.fall.descent_speed, -0.576, 0.003);
