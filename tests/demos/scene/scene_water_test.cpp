@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "bullet_ambient/force/medium/waves.h"
-#include "tests/demos/scene/scene_text.h"
+#include "tests/demos/scene/scene_refusals.h"
 
 namespace ambient {
 namespace {
@@ -82,24 +82,7 @@ TEST(SceneWater, AddsTheWavesOfASpectrum) {
   EXPECT_EQ(sceneFrom(text).water->waves[0].phase, wavesOf({1, 8})[0].phase);
 }
 
-TEST(SceneWater, SaysWhatIsWrongWithWaterAndRegions) {
-  const auto complaint = [](const char* pointer, const json& value) {
-    json scene = seaScene();
-    scene[json::json_pointer(pointer)] = value;
-    return complaintAbout(scene);
-  };
-  EXPECT_EQ(complaint("/gravity", {0, 0, 0}),
-            "water is given, but gravity is 0, 0, 0; must have a length > 0");
-  EXPECT_EQ(complaint("/water/waves/0/direction", {0, 1, 0}),
-            "horizontal part of the direction of wave 0 is 0; must be positive and finite");
-  EXPECT_EQ(complaint("/water/waves/0/period", 0), "water.waves[0].period is 0; must be > 0");
-  EXPECT_EQ(complaint("/water/spectrum", {{"significant_height", 1}, {"peak_period", 0}}),
-            "water.spectrum.peak_period is 0; must be > 0");
-  EXPECT_EQ(complaint("/water/bounds/lowest/0", "left"),
-            "water.bounds.lowest[0] is \"left\"; must be of type [\"number\",\"null\"]");
-  EXPECT_EQ(complaint("/regions/0/bounds/lowest/1", 3),
-            "regions[0]: size along y [m] is -2; must be positive");
-}
+TEST(SceneWater, SaysWhatIsWrongWithWaterAndRegions) { expectSceneRefusals("water", seaScene()); }
 
 }  // namespace
 }  // namespace ambient
