@@ -64,11 +64,7 @@ TEST_F(CommandLine, TablesSayWhatTheJsonSays) {
 TEST_F(CommandLine, BuildOptionsScaleShiftAndLimitThreads) {
   const std::string mesh = write("box.obj", objText(makeBoxMesh({1, 2, 3}, 200)));
   const Arguments common{"build", mesh, "-o", path("box.ambient"), "--panels", "0", "--json"};
-  const auto with = [&](const Arguments& more) {
-    Arguments arguments = common;
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return resultOf(arguments);
-  };
+  const auto with = [&](const Arguments& more) { return resultOf(appended(common, more)); };
   const json plain = with({});
   EXPECT_NEAR(plain["volume"].get<double>(), 48, 48e-6);
   EXPECT_NEAR(with({"--scale", "0.1"})["volume"].get<double>(), 0.048, 0.048e-6);
@@ -242,9 +238,8 @@ TEST_F(CommandLine, LevelsAreThoseAskedForWithTheirErrors) {
 TEST_F(CommandLine, WithoutTablesTheFlowAroundABoxIsSolved) {
   const std::string box = write("box.json", R"({"type": "box", "size": [1, 2, 3]})");
   const auto built = [&](const Arguments& more) {
-    Arguments arguments{"build", box, "-o", path("box.ambient"), "--json", "--panels", "1200"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return resultOf(arguments);
+    return resultOf(
+        appended({"build", box, "-o", path("box.ambient"), "--json", "--panels", "1200"}, more));
   };
   const json looked_up = built({}), solved = built({"--no-tables"});
   const auto settings = [](const json& report) { return report["settings"].get<std::string>(); };

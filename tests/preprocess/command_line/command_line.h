@@ -9,12 +9,18 @@
 #include <vector>
 
 #include "tests/preprocess/mesh/mesh_files.h"
+#include "tests/support/refusals.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ambient {
 
 using Arguments = std::vector<std::string>;
+
+inline Arguments appended(Arguments arguments, const Arguments& more) {
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
 
 /// Runs ambient_preprocess in a temporary folder.
 class CommandLine : public ::testing::Test {
@@ -55,10 +61,21 @@ class CommandLine : public ::testing::Test {
 
   /// Runs build on bad input; expects no file left behind.
   std::string buildRefusal(const std::string& input, const Arguments& more = {}) const {
-    return withoutTrace(refusal, input, more);
+    const std::size_t before = fileCount();
+    const std::string message =
+        refusal(appended({"build", input, "-o", path("out.ambient")}, more));
+    EXPECT_EQ(fileCount(), before) << "a file was left behind";
+    return message;
   }
-  std::string buildUsageRefusal(const std::string& input, const Arguments& more) const {
-    return withoutTrace(usageRefusal, input, more);
+
+  /// Expects the messages of a group of refusals.json about bad values of options after these
+  /// arguments, and no file left behind.
+  void expectUsageRefusals(const std::string& group, const Arguments& arguments) const {
+    const std::size_t before = fileCount();
+    expectRefusals(AMBIENT_COMMAND_REFUSALS, group, [&arguments](const Arguments& more) {
+      return usageRefusal(appended(arguments, more));
+    });
+    EXPECT_EQ(fileCount(), before) << "a file was left behind";
   }
 
   TemporaryFolder folder_;
@@ -72,16 +89,6 @@ class CommandLine : public ::testing::Test {
     const std::string beginning = "ambient_preprocess: ";
     EXPECT_EQ(result.errors.find(beginning), 0u) << result.errors;
     return result.errors.substr(beginning.size(), result.errors.size() - beginning.size() - 1);
-  }
-
-  std::string withoutTrace(std::string (*refusalOf)(const Arguments&), const std::string& input,
-                           const Arguments& more) const {
-    const std::size_t before = fileCount();
-    Arguments arguments{"build", input, "-o", path("out.ambient")};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const std::string message = refusalOf(arguments);
-    EXPECT_EQ(fileCount(), before) << "a file was left behind";
-    return message;
   }
 };
 

@@ -16,17 +16,7 @@ class Export : public CommandLine {
 
   /// Arguments of an export of the ball to out.x.
   Arguments exporting(const std::string& format, const Arguments& more = {}) const {
-    Arguments arguments{"export", ball(), "--format", format, "-o", path("out.x")};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return arguments;
-  }
-
-  /// The line about an option with a bad value; expects no file left behind.
-  std::string optionRefusal(const Arguments& more, const std::string& format = "fossen") const {
-    const std::size_t before = fileCount();
-    const std::string line = usageRefusal(exporting(format, more));
-    EXPECT_EQ(fileCount(), before) << "a file was left behind";
-    return line;
+    return appended({"export", ball(), "--format", format, "-o", path("out.x")}, more);
   }
 };
 
@@ -59,20 +49,7 @@ TEST_F(Export, OptionsReachTheFile) {
 }
 
 TEST_F(Export, BadOptionsAreRefusedInOneLine) {
-  EXPECT_EQ(optionRefusal({}, "urdf"), "--format: \"urdf\" is none of sdf, mjcf, fossen");
-  EXPECT_EQ(optionRefusal({"--density", "-1"}), "--density: -1 kg/m^3 must be finite and positive");
-  EXPECT_EQ(optionRefusal({"--density", "nan"}),
-            "--density: nan kg/m^3 must be finite and positive");
-  EXPECT_EQ(optionRefusal({"--viscosity", "-1"}),
-            "--viscosity: -1 Pa s must be finite and not negative");
-  EXPECT_EQ(optionRefusal({"--gravity", "inf"}),
-            "--gravity: inf m/s^2 must be finite and positive");
-  EXPECT_EQ(optionRefusal({"--mass", "0"}), "--mass: 0 kg must be finite and positive");
-  EXPECT_EQ(optionRefusal({"--speed", "-2"}), "--speed: -2 m/s must be finite and positive");
-  EXPECT_EQ(optionRefusal({"--draught", "-1"}), "--draught: -1 m must be finite and positive");
-  EXPECT_EQ(optionRefusal({"--up", "w"}), "--up: \"w\" is none of x, y, z, -x, -y, -z");
-  EXPECT_EQ(optionRefusal({"--up", "-x"}), "--up: -x is along --forward x");
-  EXPECT_EQ(optionRefusal({"--speed", "1"}, "mjcf"), "--speed: 1 m/s is for fossen only");
+  expectUsageRefusals("options of export", {"export", ball(), "-o", path("out.x")});
 }
 
 TEST_F(Export, BadInputIsRefusedInOneLine) {

@@ -113,10 +113,9 @@ TEST_F(FloatingCommand, InspectTellsOfABodyUpsideDownAndOfOneLighterThanAir) {
 TEST_F(FloatingCommand, PeriodsAreThoseOfTheInertiaThatIsGiven) {
   const std::string file = barge();
   const auto longest = [&](const Arguments& more) {
-    Arguments arguments{"inspect", file, "--mass", "500",   "--centre-of-mass",
-                        "0",       "0",  "-0.24",  "--json"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return resultOf(arguments)["floating"][0]["modes"][0]["period"].get<double>();
+    const Arguments inspect{"inspect", file, "--mass", "500",   "--centre-of-mass",
+                            "0",       "0",  "-0.24",  "--json"};
+    return resultOf(appended(inspect, more))["floating"][0]["modes"][0]["period"].get<double>();
   };
   // 500 kg over a box of 2 m x 1 m x 0.5 m.
   const Arguments even{"--inertia",
