@@ -28,45 +28,41 @@ double couplingOf(const Matrix6& K) {
   return off.cwiseAbs().maxCoeff() / K.cwiseAbs().maxCoeff();
 }
 
-/// Compares the diagonal of a plain box's added mass at default settings with `reference`.
-void expectBox(const Eigen::Vector3d& half_sizes, const Vector6& reference, double rotation,
-               double translation, double coupling = 1e-4) {
-  const FluidBody body = makeFluidBody(plainBox(half_sizes), {});
-  EXPECT_LT(blockError(diagonalOf(body), reference, 0), rotation);
-  EXPECT_LT(blockError(diagonalOf(body), reference, 3), translation);
-  EXPECT_LT(couplingOf(body.added_mass), coupling);
-  EXPECT_EQ(body.faces.size(), 12u) << "the faces for the loads are the user's";
-}
+/// A box, the diagonal of its added mass, and the largest errors at default settings.
+struct KnownBox {
+  Vector3 half_sizes;
+  double entries[6];
+  double rotation, translation, coupling;
+};
 
-TEST(CoarseBox, CubeIsRightAtDefaultSettings) {
-  Vector6 reference;
-  reference << Vector3::Constant(reference::cubeRotationalAddedMass()),
-      Vector3::Constant(8 * reference::cubeAddedMassCoefficient());
-  // Measured 6.2e-3 and 1.1e-3.
-  expectBox({1, 1, 1}, reference, 8e-3, 2e-3);
-}
-
-TEST(CoarseBox, HalfCubeIsRightAtDefaultSettings) {
-  const double volume = 4;
-  Vector6 reference;  // extrapolated Galerkin solutions, uncertainty 4e-4 and 2e-5
-  reference << 0.7690680, 0.7690680, 0.5402426, 0.4416885 * volume, 0.4416885 * volume,
-      1.2037951 * volume;
-  expectBox({1, 1, 0.5}, reference, 8e-3, 2e-3);
-}
-
-// References for the 1:20 boxes: extrapolated (order 2.6) from edge-graded meshes of about 1900 and
-// 7500 triangles, each a panel; uncertainty 1e-3.
-TEST(CoarseBox, SquarePlateOneToTwentyIsRightAtDefaultSettings) {
-  Vector6 reference;
-  reference << 0.71769, 0.71769, 0.015407, 0.033299, 0.033299, 4.00323;
-  expectBox({1, 1, 0.05}, reference, 4e-3, 2e-3);
-}
-
-TEST(CoarseBox, SquareRodOneToTwentyIsRightAtDefaultSettings) {
-  Vector6 reference;
-  reference << 9.022e-6, 0.0070706, 0.0070706, 0.00071851, 0.022873, 0.022873;
-  // Long thin triangles break the symmetry; measured 1.6e-4 off the diagonal.
-  expectBox({1, 0.05, 0.05}, reference, 6e-3, 4e-3, 2e-4);
+// The half cube: extrapolated Galerkin solutions, uncertainty 4e-4 and 2e-5. 1:20: extrapolated
+// (order 2.6) from edge-graded meshes of about 1900 and 7500 triangles, each a panel; uncertainty
+// 1e-3. Measured for the cube 6.2e-3 and 1.1e-3; long thin triangles of the rod break the symmetry,
+// 1.6e-4 off the diagonal.
+TEST(CoarseBox, IsRightAtDefaultSettings) {
+  const double w = reference::cubeRotationalAddedMass(),
+               v = 8 * reference::cubeAddedMassCoefficient();
+  const KnownBox boxes[] = {
+      {{1, 1, 1}, {w, w, w, v, v, v}, 8e-3, 2e-3, 1e-4},
+      {{1, 1, 0.5},
+       {0.7690680, 0.7690680, 0.5402426, 1.766754, 1.766754, 4.8151804},
+       8e-3,
+       2e-3,
+       1e-4},
+      {{1, 1, 0.05}, {0.71769, 0.71769, 0.015407, 0.033299, 0.033299, 4.00323}, 4e-3, 2e-3, 1e-4},
+      {{1, 0.05, 0.05},
+       {9.022e-6, 0.0070706, 0.0070706, 0.00071851, 0.022873, 0.022873},
+       6e-3,
+       4e-3,
+       2e-4}};
+  for (const KnownBox& box : boxes) {
+    const FluidBody body = makeFluidBody(plainBox(box.half_sizes), {});
+    const Vector6 reference = Eigen::Map<const Vector6>(box.entries);
+    EXPECT_LT(blockError(diagonalOf(body), reference, 0), box.rotation);
+    EXPECT_LT(blockError(diagonalOf(body), reference, 3), box.translation);
+    EXPECT_LT(couplingOf(body.added_mass), box.coupling);
+    EXPECT_EQ(body.faces.size(), 12u) << "the faces for the loads are the user's";
+  }
 }
 
 TEST(CoarseBox, WithoutMorePanelsItIsWrongByTensOfPercent) {
