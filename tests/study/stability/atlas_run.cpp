@@ -14,6 +14,8 @@
 #include "bullet_ambient/immersed/ambient_body.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/principal_frame.h"
+#include "tests/support/energy_rise.h"
+#include "tests/support/world.h"
 
 namespace ambient {
 namespace {
@@ -33,7 +35,7 @@ btScalar bt(double x) { return static_cast<btScalar>(x); }
 
 /// One body of a case, attached to the fluid or dry.
 struct AtlasBody {
-  std::unique_ptr<btRigidBody> body;
+  btRigidBody* body = nullptr;
   Matrix6 inertia;  ///< body and fluid, in B
   double mass = 0, displaced_mass = 0;
   Vector3 centre_of_volume_B = Vector3::Zero();
@@ -58,29 +60,19 @@ class AtlasWorld {
         fluid_body_(std::make_shared<FluidBody>(scaled(*atlas_case.shape->body, atlas_case.size))),
         medium_(atlas_case.water ? water() : air()),
         box_(toBullet(Vector3(atlas_case.size * atlas_case.shape->half_size))),
-        plane_({0, 0, 1}, bt(-atlas_case.size / 2)),
-        floor_(0, nullptr, &plane_) {
-    world_.setGravity({0, 0, bt(has_gravity_ ? -kGravity : 0)});
+        plane_({0, 0, 1}, bt(-atlas_case.size / 2)) {
+    bullet_.world.setGravity({0, 0, bt(has_gravity_ ? -kGravity : 0)});
     fluid_.setReport(nullptr);
     addBodies();
     if (fluid == AtlasFluid::kAttached)
       for (AtlasBody& body : bodies_) attach(body);
-    if (case_.setting == AtlasSetting::kOnPlane) world_.addRigidBody(&floor_);
-    if (case_.setting == AtlasSetting::kOnJoint) {
-      joint_ = std::make_unique<btPoint2PointConstraint>(*bodies_.front().body,
-                                                         btVector3(bt(case_.size / 2), 0, 0));
-      world_.addConstraint(joint_.get());
-    }
+    if (case_.setting == AtlasSetting::kOnPlane) bullet_.contents.add(0, plane_);
+    if (case_.setting == AtlasSetting::kOnJoint)
+      bullet_.contents.take(std::make_unique<btPoint2PointConstraint>(
+          *bodies_.front().body, btVector3(bt(case_.size / 2), 0, 0)));
   }
-  ~AtlasWorld() {
-    if (joint_) world_.removeConstraint(joint_.get());
-    if (floor_.isInWorld()) world_.removeRigidBody(&floor_);
-    for (const AtlasBody& body : bodies_) world_.removeRigidBody(body.body.get());
-  }
-  AtlasWorld(const AtlasWorld&) = delete;
-  AtlasWorld& operator=(const AtlasWorld&) = delete;
 
-  void step() { world_.stepSimulation(bt(case_.step), 0, bt(case_.step)); }
+  void step() { bullet_.step(case_.step); }
   bool isFinite() const {
     return std::all_of(bodies_.begin(), bodies_.end(),
                        [](const AtlasBody& body) { return readState(*body.body).isFinite(); });
@@ -130,12 +122,11 @@ class AtlasWorld {
     AtlasBody added;
     added.mass = mass;
     added.inertia = rigidBodyInertia(mass, principal.moments.asDiagonal());
-    added.body = std::make_unique<btRigidBody>(btRigidBody::btRigidBodyConstructionInfo(
-        bt(mass), nullptr, &box_, toBullet(principal.moments)));
+    added.body =
+        &bullet_.contents.add(mass, toBullet(principal.moments), box_, btTransform::getIdentity());
     added.body->setActivationState(DISABLE_DEACTIVATION);
-    bodies_.push_back(std::move(added));
-    world_.addRigidBody(bodies_.back().body.get());
-    return *bodies_.back().body;
+    bodies_.push_back(added);
+    return *added.body;
   }
 
   void attach(AtlasBody& body) {
@@ -158,17 +149,11 @@ class AtlasWorld {
   bool has_gravity_;
   std::shared_ptr<const FluidBody> fluid_body_;
   Medium medium_;
-  btDefaultCollisionConfiguration configuration_;
-  btCollisionDispatcher dispatcher_{&configuration_};
-  btDbvtBroadphase broadphase_;
-  btSequentialImpulseConstraintSolver solver_;
-  btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
-  Fluid fluid_{world_};
   btBoxShape box_;
   btStaticPlaneShape plane_;
-  btRigidBody floor_;
+  test::WholeWorld<> bullet_;
+  Fluid fluid_{bullet_.world};
   std::vector<AtlasBody> bodies_;
-  std::unique_ptr<btPoint2PointConstraint> joint_;
 };
 
 }  // namespace
@@ -181,8 +166,7 @@ AtlasResult runAtlasCase(const AtlasCase& atlas_case, AtlasFluid fluid) {
   AtlasResult result;
   double kinetic = world.kineticEnergy();
   double largest_kinetic = kinetic;
-  double lowest = kinetic + world.potentialEnergy();
-  double rise = 0;
+  test::EnergyRise rise(kinetic + world.potentialEnergy());
   const int steps = static_cast<int>(std::lround(kAtlasDuration / atlas_case.step));
   for (int i = 0; i < steps && result.finite; ++i) {
     world.step();
@@ -190,11 +174,10 @@ AtlasResult runAtlasCase(const AtlasCase& atlas_case, AtlasFluid fluid) {
     const double energy = kinetic + world.potentialEnergy();
     result.finite = world.isFinite() && std::isfinite(energy);
     largest_kinetic = std::max(largest_kinetic, kinetic);
-    rise = std::max(rise, energy - lowest);
-    lowest = std::min(lowest, energy);
+    rise.see(energy);
   }
   const double scale = largest_kinetic + world.energyOfAFall();
-  result.energy_rise = scale > 0 ? rise / scale : 0;
+  result.energy_rise = scale > 0 ? rise.overEarlier() / scale : 0;
   const AmbientCounters counters = world.counters();
   result.rejected = counters.rejected;
   result.coarse = static_cast<double>(counters.coarse) / steps;

@@ -21,17 +21,8 @@ constexpr double kMostRise = sizeof(btScalar) == 8 ? 1e-6 : 2e-5;
 constexpr double kMuch = 0.01;
 
 const char* nameOf(AtlasSetting setting) {
-  switch (setting) {
-    case AtlasSetting::kFree:
-      return "free";
-    case AtlasSetting::kFalling:
-      return "falling";
-    case AtlasSetting::kOnPlane:
-      return "on a plane";
-    case AtlasSetting::kOnJoint:
-      break;
-  }
-  return "on a joint";
+  constexpr const char* kNames[] = {"free", "falling", "on a plane", "on a joint"};
+  return kNames[static_cast<std::size_t>(setting)];
 }
 
 // Tolerance of the energy rise by setting. Bullet's contacts and joints may add energy.

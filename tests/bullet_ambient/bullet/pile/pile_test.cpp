@@ -6,6 +6,7 @@
 
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/bullet_ambient/bullet/pile/pile_scene.h"
+#include "tests/support/energy_rise.h"
 
 namespace ambient::test {
 namespace {
@@ -41,7 +42,7 @@ double largestShift(const std::vector<btVector3>& a, const std::vector<btVector3
 Minute observe(Pile& pile) {
   Minute minute;
   minute.first_energy = minute.highest_energy = pile.energy();
-  double lowest = minute.first_energy;
+  EnergyRise rise(minute.first_energy);
   const std::vector<btVector3> start = places(pile);
   std::vector<btVector3> at_rest;
   for (int i = 0; i < kMinute; ++i) {
@@ -49,14 +50,14 @@ Minute observe(Pile& pile) {
     if (minute.asleep_after < 0) {
       const double energy = pile.energy();
       minute.highest_energy = std::max(minute.highest_energy, energy);
-      minute.largest_rise = std::max(minute.largest_rise, energy - lowest);
-      lowest = std::min(lowest, energy);
+      rise.see(energy);
       if (pile.isAsleep()) {
         minute.asleep_after = i * kWorldStep;
         at_rest = places(pile);
       }
     }
   }
+  minute.largest_rise = rise.overEarlier();
   minute.last_energy = pile.energy();
   minute.largest_shift = largestShift(places(pile), start);
   minute.has_stirred = at_rest.empty() || largestShift(places(pile), at_rest) > 0;
@@ -128,16 +129,15 @@ double largestRiseOfTumblingBoxes(double step) {
     settings.m_numIterations = 200;
     pile.keepAwake();
     const double first = pile.energy();
-    double lowest = first, rise = 0;
+    EnergyRise rise(first);
     for (double time = 0; time < 5; time += step) {
       pile.step(step);
       const double energy = pile.energy();
-      if (hasFrictionWithoutContact(pile.world())) lowest = energy;
-      rise = std::max(rise, energy - lowest);
-      lowest = std::min(lowest, energy);
+      if (hasFrictionWithoutContact(pile.world())) rise.beginAt(energy);
+      rise.see(energy);
     }
-    EXPECT_LT(lowest, 0.7 * first) << "seed " << seed << " has not fallen";
-    largest = std::max(largest, rise / first);
+    EXPECT_LT(rise.lowest(), 0.7 * first) << "seed " << seed << " has not fallen";
+    largest = std::max(largest, rise.overEarlier() / first);
   }
   return largest;
 }

@@ -10,6 +10,7 @@
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/bullet_ambient/bullet/water/water_run.h"
 #include "tests/support/bodies/part_bodies.h"
+#include "tests/support/energy_rise.h"
 
 // A cube of 1 cm at 1/60 s: its heave has a period of some ten steps.
 namespace ambient::test {
@@ -29,14 +30,12 @@ struct SmallCube {
   }
   /// Largest rise of energy above any earlier value, over the run's scale.
   double settle(double time, double step = kStep) {
-    double lowest = run.energy(), rise = 0;
+    EnergyRise rise(run.energy());
     for (int i = 0; i < std::lround(time / step); ++i) {
       run.step(step);
-      const double energy = run.energy();
-      rise = std::max(rise, energy - lowest);
-      lowest = std::min(lowest, energy);
+      rise.see(run.energy());
     }
-    return rise / run.energyScale();
+    return rise.overEarlier() / run.energyScale();
   }
   long timesSaid(const std::string& text) const {
     return std::count_if(run.said().begin(), run.said().end(), [&](const std::string& said) {
@@ -61,7 +60,7 @@ TEST(SmallCube, ComesToRestAsHydrostaticsSaysAndGainsNoEnergy) {
       EXPECT_LT(cube.settle(60), byPrecision(1e-12, 1e-5)) << specific_gravity;
       const RigidState end = readState(*cube.body);
       EXPECT_NEAR(end.position.z(), kEdge * (0.5 - specific_gravity), 0.003 * kEdge);
-      EXPECT_LT(end.twist.linear.norm(), 0.01 * std::sqrt(kRunGravity * kEdge));
+      EXPECT_LT(end.twist.linear.norm(), 0.01 * std::sqrt(kGravity * kEdge));
       const auto [least, largest] = cube.uprightness();
       if (specific_gravity == 0.5) {
         EXPECT_NEAR(least, std::sqrt(1.0 / 3), 0.02);

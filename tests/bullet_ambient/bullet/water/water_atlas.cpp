@@ -7,6 +7,7 @@
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/force/medium/waves.h"
 #include "tests/support/bodies/random_bodies.h"
+#include "tests/support/energy_rise.h"
 
 namespace ambient::test {
 namespace {
@@ -20,7 +21,7 @@ WaterBodyDef anyBody(Arbitrary& arbitrary, double size) {
   def.shape = static_cast<WaterShape>(static_cast<int>(arbitrary.between(0, kWaterShapes)));
   def.size = size;
   def.specific_gravity = logarithmic(arbitrary, 0.02, 20);
-  const double speed = std::sqrt(kRunGravity * size) * logarithmic(arbitrary, 0.03, 3);
+  const double speed = std::sqrt(kGravity * size) * logarithmic(arbitrary, 0.03, 3);
   def.start.position.z() = arbitrary.between(-2, 2) * size;
   def.start.orientation = Quaternion(arbitrary.rotation());
   def.start.twist = arbitrary.twist(speed / size, speed);
@@ -78,7 +79,7 @@ WaterRun makeRun(const WaterCase& water_case, Arbitrary& arbitrary) {
   const double length = logarithmic(arbitrary, 0.5, 20);
   WaveComponent wave;
   wave.amplitude = 0.9 * 0.142 * length / 2;
-  wave.period = std::sqrt(2 * kPi * length / kRunGravity);
+  wave.period = std::sqrt(2 * kPi * length / kGravity);
   return WaterRun(std::make_shared<AiryWaves>(CalmSea{}, std::vector<WaveComponent>{wave}));
 }
 
@@ -99,7 +100,7 @@ void addBodies(Arbitrary& arbitrary, WaterSetting setting, WaterRun& run) {
   if (setting == WaterSetting::kColliding) {
     WaterBodyDef second = anySecond(arbitrary, def, 0.2);
     const Vector3 way = (second.start.position - def.start.position).normalized();
-    const double speed = arbitrary.between(1, 4) * std::sqrt(kRunGravity * def.size);
+    const double speed = arbitrary.between(1, 4) * std::sqrt(kGravity * def.size);
     second.start.twist.linear = def.start.twist.linear - speed * way;
     run.add(second);
   }
@@ -119,27 +120,16 @@ void addBodies(Arbitrary& arbitrary, WaterSetting setting, WaterRun& run) {
 }  // namespace
 
 const char* nameOf(WaterSetting setting) {
-  switch (setting) {
-    case WaterSetting::kFree:
-      return "free";
-    case WaterSetting::kOnFloor:
-      return "onto a floor";
-    case WaterSetting::kAtWall:
-      return "against a wall";
-    case WaterSetting::kColliding:
-      return "two that collide";
-    case WaterSetting::kJoined:
-      return "two on a joint";
-    case WaterSetting::kTethered:
-      return "on a joint to the world";
-    case WaterSetting::kPile:
-      return "a pile of eight";
-    case WaterSetting::kTabled:
-      return "with a table, on a joint";
-    case WaterSetting::kSteep:
-      break;
-  }
-  return "two over a floor in steep waves";
+  constexpr const char* kNames[] = {"free",
+                                    "onto a floor",
+                                    "against a wall",
+                                    "two that collide",
+                                    "two on a joint",
+                                    "on a joint to the world",
+                                    "a pile of eight",
+                                    "with a table, on a joint",
+                                    "two over a floor in steep waves"};
+  return kNames[static_cast<std::size_t>(setting)];
 }
 
 WaterResult runWater(const WaterCase& water_case) {
@@ -150,19 +140,15 @@ WaterResult runWater(const WaterCase& water_case) {
       water_case.setting != WaterSetting::kSteep || water_case.around == Around::kVacuum;
   WaterRun run = makeRun(water_case, arbitrary);
   addBodies(arbitrary, water_case.setting, run);
-  const double start = run.energy();
-  double lowest = start, over_start = 0, over_earlier = 0;
+  EnergyRise rise(run.energy());
   for (int i = 0; i < std::lround(kWaterAtlasTime * hertz) && !run.isDeep(); ++i) {
     run.step(1 / hertz);
     const double energy = run.energy();
     if (!std::isfinite(energy)) return {step, false, 0, 0};
-    if (!has_energy) continue;
-    over_start = std::max(over_start, energy - start);
-    over_earlier = std::max(over_earlier, energy - lowest);
-    lowest = std::min(lowest, energy);
+    if (has_energy) rise.see(energy);
   }
-  return {step, run.counters().rejected == 0, over_earlier / run.energyScale(),
-          over_start / run.energyScale()};
+  return {step, run.counters().rejected == 0, rise.overEarlier() / run.energyScale(),
+          rise.overStart() / run.energyScale()};
 }
 
 void WaterTally::add(const WaterResult& result) {

@@ -104,7 +104,7 @@ SizedShape makeWaterShape(WaterShape shape, double size) {
 }
 
 WaterRun::WaterRun(Around around) : around_(around) {
-  fluid_.world.setGravity({0, 0, bt(-kRunGravity)});
+  fluid_.world.setGravity({0, 0, bt(-kGravity)});
   fluid_.fluid.setReport([this](const std::string& sentence) { said_.push_back(sentence); });
   if (around == Around::kWater) fill(std::make_shared<StillWater>(0.0, Vector3(0, 0, 1)));
 }
@@ -135,7 +135,7 @@ btRigidBody& WaterRun::add(const WaterBodyDef& def) {
   floating.body = &fluid_.add(body);
   const bool is_wet = around_ == Around::kWater;
   if (is_wet) attach(floating, def);
-  energy_scale_ += (floating.mass + (is_wet ? displaced : 0)) * kRunGravity * def.size;
+  energy_scale_ += (floating.mass + (is_wet ? displaced : 0)) * kGravity * def.size;
   return *floating.body;
 }
 
@@ -172,7 +172,7 @@ double WaterRun::energy() const {
 double WaterRun::energyOf(const FloatingBody& floating) const {
   const RigidState state = readState(*floating.body);
   const Vector6 x = state.twist.vector();
-  const double weight = floating.mass * kRunGravity * state.position.z();
+  const double weight = floating.mass * kGravity * state.position.z();
   if (around_ == Around::kVacuum) {
     const Matrix3 J = (floating.mass * floating.shape.moments).asDiagonal();
     return x.dot(rigidBodyInertia(floating.mass, J) * x) / 2 + weight;
@@ -180,11 +180,11 @@ double WaterRun::energyOf(const FloatingBody& floating) const {
   const AmbientBody& ambient = *membersOf(fluid_.fluid).find(floating.body);
   const SurfaceModel& model = ambient.models->surfaces.at(0).model;
   const Matrix3 R = state.orientation.toRotationMatrix();
-  const SurfacePlane still{{0, 0, 1}, 0, model.excess_density, kRunGravity};
+  const SurfacePlane still{{0, 0, 1}, 0, model.excess_density, kGravity};
   const SurfaceStand stand = standAtSurface(model, seenFrom(still, R, state.position));
   const Immersion& at = stand.immersion_F;
   const double centre = (state.position + R * model.above.centre_of_volume).z();
-  const double in_air = model.above.displaced_mass * kRunGravity * centre;
+  const double in_air = model.above.displaced_mass * kGravity * centre;
   return x.dot(stand.inertia.full() * x) / 2 + weight - in_air +
          hydrostaticEnergy(at.wet, at.plane) + ambient.encounter().waves.energy();
 }

@@ -40,8 +40,6 @@ SizedShape makeWaterShape(WaterShape shape, double size);
 /// Radius of a sphere about the centre of mass around any shape of size 1 m.
 constexpr double kWaterShapeRadius = 0.87;
 
-constexpr double kRunGravity = 9.81;  // [m/s^2]
-
 struct WaterBodyDef {
   WaterShape shape = WaterShape::kBox;
   double size = 1;              ///< [m]

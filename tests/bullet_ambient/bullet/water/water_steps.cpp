@@ -106,19 +106,9 @@ double largestDifference(const std::vector<double>& a, const std::vector<double>
 }  // namespace
 
 const char* nameOf(WaterMotion motion) {
-  switch (motion) {
-    case WaterMotion::kEntry:
-      return "entry of a cube";
-    case WaterMotion::kExit:
-      return "exit of a cube";
-    case WaterMotion::kHeave:
-      return "heave decay of a ball";
-    case WaterMotion::kRoll:
-      return "roll decay of a box";
-    case WaterMotion::kWave:
-      break;
-  }
-  return "heave of a box in a wave";
+  constexpr const char* kNames[] = {"entry of a cube", "exit of a cube", "heave decay of a ball",
+                                    "roll decay of a box", "heave of a box in a wave"};
+  return kNames[static_cast<std::size_t>(motion)];
 }
 
 std::vector<double> runMotion(WaterMotion motion, double step, int max_substeps) {

@@ -13,6 +13,7 @@
 #include "tests/bullet_ambient/bullet/robots/robot_world.h"
 #include "tests/support/bodies/ellipsoid_body.h"
 #include "tests/support/bodies/part_bodies.h"
+#include "tests/support/energy_rise.h"
 
 namespace ambient::test {
 namespace {
@@ -145,42 +146,28 @@ TreeResult watch(RobotWorld& world, const btMultiBody& body, double hertz,
     return kineticEnergy(fluid, body) + (weight ? weight->energy() : 0);
   };
   const double scale = kineticEnergy(fluid, body) + (weight ? weight->scale() : 0);
-  const double start = energy_now();
-  double lowest = start;
-  TreeResult result;
+  EnergyRise rise(energy_now());
   for (int i = 0; i < std::lround(hertz); ++i) {
     world.step(1 / hertz);
     const double energy = energy_now();
     if (!std::isfinite(energy)) return {false, 0, 0};
-    result.over_earlier = std::max(result.over_earlier, (energy - lowest) / scale);
-    result.over_start = std::max(result.over_start, (energy - start) / scale);
-    lowest = std::min(lowest, energy);
+    rise.see(energy);
   }
-  return result;
+  return {true, rise.overEarlier() / scale, rise.overStart() / scale};
 }
 
 }  // namespace
 
 const char* nameOf(TreeSetting setting) {
-  switch (setting) {
-    case TreeSetting::kFree:
-      return "free";
-    case TreeSetting::kTethered:
-      return "on a tether";
-    case TreeSetting::kInBox:
-      return "in a box";
-    case TreeSetting::kTetheredInBox:
-      return "on a tether in a box";
-    case TreeSetting::kLong:
-      return "free, of 100 links";
-    case TreeSetting::kThroughSurface:
-      return "through a surface";
-    case TreeSetting::kBraked:
-      return "through a surface, with brakes";
-    case TreeSetting::kInLongSteps:
-      break;
-  }
-  return "through a surface, long steps";
+  constexpr const char* kNames[] = {"free",
+                                    "on a tether",
+                                    "in a box",
+                                    "on a tether in a box",
+                                    "free, of 100 links",
+                                    "through a surface",
+                                    "through a surface, with brakes",
+                                    "through a surface, long steps"};
+  return kNames[static_cast<std::size_t>(setting)];
 }
 
 TreeResult runTree(const TreeCase& tree_case) {
