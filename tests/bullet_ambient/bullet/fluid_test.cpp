@@ -18,30 +18,16 @@
 #include <vector>
 
 #include "bullet_ambient/ambient.h"
-#include "tests/bullet_ambient/bullet/fluid_world.h"
+#include "tests/bullet_ambient/bullet/rising_ball.h"
 
 namespace ambient::test {
 namespace {
 
 constexpr btScalar kDoorStep = btScalar(1) / 60;
 
-// What a world needs besides its solver, and a body lighter than water.
-class FluidDoor : public testing::Test, protected WorldParts<> {
+// A world, what others need besides their solver, and a body lighter than water.
+class FluidDoor : public testing::Test, protected WorldParts<>, protected RisingBall {
  protected:
-  void expectRiseIn(btDynamicsWorld& world, Fluid& fluid) {
-    std::string said;
-    fluid.setReport([&](const std::string& sentence) { said = sentence; });
-    world.setGravity({0, 0, -10});
-    world.addRigidBody(&body);
-    const Immersed ball = fluid.add(body, unitBallIn(water()));
-    for (int i = 0; i < 10; ++i) world.stepSimulation(kDoorStep, 0, kDoorStep);
-    EXPECT_GT(body.getLinearVelocity().z(), 0);
-    EXPECT_GE(ball.counters().substeps, 10);
-    EXPECT_EQ(said, "");
-    EXPECT_TRUE(ball.remove());
-    world.removeRigidBody(&body);
-    body.setLinearVelocity({0, 0, 0});
-  }
   // Without bodies in the fluid, Bullet's gravity alone.
   void expectStockFallIn(btDynamicsWorld& world) {
     world.setGravity({0, 0, -8});
@@ -56,20 +42,18 @@ class FluidDoor : public testing::Test, protected WorldParts<> {
     constexpr bool kHasMultiBodies = std::is_base_of_v<btMultiBodyDynamicsWorld, World>;
     std::conditional_t<kHasMultiBodies, btMultiBodyConstraintSolver,
                        btSequentialImpulseConstraintSolver>
-        plain;
-    World world(&dispatcher, &broadphase, &plain, &configuration);
+        solver;
+    World any(&dispatcher, &broadphase, &solver, &configuration);
     {
-      Fluid fluid(world);
-      EXPECT_NE(world.getConstraintSolver(), &plain);
-      expectRiseIn(world, fluid);
+      Fluid fluid(any);
+      EXPECT_NE(any.getConstraintSolver(), &solver);
+      expectRiseIn(any, fluid);
     }
-    EXPECT_EQ(world.getConstraintSolver(), &plain);
-    expectStockFallIn(world);
+    EXPECT_EQ(any.getConstraintSolver(), &solver);
+    expectStockFallIn(any);
   }
   template <class Base, class... Args>
   void expectRiseWith(Args... args) {
-    btSequentialImpulseConstraintSolver plain;
-    btDiscreteDynamicsWorld world(&dispatcher, &broadphase, &plain, &configuration);
     Fluid fluid(world);
     const auto solver = makeSolver<Base>(fluid, args...);
     world.setConstraintSolver(solver.get());
@@ -91,8 +75,8 @@ class FluidDoor : public testing::Test, protected WorldParts<> {
     EXPECT_NE(sentence.find(text), std::string::npos) << sentence;
   }
 
-  btSphereShape shape{1};
-  btRigidBody body{2500, nullptr, &shape, btVector3(1000, 1000, 1000)};
+  btSequentialImpulseConstraintSolver plain;
+  btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &plain, &configuration};
 };
 
 TEST_F(FluidDoor, FitsEveryWorldAndGivesItsSolverBack) {
@@ -150,9 +134,7 @@ TEST_F(FluidDoor, TakesAPoolOfSolversThatItHasMade) {
 }
 
 TEST_F(FluidDoor, GoesOnWithTheRandomNumbersOfTheSolver) {
-  btSequentialImpulseConstraintSolver plain;
   plain.setRandSeed(1234);
-  btDiscreteDynamicsWorld world(&dispatcher, &broadphase, &plain, &configuration);
   const Fluid fluid(world);
   const auto* made =
       dynamic_cast<btSequentialImpulseConstraintSolver*>(world.getConstraintSolver());
@@ -161,10 +143,9 @@ TEST_F(FluidDoor, GoesOnWithTheRandomNumbersOfTheSolver) {
 }
 
 TEST_F(FluidDoor, RefusesWorldsThatCannotCarryAFluid) {
-  btSequentialImpulseConstraintSolver plain;
-  btSimpleDynamicsWorld world(&dispatcher, &broadphase, &plain, &configuration);
-  expectNames(refusal(world), "btSimpleDynamicsWorld");
-  expectNames(refusal(world), "use btDiscreteDynamicsWorld");
+  btSimpleDynamicsWorld simple(&dispatcher, &broadphase, &plain, &configuration);
+  expectNames(refusal(simple), "btSimpleDynamicsWorld");
+  expectNames(refusal(simple), "use btDiscreteDynamicsWorld");
   btDeformableMultiBodyConstraintSolver solver;
   btDeformableBodySolver bodies;
   solver.setDeformableSolver(&bodies);
@@ -176,7 +157,7 @@ TEST_F(FluidDoor, RefusesWorldsThatCannotCarryAFluid) {
 
 TEST_F(FluidDoor, RefusesSolversThatAreNotPlainAndNamesMakeSolver) {
   btNNCGConstraintSolver gradients;
-  btDiscreteDynamicsWorld world(&dispatcher, &broadphase, &gradients, &configuration);
+  world.setConstraintSolver(&gradients);
   expectNames(refusal(world), "makeSolver<Base>(fluid)");
   btMultiBodyConstraintSolver of_multi_bodies;
   world.setConstraintSolver(&of_multi_bodies);
@@ -192,16 +173,12 @@ TEST_F(FluidDoor, RefusesSolversThatAreNotPlainAndNamesMakeSolver) {
 }
 
 TEST_F(FluidDoor, RefusesAWorldThatHasAFluid) {
-  btSequentialImpulseConstraintSolver plain;
-  btDiscreteDynamicsWorld world(&dispatcher, &broadphase, &plain, &configuration);
   Fluid fluid(world);
   EXPECT_NE(refusal(world), "");
   expectRiseIn(world, fluid);
 }
 
 TEST_F(FluidDoor, ClearTakesAllBodiesOutAndTheWorldGoesOn) {
-  btSequentialImpulseConstraintSolver plain;
-  btDiscreteDynamicsWorld world(&dispatcher, &broadphase, &plain, &configuration);
   Fluid fluid(world);
   fluid.add(body, unitBallIn(water()));
   fluid.clear();
@@ -212,8 +189,6 @@ TEST_F(FluidDoor, ClearTakesAllBodiesOutAndTheWorldGoesOn) {
 }
 
 TEST_F(FluidDoor, KeepsTheSettingsOfIslands) {
-  btSequentialImpulseConstraintSolver plain;
-  btDiscreteDynamicsWorld world(&dispatcher, &broadphase, &plain, &configuration);
   world.getSimulationIslandManager()->setSplitIslands(false);
   {
     const Fluid fluid(world);
@@ -224,8 +199,7 @@ TEST_F(FluidDoor, KeepsTheSettingsOfIslands) {
 }
 
 TEST_F(FluidDoor, LeavesAWorldTheSolverThatItWasGivenSince) {
-  btSequentialImpulseConstraintSolver plain, later;
-  btDiscreteDynamicsWorld world(&dispatcher, &broadphase, &plain, &configuration);
+  btSequentialImpulseConstraintSolver later;
   {
     const Fluid fluid(world);
     world.setConstraintSolver(&later);
@@ -256,24 +230,20 @@ TEST_F(FluidDoor, SurvivesASolverThatSomebodyElseDeletes) {
 }
 
 TEST_F(FluidDoor, EndsWithItsWorld) {
-  btSequentialImpulseConstraintSolver plain;
-  auto world =
+  auto mortal =
       std::make_unique<btDiscreteDynamicsWorld>(&dispatcher, &broadphase, &plain, &configuration);
-  Fluid fluid(*world);
+  Fluid fluid(*mortal);
   const Immersed ball = fluid.add(body, unitBallIn(water()));
-  world.reset();
+  mortal.reset();
   EXPECT_EQ(fluid.size(), 0u);
   EXPECT_FALSE(ball.isValid());
   EXPECT_THROW(fluid.add(body, unitBallIn(water())), std::logic_error);
   EXPECT_THROW(ball.medium(), std::logic_error);
-  btDiscreteDynamicsWorld next(&dispatcher, &broadphase, &plain, &configuration);
-  Fluid another(next);
-  expectRiseIn(next, another);
+  Fluid another(world);
+  expectRiseIn(world, another);
 }
 
 TEST_F(FluidDoor, ASolverThatOutlivesItSolvesAsBulletDoes) {
-  btSequentialImpulseConstraintSolver plain;
-  btDiscreteDynamicsWorld world(&dispatcher, &broadphase, &plain, &configuration);
   auto fluid = std::make_unique<Fluid>(world);
   const auto solver = makeSolver<btNNCGConstraintSolver>(*fluid);
   world.setConstraintSolver(solver.get());
@@ -291,13 +261,11 @@ struct Destruction {
 class FluidDestruction : public testing::TestWithParam<Destruction> {};
 
 TEST_P(FluidDestruction, LooksAtNothingThatIsGone) {
-  btDefaultCollisionConfiguration configuration;
-  btCollisionDispatcher dispatcher(&configuration);
-  btDbvtBroadphase broadphase;
+  WorldParts<> parts;
   btSphereShape shape(1);
   auto plain = std::make_unique<btSequentialImpulseConstraintSolver>();
-  auto world = std::make_unique<btDiscreteDynamicsWorld>(&dispatcher, &broadphase, plain.get(),
-                                                         &configuration);
+  auto world = std::make_unique<btDiscreteDynamicsWorld>(&parts.dispatcher, &parts.broadphase,
+                                                         plain.get(), &parts.configuration);
   auto body = std::make_unique<btRigidBody>(2500, nullptr, &shape, btVector3(1000, 1000, 1000));
   auto fluid = std::make_unique<Fluid>(*world);
   world->addRigidBody(body.get());

@@ -1,7 +1,3 @@
-#include <BulletDynamics/Featherstone/btMultiBody.h>
-#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
-#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
-#include <btBulletDynamicsCommon.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,45 +13,39 @@
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_files.h"
+#include "tests/support/world.h"
 
 namespace ambient {
 namespace {
 
 using nlohmann::json;
 
+void writeWorld(btDiscreteDynamicsWorld& world, btSerializer& serializer,
+                const std::filesystem::path& file) {
+  world.serialize(&serializer);
+  std::ofstream(file, std::ios::binary)
+      .write(reinterpret_cast<const char*>(serializer.getBufferPointer()),
+             serializer.getCurrentBufferSize());
+}
+
 /// A Bullet world, filled and saved without steps.
 class SavedWorld {
  public:
-  btRigidBody& add(btCollisionShape& shape, btScalar mass, const char* name) {
-    bodies_.push_back(std::make_unique<btRigidBody>(mass, nullptr, &shape, btVector3(1, 1, 1)));
-    world_.addRigidBody(bodies_.back().get());
-    if (name != nullptr) serializer_.registerNameForPointer(bodies_.back().get(), name);
-    return *bodies_.back();
+  void add(btCollisionShape& shape, double mass, const char* name) {
+    const btRigidBody& body =
+        host_.contents.add(mass, {1, 1, 1}, shape, btTransform::getIdentity());
+    if (name != nullptr) serializer_.registerNameForPointer(&body, name);
   }
 
   void name(const btCollisionShape& shape, const char* name) {
     serializer_.registerNameForPointer(&shape, name);
   }
 
-  void save(const std::filesystem::path& file) {
-    world_.serialize(&serializer_);
-    std::ofstream(file, std::ios::binary)
-        .write(reinterpret_cast<const char*>(serializer_.getBufferPointer()),
-               serializer_.getCurrentBufferSize());
-  }
-
-  ~SavedWorld() {
-    for (const auto& body : bodies_) world_.removeRigidBody(body.get());
-  }
+  void save(const std::filesystem::path& file) { writeWorld(host_.world, serializer_, file); }
 
  private:
-  btDefaultCollisionConfiguration configuration_;
-  btCollisionDispatcher dispatcher_{&configuration_};
-  btDbvtBroadphase broadphase_;
-  btSequentialImpulseConstraintSolver solver_;
-  btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
+  test::WholeWorld<> host_;
   btDefaultSerializer serializer_;
-  std::vector<std::unique_ptr<btRigidBody>> bodies_;
 };
 
 class WorldBuild : public ::testing::Test {
@@ -145,28 +135,20 @@ TEST_F(WorldBuild, FilesAreKeptUntilSomethingChanges) {
 }
 
 TEST_F(WorldBuild, MultibodiesAreLeftOutWithASentence) {
-  btDefaultCollisionConfiguration configuration;
-  btCollisionDispatcher dispatcher(&configuration);
-  btDbvtBroadphase broadphase;
-  btMultiBodyConstraintSolver solver;
-  btMultiBodyDynamicsWorld world(&dispatcher, &broadphase, &solver, &configuration);
-  btMultiBody pendulum(1, 1, btVector3(1, 1, 1), true, false);
+  test::TreeWorld host;
+  btMultiBody& pendulum = host.contents.take(
+      std::make_unique<btMultiBody>(1, btScalar(1), btVector3(1, 1, 1), true, false));
   pendulum.setupRevolute(0, 1, btVector3(1, 1, 1), -1, btQuaternion::getIdentity(),
                          btVector3(0, 1, 0), btVector3(0, 0, 0), btVector3(0, 0, -1));
   pendulum.finalizeMultiDof();
-  world.addMultiBody(&pendulum);
   btDefaultSerializer serializer;
-  world.serialize(&serializer);
-  std::ofstream(path("w.bullet"), std::ios::binary)
-      .write(reinterpret_cast<const char*>(serializer.getBufferPointer()),
-             serializer.getCurrentBufferSize());
+  writeWorld(host.world, serializer, path("w.bullet"));
   const ProgramResult result = build();
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(result.errors, path("w.bullet") +
                                ": 1 multibodies were left out: makeFluidBody makes the fluid "
                                "bodies of their links\n");
   EXPECT_EQ(json::parse(result.output)["lost_multibodies"], 1);
-  world.removeMultiBody(&pendulum);
 }
 
 TEST_F(WorldBuild, OneBadShapeDoesNotStopTheOthers) {

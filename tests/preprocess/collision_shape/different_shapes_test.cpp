@@ -12,6 +12,7 @@
 #include "preprocess/collision_shape/fluid_body_cache.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/bodies/random_bodies.h"
+#include "tests/support/world.h"
 
 // Cost of a scene in which every shape is different: rubble at the surface of water.
 
@@ -32,30 +33,20 @@ btScalar toScalar(double value) { return static_cast<btScalar>(value); }
 class Rubble {
  public:
   Rubble(const MakeShape& make, int count) {
-    world.setGravity(btVector3(0, 0, toScalar(-9.81)));
+    host.world.setGravity(btVector3(0, 0, toScalar(-9.81)));
     test::Arbitrary arbitrary(1);
     const auto size = [&] { return arbitrary.between(0.2, 0.8); };
     for (int i = 0; i < count; ++i) {
       shapes.push_back(make({size(), size(), size()}));
-      bodies.push_back(std::make_unique<btRigidBody>(toScalar(300), nullptr, shapes.back().get(),
-                                                     btVector3(30, 30, 30)));
-      bodies.back()->setWorldTransform(
-          btTransform(btQuaternion::getIdentity(), btVector3(toScalar(3 * i), 0, 0)));
-      world.addRigidBody(bodies.back().get());
+      host.contents.add(300, {30, 30, 30}, *shapes.back(),
+                        {btQuaternion::getIdentity(), btVector3(toScalar(3 * i), 0, 0)});
     }
     fluid.addRegion(waterBelow(0));
   }
-  ~Rubble() {
-    for (const auto& body : bodies) world.removeRigidBody(body.get());
-  }
 
-  btDefaultCollisionConfiguration configuration;
-  btCollisionDispatcher dispatcher{&configuration};
-  btDbvtBroadphase broadphase;
-  btDiscreteDynamicsWorld world{&dispatcher, &broadphase, nullptr, &configuration};
-  Fluid fluid{world};
   std::vector<std::unique_ptr<btCollisionShape>> shapes;
-  std::vector<std::unique_ptr<btRigidBody>> bodies;
+  test::WholeWorld<> host;
+  Fluid fluid{host.world};
 };
 
 /// Returns the cost of one more shape: the difference of many and few, without shared parts.

@@ -9,6 +9,7 @@
 #include "preprocess/collision_shape/fluid_body_cache.h"
 #include "tests/preprocess/collision_shape/shape_fixtures.h"
 #include "tests/support/matrices.h"
+#include "tests/support/world.h"
 
 // A box of 20 kg/m^3 afloat: errors of the added mass of its wet part exceed the inertia of the box
 // itself.
@@ -57,35 +58,25 @@ TEST(LightFloat, KeepsAQuarterOfItsInertiaHoweverItLies) {
 /// Distance over which a force of 0.03 N a kilogram pushes the box in 2 s [m], 20 s after it was
 /// let go at a height of its centre [m].
 double pushed(LightBox& box, double hertz, double height) {
-  btDefaultCollisionConfiguration configuration;
-  btCollisionDispatcher dispatcher{&configuration};
-  btDbvtBroadphase broadphase;
-  btSequentialImpulseConstraintSolver solver;
-  btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
-  world.setGravity(btVector3(0, 0, btScalar(-9.81)));
-  Fluid fluid(world);
+  WholeWorld<> host;
+  host.world.setGravity(btVector3(0, 0, btScalar(-9.81)));
+  Fluid fluid(host.world);
   fluid.addRegion(waterBelow(0));
-  const auto mass = static_cast<btScalar>(box.mass);
-  btVector3 moments;
-  box.shape.calculateLocalInertia(mass, moments);
-  btRigidBody body(mass, nullptr, &box.shape, moments);
+  btRigidBody& body = host.contents.add(
+      box.mass, box.shape,
+      {btQuaternion::getIdentity(), btVector3(0, 0, static_cast<btScalar>(height))});
   body.setActivationState(DISABLE_DEACTIVATION);
-  body.setWorldTransform(
-      btTransform(btQuaternion::getIdentity(), btVector3(0, 0, static_cast<btScalar>(height))));
-  world.addRigidBody(&body);
   AttachDef def;
   def.fluid_body = box.fluid_body;
   fluid.add(body, def);
-  const auto step = [&] { world.stepSimulation(static_cast<btScalar>(1 / hertz), 0); };
-  for (int i = 0; i < 20 * hertz; ++i) step();
+  host.step(1 / hertz, static_cast<int>(20 * hertz));
   const btScalar start = body.getWorldTransform().getOrigin().x();
   for (int i = 0; i < 2 * hertz; ++i) {
-    body.applyCentralForce(btVector3(btScalar(0.03) * mass, 0, 0));
-    step();
+    body.applyCentralForce(btVector3(static_cast<btScalar>(0.03 * box.mass), 0, 0));
+    host.step(1 / hertz);
   }
   EXPECT_EQ(fluid.counters().halted, 0) << hertz;
   EXPECT_LT(fluid.counters().energy_removed, 50) << hertz;
-  world.removeRigidBody(&body);
   return static_cast<double>(body.getWorldTransform().getOrigin().x() - start);
 }
 

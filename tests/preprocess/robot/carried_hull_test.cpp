@@ -81,12 +81,10 @@ TEST(CarriedHull, FloatsTheLinkThatHasTheMass) {
 
 /// The same links in a btMultiBody of the program, whose colliders stay with their links.
 struct OwnMultiBody {
-  btBoxShape box{{btScalar(0.5), btScalar(0.2), btScalar(0.1)}};
-  btCompoundShape none;
-  btMultiBody body{2, btScalar(2), {btScalar(0.1), btScalar(0.2), btScalar(0.25)}, false, false};
-  std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders;
-
-  explicit OwnMultiBody(bool is_held) {
+  OwnMultiBody(FluidRobotWorld& in, bool is_held)
+      : body(in.contents.take(std::make_unique<btMultiBody>(
+            2, btScalar(2), btVector3(btScalar(0.1), btScalar(0.2), btScalar(0.25)), false,
+            false))) {
     const btQuaternion turn({0, 1, 0}, btScalar(0.7));
     const btVector3 to_pivot(btScalar(0.1), 0, 0), to_centre(0, 0, btScalar(-0.3)), axis(0, 1, 0);
     const btVector3 moments(1, 1, 1);
@@ -97,28 +95,18 @@ struct OwnMultiBody {
     }
     body.setupRevolute(1, 1, moments, 0, turn, axis, to_pivot, to_centre);
     body.finalizeMultiDof();
-    for (int link = -1; link < 2; ++link) {
-      colliders.push_back(std::make_unique<btMultiBodyLinkCollider>(&body, link));
-      colliders.back()->setCollisionShape(link == 0 ? static_cast<btCollisionShape*>(&box) : &none);
-    }
-    body.setBaseCollider(colliders[0].get());
-    for (int link = 0; link < 2; ++link)
-      body.getLink(link).m_collider = colliders[static_cast<std::size_t>(link) + 1].get();
+    for (int link = -1; link < 2; ++link)
+      in.contents.addCollider(body, link, link == 0 ? static_cast<btCollisionShape&>(box) : none);
   }
-  void addTo(btMultiBodyDynamicsWorld& world) {
-    world.addMultiBody(&body);
-    for (const auto& collider : colliders) world.addCollisionObject(collider.get());
-  }
-  void leave(btMultiBodyDynamicsWorld& world) {
-    for (const auto& collider : colliders) world.removeCollisionObject(collider.get());
-    world.removeMultiBody(&body);
-  }
+
+  btBoxShape box{{btScalar(0.5), btScalar(0.2), btScalar(0.1)}};
+  btCompoundShape none;
+  btMultiBody& body;
 };
 
 TEST(CarriedHull, IsWhereItsLinkIs) {
   FluidRobotWorld in;
-  OwnMultiBody own(true);
-  own.addTo(in.world);
+  OwnMultiBody own(in, true);
   FluidBodyCache shapes;
   const AttachReport report = in.fluid.addAll(shapes, water());
   EXPECT_EQ(report.attached, 1) << report.text();
@@ -139,13 +127,11 @@ TEST(CarriedHull, IsWhereItsLinkIs) {
       EXPECT_NE(std::string(error.what()).find("added already"), std::string::npos);
     }
   }
-  own.leave(in.world);
 }
 
 TEST(CarriedHull, IsRefusedWhereNothingCarriesIt) {
   FluidRobotWorld in;
-  OwnMultiBody own(false);
-  own.addTo(in.world);
+  OwnMultiBody own(in, false);
   in.fluid.setNaming([](const btCollisionObject& object) {
     return "link " + std::to_string(btMultiBodyLinkCollider::upcast(&object)->m_link);
   });
@@ -156,7 +142,6 @@ TEST(CarriedHull, IsRefusedWhereNothingCarriesIt) {
       << report.text();
   EXPECT_THROW(in.fluid.add(own.body, 0, {shapes.fluidBody(own.box), water()}),
                std::invalid_argument);
-  own.leave(in.world);
 }
 
 }  // namespace

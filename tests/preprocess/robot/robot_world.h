@@ -1,18 +1,14 @@
 #pragma once
 
-#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
-#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
-#include <btBulletDynamicsCommon.h>
-
+#include "bullet_ambient/bullet/core/conversions.h"
 #include "preprocess/robot/robot.h"
+#include "tests/support/world.h"
 
 namespace ambient {
 
 /// A stock world for multibodies.
-struct RobotWorld {
-  explicit RobotWorld(const Vector3& gravity = {0, 0, 0}) {
-    world.setGravity(toBulletVector(gravity));
-  }
+struct RobotWorld : test::TreeWorld {
+  explicit RobotWorld(const Vector3& gravity = {0, 0, 0}) { world.setGravity(toBullet(gravity)); }
 
   void step(Robot& robot, double time_step, int count = 1) {
     for (int i = 0; i < count; ++i) {
@@ -20,17 +16,6 @@ struct RobotWorld {
       world.stepSimulation(static_cast<btScalar>(time_step), 0);
     }
   }
-
-  static btVector3 toBulletVector(const Vector3& v) {
-    return {static_cast<btScalar>(v.x()), static_cast<btScalar>(v.y()),
-            static_cast<btScalar>(v.z())};
-  }
-
-  btDefaultCollisionConfiguration configuration;
-  btCollisionDispatcher dispatcher{&configuration};
-  btDbvtBroadphase broadphase;
-  btMultiBodyConstraintSolver solver;
-  btMultiBodyDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
 };
 
 /// Tolerance of rounding for btScalar: double or float.

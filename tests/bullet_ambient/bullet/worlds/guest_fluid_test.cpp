@@ -8,19 +8,14 @@
 #include <string>
 
 #include "bullet_ambient/ambient.h"
-#include "tests/support/bodies/ellipsoid_body.h"
-#include "tests/support/world.h"
+#include "tests/bullet_ambient/bullet/rising_ball.h"
 
 namespace ambient::test {
 namespace {
 
 constexpr btScalar kTickOfOwner = btScalar(1) / 60;
 
-std::shared_ptr<const FluidBody> ballOfOneMetre() {
-  return std::make_shared<FluidBody>(meshedEllipsoid(Vector3::Ones(), 1));
-}
-
-class GuestFluid : public testing::Test, protected WorldParts<> {
+class GuestFluid : public testing::Test, protected WorldParts<>, protected RisingBall {
  protected:
   GuestFluid() { world->setGravity({0, 0, -10}); }
   // Replaces the world's solver like PyBullet's setPhysicsEngineParameter(constraintSolverType=).
@@ -31,24 +26,11 @@ class GuestFluid : public testing::Test, protected WorldParts<> {
     world->setMultiBodyConstraintSolver(next);
     return next;
   }
-  void expectRise(Fluid& fluid) {
-    std::string said;
-    fluid.setReport([&](const std::string& sentence) { said = sentence; });
-    world->addRigidBody(&body);
-    const Immersed ball_in_water = fluid.add(body, {ballOfOneMetre(), water()});
-    for (int i = 0; i < 10; ++i) world->stepSimulation(kTickOfOwner, 0, kTickOfOwner);
-    EXPECT_GT(body.getLinearVelocity().z(), 0);
-    EXPECT_EQ(said, "");
-    EXPECT_TRUE(ball_in_water.remove());
-    world->removeRigidBody(&body);
-    body.setLinearVelocity({0, 0, 0});
-  }
+  void expectRise(Fluid& fluid) { expectRiseIn(*world, fluid); }
 
   btDantzigSolver dantzig;
   std::unique_ptr<btMultiBodyDynamicsWorld> world = std::make_unique<btMultiBodyDynamicsWorld>(
       &dispatcher, &broadphase, new btMultiBodyConstraintSolver, &configuration);
-  btSphereShape shape{1};
-  btRigidBody body{2500, nullptr, &shape, btVector3(1000, 1000, 1000)};
 };
 
 TEST_F(GuestFluid, TakesThePlaceOfSolversThatTheOwnerGivesTheWorld) {
@@ -111,7 +93,7 @@ TEST_F(GuestFluid, KnowsWhenItsWorldHasEnded) {
 
 struct BallSource : FluidBodySource {
   std::shared_ptr<const FluidBody> fluidBody(const btCollisionShape&) override { return shape; }
-  std::shared_ptr<const FluidBody> shape = ballOfOneMetre();
+  std::shared_ptr<const FluidBody> shape = unitBallIn(water()).fluid_body;
 };
 
 TEST_F(GuestFluid, AddsLaterBodiesBeforeTheirFirstSubstep) {
