@@ -54,10 +54,10 @@ class FluidDoor : public testing::Test, protected WorldParts<>, protected Rising
   }
   template <class Base, class... Args>
   void expectRiseWith(Args... args) {
-    Fluid fluid(world);
+    Fluid fluid(discrete);
     const auto solver = makeSolver<Base>(fluid, args...);
-    world.setConstraintSolver(solver.get());
-    expectRiseIn(world, fluid);
+    discrete.setConstraintSolver(solver.get());
+    expectRiseIn(discrete, fluid);
   }
   static std::string refusal(btDynamicsWorld& world) {
     const btConstraintSolver* solver = world.getConstraintSolver();
@@ -75,8 +75,8 @@ class FluidDoor : public testing::Test, protected WorldParts<>, protected Rising
     EXPECT_NE(sentence.find(text), std::string::npos) << sentence;
   }
 
-  btSequentialImpulseConstraintSolver plain;
-  btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &plain, &configuration};
+  btSequentialImpulseConstraintSolver sequential;
+  btDiscreteDynamicsWorld discrete{&dispatcher, &broadphase, &sequential, &configuration};
 };
 
 TEST_F(FluidDoor, FitsEveryWorldAndGivesItsSolverBack) {
@@ -134,16 +134,16 @@ TEST_F(FluidDoor, TakesAPoolOfSolversThatItHasMade) {
 }
 
 TEST_F(FluidDoor, GoesOnWithTheRandomNumbersOfTheSolver) {
-  plain.setRandSeed(1234);
-  const Fluid fluid(world);
+  sequential.setRandSeed(1234);
+  const Fluid fluid(discrete);
   const auto* made =
-      dynamic_cast<btSequentialImpulseConstraintSolver*>(world.getConstraintSolver());
+      dynamic_cast<btSequentialImpulseConstraintSolver*>(discrete.getConstraintSolver());
   ASSERT_NE(made, nullptr);
   EXPECT_EQ(made->getRandSeed(), 1234u);
 }
 
 TEST_F(FluidDoor, RefusesWorldsThatCannotCarryAFluid) {
-  btSimpleDynamicsWorld simple(&dispatcher, &broadphase, &plain, &configuration);
+  btSimpleDynamicsWorld simple(&dispatcher, &broadphase, &sequential, &configuration);
   expectNames(refusal(simple), "btSimpleDynamicsWorld");
   expectNames(refusal(simple), "use btDiscreteDynamicsWorld");
   btDeformableMultiBodyConstraintSolver solver;
@@ -157,11 +157,11 @@ TEST_F(FluidDoor, RefusesWorldsThatCannotCarryAFluid) {
 
 TEST_F(FluidDoor, RefusesSolversThatAreNotPlainAndNamesMakeSolver) {
   btNNCGConstraintSolver gradients;
-  world.setConstraintSolver(&gradients);
-  expectNames(refusal(world), "makeSolver<Base>(fluid)");
+  discrete.setConstraintSolver(&gradients);
+  expectNames(refusal(discrete), "makeSolver<Base>(fluid)");
   btMultiBodyConstraintSolver of_multi_bodies;
-  world.setConstraintSolver(&of_multi_bodies);
-  expectNames(refusal(world), "plain btSequentialImpulseConstraintSolver;");
+  discrete.setConstraintSolver(&of_multi_bodies);
+  expectNames(refusal(discrete), "plain btSequentialImpulseConstraintSolver;");
   btConstraintSolver* solvers[] = {new btNNCGConstraintSolver};
   btConstraintSolverPoolMt pool(solvers, 1);
   btDiscreteDynamicsWorldMt pooled(&dispatcher, &broadphase, &pool, nullptr, &configuration);
@@ -173,39 +173,39 @@ TEST_F(FluidDoor, RefusesSolversThatAreNotPlainAndNamesMakeSolver) {
 }
 
 TEST_F(FluidDoor, RefusesAWorldThatHasAFluid) {
-  Fluid fluid(world);
-  EXPECT_NE(refusal(world), "");
-  expectRiseIn(world, fluid);
+  Fluid fluid(discrete);
+  EXPECT_NE(refusal(discrete), "");
+  expectRiseIn(discrete, fluid);
 }
 
 TEST_F(FluidDoor, ClearTakesAllBodiesOutAndTheWorldGoesOn) {
-  Fluid fluid(world);
+  Fluid fluid(discrete);
   fluid.add(body, unitBallIn(water()));
   fluid.clear();
   EXPECT_EQ(fluid.size(), 0u);
   EXPECT_FALSE(fluid.find(body));
-  expectStockFallIn(world);
-  expectRiseIn(world, fluid);
+  expectStockFallIn(discrete);
+  expectRiseIn(discrete, fluid);
 }
 
 TEST_F(FluidDoor, KeepsTheSettingsOfIslands) {
-  world.getSimulationIslandManager()->setSplitIslands(false);
+  discrete.getSimulationIslandManager()->setSplitIslands(false);
   {
-    const Fluid fluid(world);
-    EXPECT_FALSE(world.getSimulationIslandManager()->getSplitIslands());
-    world.getSimulationIslandManager()->setSplitIslands(true);
+    const Fluid fluid(discrete);
+    EXPECT_FALSE(discrete.getSimulationIslandManager()->getSplitIslands());
+    discrete.getSimulationIslandManager()->setSplitIslands(true);
   }
-  EXPECT_TRUE(world.getSimulationIslandManager()->getSplitIslands());
+  EXPECT_TRUE(discrete.getSimulationIslandManager()->getSplitIslands());
 }
 
 TEST_F(FluidDoor, LeavesAWorldTheSolverThatItWasGivenSince) {
   btSequentialImpulseConstraintSolver later;
   {
-    const Fluid fluid(world);
-    world.setConstraintSolver(&later);
+    const Fluid fluid(discrete);
+    discrete.setConstraintSolver(&later);
   }
-  EXPECT_EQ(world.getConstraintSolver(), &later);
-  expectStockFallIn(world);
+  EXPECT_EQ(discrete.getConstraintSolver(), &later);
+  expectStockFallIn(discrete);
 }
 
 // A host of plugins deletes the solver of its world in place of the one that it has made.
@@ -230,8 +230,8 @@ TEST_F(FluidDoor, SurvivesASolverThatSomebodyElseDeletes) {
 }
 
 TEST_F(FluidDoor, EndsWithItsWorld) {
-  auto mortal =
-      std::make_unique<btDiscreteDynamicsWorld>(&dispatcher, &broadphase, &plain, &configuration);
+  auto mortal = std::make_unique<btDiscreteDynamicsWorld>(&dispatcher, &broadphase, &sequential,
+                                                          &configuration);
   Fluid fluid(*mortal);
   const Immersed ball = fluid.add(body, unitBallIn(water()));
   mortal.reset();
@@ -239,17 +239,17 @@ TEST_F(FluidDoor, EndsWithItsWorld) {
   EXPECT_FALSE(ball.isValid());
   EXPECT_THROW(fluid.add(body, unitBallIn(water())), std::logic_error);
   EXPECT_THROW(ball.medium(), std::logic_error);
-  Fluid another(world);
-  expectRiseIn(world, another);
+  Fluid another(discrete);
+  expectRiseIn(discrete, another);
 }
 
 TEST_F(FluidDoor, ASolverThatOutlivesItSolvesAsBulletDoes) {
-  auto fluid = std::make_unique<Fluid>(world);
+  auto fluid = std::make_unique<Fluid>(discrete);
   const auto solver = makeSolver<btNNCGConstraintSolver>(*fluid);
-  world.setConstraintSolver(solver.get());
+  discrete.setConstraintSolver(solver.get());
   fluid->add(body, unitBallIn(water()));
   fluid.reset();
-  expectStockFallIn(world);
+  expectStockFallIn(discrete);
 }
 
 // Orders of destruction; the address sanitizer finds access to destroyed objects.

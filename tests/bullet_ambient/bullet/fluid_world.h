@@ -28,6 +28,13 @@ inline const Vector3 kBoxSize(0.8, 0.6, 0.4);  // of floating boxes [m]
 
 inline Medium idealFluid(double density) { return {density, 0, Vector3::Zero(), Vector3::Zero()}; }
 
+/// Still water at a level [m], under air.
+inline FluidRegion seaUnderAir(double level = 0) {
+  FluidRegion sea = waterBelow(level);
+  sea.above = air();
+  return sea;
+}
+
 /// Attaches a sphere of radius 1.
 inline AttachDef unitBallIn(const Medium& medium) {
   return {std::make_shared<FluidBody>(meshedEllipsoid(Vector3::Ones(), 1)), medium};

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
-#include "bullet_ambient/force/medium/water_surface.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/support/bodies/ellipsoid_body.h"
 #include "tests/support/bodies/part_bodies.h"
@@ -163,11 +162,7 @@ TEST(SparedWork, ADetachedBodyCostsNothing) {
 
 TEST(SparedWork, BodiesOfOneShapeShareItsData) {
   FluidWorld scene;
-  FluidRegion sea;
-  sea.below = water();
-  sea.above = air();
-  sea.surface = std::make_shared<StillWater>(-50, Vector3::UnitZ());
-  scene.fluid.addRegion(sea);
+  scene.fluid.addRegion(seaUnderAir(-50));
   for (const PressureLaw law : {PressureLaw::kPublished, PressureLaw::kForm}) {
     AttachDef def;
     def.fluid_body = std::make_shared<const FluidBody>(floatingEllipsoid(kUnequalAxes, 2));

@@ -41,10 +41,8 @@ TEST(Attachment, OfAnEqualBodyTakesOneOrTwoKilobytes) {
   const auto shape = std::make_shared<const FluidBody>(formShape());
   for (const bool has_surface : {false, true}) {
     FluidWorld scene;
-    FluidRegion sea;
-    sea.below = water();
-    sea.above = air();
-    if (has_surface) sea.surface = std::make_shared<StillWater>(0, Vector3::UnitZ());
+    FluidRegion sea = seaUnderAir();
+    if (!has_surface) sea.surface = nullptr;
     scene.fluid.addRegion(sea);
     constexpr std::size_t kBodies = 512;
     std::vector<btRigidBody*> bodies;
@@ -67,11 +65,7 @@ TEST(Attachment, InAnotherWorldMakesNoTables) {
   const auto shape = std::make_shared<const FluidBody>(formShape());
   const auto bytesOfAttaching = [&] {
     FluidWorld scene;
-    FluidRegion sea;
-    sea.below = water();
-    sea.above = air();
-    sea.surface = std::make_shared<StillWater>(0, Vector3::UnitZ());
-    scene.fluid.addRegion(sea);
+    scene.fluid.addRegion(seaUnderAir());
     btRigidBody& body = scene.add(BodyDef{});
     const std::size_t before = allocatedBytes();
     scene.fluid.add(body, AttachDef{shape, water()});
@@ -104,10 +98,7 @@ TEST(Attachment, OfARegionToManyTakesSomeHundredBytes) {
 TEST(Step, AllocatesOnceForABodyWhoseMassChanges) {
   FluidWorld scene;
   scene.world.setGravity({0, 0, bt(-9.81)});
-  FluidRegion sea;
-  sea.below = water();
-  sea.surface = std::make_shared<StillWater>(0, Vector3::UnitZ());
-  scene.fluid.addRegion(sea);
+  scene.fluid.addRegion(waterBelow(0));
   AttachDef def;
   def.fluid_body = std::make_shared<const FluidBody>(floatingEllipsoid(Vector3(0.3, 0.25, 0.1), 2));
   const auto add = [&](double mass) -> AmbientBody& {

@@ -88,11 +88,7 @@ class Barge {
   Barge(Load load, std::unique_ptr<btMultiBody> robot) : body_(*robot) {
     world_.world.setGravity({0, 0, bt(-9.81)});
     world_.world.getSolverInfo().m_numIterations = 10;  // Bullet's default
-    FluidRegion sea;
-    sea.below = water();
-    sea.above = air();
-    sea.surface = std::make_shared<StillWater>(0, Vector3(0, 0, 1));
-    world_.fluid.addRegion(sea);
+    world_.fluid.addRegion(seaUnderAir());
     body_.setLinearDamping(0);
     body_.setAngularDamping(0);
     body_.setCanSleep(false);

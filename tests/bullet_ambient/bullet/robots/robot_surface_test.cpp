@@ -36,13 +36,11 @@ class FloatingPair {
                         Floater what = {})
       : floater(std::move(what)) {
     world.world.setGravity({0, 0, bt(-9.81)});
-    FluidRegion sea;
-    sea.below = water();
-    sea.above = air();
+    FluidRegion sea = seaUnderAir();
     sea.above->velocity = {weather.wind, 0, 0};
-    sea.surface = std::make_shared<AiryWaves>(
-        CalmSea{}, std::vector<WaveComponent>{{weather.wave, 3, {1, 0, 0}, 0}});
-    if (weather.wave == 0) sea.surface = std::make_shared<StillWater>(0, Vector3(0, 0, 1));
+    if (weather.wave != 0)
+      sea.surface = std::make_shared<AiryWaves>(
+          CalmSea{}, std::vector<WaveComponent>{{weather.wave, 3, {1, 0, 0}, 0}});
     world.fluid.addRegion(sea);
     rigid.setWorldTransform(place);
     rigid.setActivationState(DISABLE_DEACTIVATION);
@@ -152,11 +150,7 @@ TEST(LinksAtASurface, SleepInStillWaterButNotOnASaddle) {
 struct MotorBarge {
   explicit MotorBarge(double above) {
     world.world.setGravity({0, 0, bt(-9.81)});
-    FluidRegion sea;
-    sea.below = water();
-    sea.above = air();
-    sea.surface = std::make_shared<StillWater>(0, Vector3(0, 0, 1));
-    world.fluid.addRegion(sea);
+    world.fluid.addRegion(seaUnderAir());
     barge.setLinearDamping(0);
     barge.setAngularDamping(0);
     barge.setupRevolute(0, 20, {5, 5, 1}, -1, btQuaternion::getIdentity(), {0, 0, 1},

@@ -311,10 +311,7 @@ TEST(DrawingOfWater, WithoutBoundsReachesAsFarAsAskedFor) {
   FluidWorld scene;
   scene.world.setDebugDrawer(&recorder);
   scene.world.setGravity(btVector3(0, 0, btScalar(-kGravity)));
-  FluidRegion sea;
-  sea.below = water();
-  sea.surface = std::make_shared<StillWater>(0.5, Vector3(0, 0, 1));
-  scene.fluid.addRegion(sea);
+  scene.fluid.addRegion(waterBelow(0.5));
   scene.step(1e-3);
   scene.fluid.drawing.water_surface = true;
   for (const double extent : {10.0, 3.0}) {

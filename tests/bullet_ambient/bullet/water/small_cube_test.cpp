@@ -6,7 +6,6 @@
 #include <string>
 #include <utility>
 
-#include "bullet_ambient/force/medium/water_surface.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/bullet_ambient/bullet/water/water_run.h"
 #include "tests/support/bodies/part_bodies.h"
@@ -126,11 +125,7 @@ constexpr double kDepth = 1.5;  // of the centre at the start [m]
 double leapOf(const FluidBody& shape, double hertz) {
   FluidWorld world;
   world.world.setGravity({0, 0, bt(-9.81)});
-  FluidRegion sea;
-  sea.below = water();
-  sea.above = air();
-  sea.surface = std::make_shared<StillWater>(0.0, Vector3(0, 0, 1));
-  world.fluid.addRegion(sea);
+  world.fluid.addRegion(seaUnderAir());
   BodyDef def;
   def.mass = 0.1146 * water().density * shape.volume;
   def.moments.setConstant(0.1 * def.mass);

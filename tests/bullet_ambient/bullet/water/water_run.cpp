@@ -106,18 +106,12 @@ SizedShape makeWaterShape(WaterShape shape, double size) {
 WaterRun::WaterRun(Around around) : around_(around) {
   fluid_.world.setGravity({0, 0, bt(-kGravity)});
   fluid_.fluid.setReport([this](const std::string& sentence) { said_.push_back(sentence); });
-  if (around == Around::kWater) fill(std::make_shared<StillWater>(0.0, Vector3(0, 0, 1)));
+  if (around == Around::kWater) fluid_.fluid.addRegion(seaUnderAir());
 }
 
 WaterRun::WaterRun(std::shared_ptr<const WaterSurface> surface) : WaterRun(Around::kVacuum) {
   around_ = Around::kWater;
-  fill(std::move(surface));
-}
-
-void WaterRun::fill(std::shared_ptr<const WaterSurface> surface) {
-  FluidRegion sea;
-  sea.below = water();
-  sea.above = air();
+  FluidRegion sea = seaUnderAir();
   sea.surface = std::move(surface);
   fluid_.fluid.addRegion(sea);
 }

@@ -86,7 +86,6 @@ class WaterRun {
     double size, mass;
     btRigidBody* body;
   };
-  void fill(std::shared_ptr<const WaterSurface> surface);
   void attach(const FloatingBody& floating, const WaterBodyDef& def);
   double energyOf(const FloatingBody& floating) const;
 

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <memory>
 
-#include "bullet_ambient/force/medium/water_surface.h"
 #include "bullet_ambient/force/surface/hydrostatics.h"
 #include "bullet_ambient/robot_dynamics.h"
 #include "tests/bullet_ambient/bullet/robots/robot_world.h"
@@ -83,14 +82,6 @@ void addBox(RobotWorld& world, btMultiBody& body) {
         std::make_unique<btStaticPlaneShape>(normal, nearest - bt(kColliderRadius + kGap)),
         btTransform::getIdentity());
   }
-}
-
-void fillSea(RobotWorld& world) {
-  FluidRegion sea;
-  sea.below = water();
-  sea.above = air();
-  sea.surface = std::make_shared<StillWater>(0.0, Vector3(0, 0, 1));
-  world.fluid.addRegion(sea);
 }
 
 // Weight of a tree, and energy of the still fluids displaced by its links in water.
@@ -188,7 +179,7 @@ TreeResult runTree(const TreeCase& tree_case) {
   if (setting == TreeSetting::kBraked) brake(arbitrary, world, body, hertz);
   if (!has_surface) return watch(world, body, hertz, nullptr);
   world.world.setGravity({0, 0, bt(-kGravity)});
-  if (tree_case.fluid == TreeFluid::kWater) fillSea(world);
+  if (tree_case.fluid == TreeFluid::kWater) world.fluid.addRegion(seaUnderAir());
   const TreeWeight weight(body, tree_case.fluid);
   return watch(world, body, hertz, &weight);
 }
