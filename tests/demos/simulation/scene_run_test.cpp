@@ -211,23 +211,6 @@ TEST(SceneRun, PrincipalAxesChosenByRoundingDoNotChangeTheMotionInFluid) {
   EXPECT_LE(largestDistance(run(plain).motion[0], run(picked).motion[0]), 1e-6);
 }
 
-TEST(SceneRun, AFallingSphereFollowsItsClosedForm) {
-  const Scene scene = readNamedScene("sphere_fall");
-  const BodyDef& ball = scene.bodies[0];
-  const double radius = std::get<Sphere>(ball.shape.geometry).radius;
-  const double pi = std::acos(-1.0), g = 9.81, rho = scene.medium.density;
-  const double displaced = rho * 4 / 3 * pi * std::pow(radius, 3);
-  // C_D = 1/2 at pi/2; v = V tanh(t / tau).
-  const double V = std::sqrt(2 * (ball.mass - displaced) * g / (rho * pi * radius * radius * 0.5));
-  const double tau = (ball.mass + displaced / 2) * V / ((ball.mass - displaced) * g);
-  const RunRecord record = run(scene);
-  for (const MotionSample& sample : record.motion[0]) {
-    const double exact = V * tau * std::log(std::cosh(sample.time / tau));
-    // Measured 0.02 %: the drag of 1280 flat faces, and the step in the first hundredths.
-    EXPECT_NEAR(-sample.position.z(), exact, 5e-4 * exact + 1e-5) << "t = " << sample.time;
-  }
-}
-
 /// A body at rest at a position.
 json restingBody(const char* name, const json& shape, const json& position) {
   return {{"name", name}, {"mass", 1}, {"shape", shape}, {"position", position}};
@@ -294,21 +277,6 @@ TEST(SceneRun, ABodysOwnFluidDensityCounts) {
   EXPECT_EQ(largestDistance(fall, run(sceneFrom(text)).motion[0]), 0);
   text["bodies"][0].erase("fluid_density");
   EXPECT_GT(largestDistance(fall, run(sceneFrom(text)).motion[0]), 0.1);
-}
-
-TEST(SceneRun, AStateThatIsNotFiniteNamesBodyAndTime) {
-  json text = ballScene();
-  text["bodies"][0]["shape"]["faces"] = 80;
-  text["bodies"][0]["linear_velocity"] = {1e200, 0, 0};
-  try {
-    run(sceneFrom(text));
-    FAIL() << "the run went on";
-  } catch (const std::exception& error) {
-    const std::string what = error.what();
-    EXPECT_NE(what.find(".json: body \"ball\": its state is not finite at t = 0.01 s"),
-              std::string::npos)
-        << what;
-  }
 }
 
 TEST(SceneRun, MassesThatCannotBeNameFileAndBody) {
