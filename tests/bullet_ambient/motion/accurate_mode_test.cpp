@@ -53,21 +53,6 @@ TEST(DormandPrince, WorkGrowsWithTheFifthRootOfTheTolerance) {
   EXPECT_NEAR(std::log10(work(1e-11) / work(1e-6)), 1, 0.2);
 }
 
-TEST(DormandPrince, KeepsMomentumAndEnergyWithoutLoads) {
-  Arbitrary arbitrary(3);
-  for (int i = 0; i < 20; ++i) {
-    FreeBody body({test::shapeWithoutFaces(arbitrary.positiveDefinite())});
-    body.state.twist = arbitrary.twist(4, 2);
-    body.settings = accurate(1e-11);
-    const double energy = body.kineticEnergy();
-    const Momentum before = body.worldMomentum();
-    body.advance(1.0 / 30, 30);
-    EXPECT_NEAR(body.kineticEnergy(), energy, 1e-8 * energy);
-    EXPECT_LT((body.worldMomentum().vector() - before.vector()).norm(),
-              1e-12 * before.vector().norm() * body.state.position.norm() + 1e-12);
-  }
-}
-
 TEST(DormandPrince, AgreesWithTheLeapfrogWhoseFlowIsExactWithoutLoads) {
   Arbitrary arbitrary(4);
   for (int i = 0; i < 20; ++i) {
@@ -78,51 +63,6 @@ TEST(DormandPrince, AgreesWithTheLeapfrogWhoseFlowIsExactWithoutLoads) {
     body.advance(1.0 / 30, 30);
     other.advance(1.0 / 30, 30);
     EXPECT_LT(distance(body.state, other.state), 1e-7 * (1 + body.state.position.norm()));
-  }
-}
-
-/// A wooden cube in water: rises and chatters about the attitude with a side square to the flow,
-/// where this side's pressure jumps.
-FreeBody risingCube(const FlightSettings& settings) {
-  constexpr double kSide = 0.2, kDensity = 998;
-  const double volume = kSide * kSide * kSide, displaced = kDensity * volume;
-  FluidBody shape;
-  shape.name = "cube";
-  shape.added_mass.diagonal() << 3e-6, 3e-6, 3e-6, 5.1e-3, 5.1e-3, 5.1e-3;
-  shape.volume = volume;
-  shape.area = 6 * kSide * kSide;
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const double side : {1.0, -1.0}) {
-      for (int quarter = 0; quarter < 4; ++quarter) {
-        Vector3 normal = Vector3::Zero(), centroid;
-        normal[axis] = side;
-        centroid[axis] = side * kSide / 2;
-        centroid[(axis + 1) % 3] = (quarter % 2 - 0.5) * kSide / 2;
-        centroid[(axis + 2) % 3] = (quarter / 2 - 0.5) * kSide / 2;
-        shape.faces.add(normal, centroid, kSide * kSide / 4);
-      }
-    }
-  }
-  const double mass = displaced / 2;
-  const Matrix3 inertia = mass * kSide * kSide / 6 * Matrix3::Identity();
-  FreeBody cube({shape, {mass, inertia}, {kDensity, 1e-3, Vector3::Zero(), Vector3::Zero()}});
-  cube.settings = settings;
-  cube.setGravity({0, 0, -9.81});
-  cube.state.orientation = Quaternion(Eigen::AngleAxisd(0.7, Vector3(1, 2, 3).normalized()));
-  return cube;
-}
-
-TEST(DormandPrince, NoBodyRisesFasterThanWithoutLoads) {
-  for (const double tolerance : {1e-3, 1e-4}) {
-    FreeBody cube = risingCube(accurate(tolerance));
-    // Buoyancy over the mass of body and fluid; the cube's inertia is isotropic.
-    const double mass = cube.model().inertia(5, 5);
-    const double acceleration = 9.81 * (cube.model().displaced_mass - cube.model().mass) / mass;
-    for (int i = 1; i <= 90; ++i) {
-      cube.advance(1.0 / 60);
-      const double speed = std::sqrt(2 * cube.kineticEnergy() / mass);
-      ASSERT_LE(speed, acceleration * i / 60 * (1 + 1e-9)) << tolerance << ", step " << i;
-    }
   }
 }
 
