@@ -248,19 +248,6 @@ std::vector<test::Extreme> heaveOf(FloatingRun& body, double start, double time,
   return test::extremesOf(heave, step);
 }
 
-TEST(SurfaceFlight, BallOfKramerHeavesAsLinearTheorySays) {
-  // Sphere of 0.3 m, 7.056 kg, Kramer et al. 2021. Linear theory by Cummins' equation and Hulme's
-  // coefficients: -0.867 +0.635 -0.466 +0.348, period 0.763 s.
-  FloatingDef def = ballDef(9.82, 0.15);
-  def.specific_gravity = 7.056 / (test::kWaterDensity * def.shape.volume);
-  FloatingRun ball(def);
-  const auto extremes = heaveOf(ball, 0.03, 2.4, 1 / 240.0);
-  ASSERT_GE(extremes.size(), 5u);
-  const double theory[] = {-0.867, 0.635, -0.466, 0.348};
-  for (int i = 0; i < 4; ++i) EXPECT_NEAR(extremes[i].value, theory[i], 0.06) << i;
-  EXPECT_NEAR(extremes[3].time - extremes[1].time, 0.763, 0.05 * 0.763);
-}
-
 TEST(SurfaceFlight, BodyThatFloatsStaysWhereItIs) {
   FloatingDef def;
   def.shape = test::floatingBox({1, 0.8, 0.5});
