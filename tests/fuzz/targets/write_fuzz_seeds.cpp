@@ -1,5 +1,4 @@
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -7,6 +6,8 @@
 #include "bullet_ambient/saved_state.h"
 #include "preprocess/base/fluid_body_writer.h"
 #include "tests/fuzz/targets/seed_bodies.h"
+#include "tests/preprocess/mesh/mesh_files.h"
+#include "tests/preprocess/mesh/mesh_fixtures.h"
 
 // write_fuzz_seeds DIR: writes the fuzzers' first inputs, a folder DIR/<fuzzer> for each. Texts are
 // in this file; .ci/check_fuzz adds scenes of data/.
@@ -21,74 +22,16 @@ void write(const fs::path& file, const std::string& bytes) {
   if (!(stream << bytes)) throw std::runtime_error(file.string() + ": cannot be written");
 }
 
-constexpr float kCorners[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-constexpr int kFaces[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
-
-template <class Number>
-void append(std::string& bytes, const Number& number) {
-  bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+// Vertices and faces of a tetrahedron, as text and as bytes of uint16 and float.
+std::string listText(const TriangleMesh& mesh) {
+  const std::string ply = plyText(mesh), end = "end_header\n";
+  return ply.substr(ply.find(end) + end.size());
 }
 
-std::string cornerText(int corner) {
-  std::string text;
-  for (const float x : kCorners[corner]) text += " " + std::to_string(static_cast<int>(x));
-  return text;
-}
-
-std::string faceText(const int* face, int first) {
-  return std::to_string(face[0] + first) + " " + std::to_string(face[1] + first) + " " +
-         std::to_string(face[2] + first);
-}
-
-std::string objText() {
-  std::string text;
-  for (int v = 0; v < 4; ++v) text += "v" + cornerText(v) + "\n";
-  for (const auto& face : kFaces) text += "f " + faceText(face, 1) + "\n";
-  return text;
-}
-
-// Vertex and face lines, common to OFF and PLY files.
-std::string listText() {
-  std::string text;
-  for (int v = 0; v < 4; ++v) text += cornerText(v).substr(1) + "\n";
-  for (const auto& face : kFaces) text += "3 " + faceText(face, 0) + "\n";
-  return text;
-}
-
-std::string plyText() {
-  return "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
-         "property float z\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n" +
-         listText();
-}
-
-std::string stlText() {
-  std::string text = "solid seed\n";
-  for (const auto& face : kFaces) {
-    text += "facet normal 0 0 0\nouter loop\n";
-    for (const int v : face) text += "vertex" + cornerText(v) + "\n";
-    text += "endloop\nendfacet\n";
-  }
-  return text + "endsolid seed\n";
-}
-
-std::string stlBytes() {
-  std::string bytes(80, ' ');
-  append(bytes, std::uint32_t{4});
-  for (const auto& face : kFaces) {
-    bytes.append(3 * sizeof(float), '\0');
-    for (const int v : face)
-      for (const float x : kCorners[v]) append(bytes, x);
-    bytes.append(2, '\0');
-  }
-  return bytes;
-}
-
-std::string gltfBuffer() {
+std::string gltfBuffer(const TriangleMesh& mesh) {
   std::string bytes;
-  for (const auto& face : kFaces)
-    for (const int v : face) append(bytes, static_cast<std::uint16_t>(v));
-  for (const auto& corner : kCorners)
-    for (const float x : corner) append(bytes, x);
+  for (const int v : mesh.triangles.reshaped()) bytes += bytesOf(static_cast<std::uint16_t>(v));
+  for (const double x : mesh.vertices.reshaped()) bytes += bytesOf(static_cast<float>(x));
   return bytes;
 }
 
@@ -116,29 +59,25 @@ std::string base64(const std::string& bytes) {
   return text;
 }
 
-std::string glbBytes() {
-  std::string json = gltfText(""), buffer = gltfBuffer();
+std::string glbBytes(const std::string& buffer) {
+  std::string json = gltfText("");
   json.resize((json.size() + 3) / 4 * 4, ' ');
-  std::string bytes = "glTF";
-  append(bytes, std::uint32_t{2});
-  append(bytes, static_cast<std::uint32_t>(28 + json.size() + buffer.size()));
-  append(bytes, static_cast<std::uint32_t>(json.size()));
-  bytes += "JSON" + json;
-  append(bytes, static_cast<std::uint32_t>(buffer.size()));
-  bytes += std::string("BIN\0", 4) + buffer;
-  return bytes;
+  const auto number = [](std::size_t value) { return bytesOf(static_cast<std::uint32_t>(value)); };
+  return "glTF" + number(2) + number(28 + json.size() + buffer.size()) + number(json.size()) +
+         "JSON" + json + number(buffer.size()) + std::string("BIN\0", 4) + buffer;
 }
 
 // Writes one mesh per format; the first byte is the format's number in fuzz_mesh.cpp.
 void writeMeshes(const fs::path& folder) {
-  write(folder / "obj", '\0' + objText());
-  write(folder / "stl", '\1' + stlText());
-  write(folder / "stl_binary", '\1' + stlBytes());
-  write(folder / "ply", '\2' + plyText());
-  write(folder / "gltf",
-        '\3' + gltfText("data:application/octet-stream;base64," + base64(gltfBuffer())));
-  write(folder / "glb", '\4' + glbBytes());
-  write(folder / "off", "\5OFF\n4 4 0\n" + listText());
+  const TriangleMesh mesh = unitTetrahedron();
+  const std::string buffer = gltfBuffer(mesh);
+  write(folder / "obj", '\0' + objText(mesh));
+  write(folder / "stl", '\1' + asciiStlText(mesh));
+  write(folder / "stl_binary", '\1' + binaryStlText(mesh));
+  write(folder / "ply", '\2' + plyText(mesh));
+  write(folder / "gltf", '\3' + gltfText("data:application/octet-stream;base64," + base64(buffer)));
+  write(folder / "glb", '\4' + glbBytes(buffer));
+  write(folder / "off", "\5OFF\n4 4 0\n" + listText(mesh));
 }
 
 void writeShapes(const fs::path& folder) {
