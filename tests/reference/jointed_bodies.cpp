@@ -218,18 +218,6 @@ void placeBodies(std::vector<JointedBody>& bodies) {
   }
 }
 
-JointedVector6 totalMomentum(const std::vector<JointedBody>& bodies) {
-  JointedVector6 sum = JointedVector6::Zero();
-  for (const JointedBody& b : bodies) {
-    JointedVector6 x;
-    x << b.w, b.v;
-    JointedVector6 m = totalInertia(b) * x;
-    m.head<3>() += b.origin.cross(V3(m.tail<3>()));
-    sum += m;
-  }
-  return sum;
-}
-
 JointedVector jointedAccelerations(const std::vector<JointedBody>& bodies, bool fixed) {
   const System system = makeSystem(bodies, fixed);
   JointedVector right(system.matrix.rows());

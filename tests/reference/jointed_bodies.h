@@ -54,10 +54,6 @@ struct JointedBody {
 /// Sets poses and velocities of all bodies from the base and the joint positions and rates.
 void placeBodies(std::vector<JointedBody>& bodies);
 
-/// Momentum of all bodies and their added mass, in world axes about the world's origin: angular,
-/// linear. The fluid is at rest.
-JointedVector6 totalMomentum(const std::vector<JointedBody>& bodies);
-
 /// Accelerations in joint coordinates: base (angular, linear, world axes), then the joint
 /// velocities of all bodies. `fixed`: the base keeps its twist in its own axes; a base of zero
 /// twist stays at rest.

@@ -20,10 +20,6 @@ inline double measuredSphereSlope() { return 5.5; }
 inline double karmanWedgeForce(double deadrise) {
   return std::acos(-1.0) / std::pow(std::tan(deadrise), 2);
 }
-/// Wagner: a plate pi/2 times as wide.
-inline double wagnerWedgeForce(double deadrise) {
-  return std::pow(std::acos(-1.0) / 2, 2) * karmanWedgeForce(deadrise);
-}
 
 /// Added mass of the wet wedge over rho d^2, d its draught; the potential is 0 on the undisturbed
 /// surface: half the added mass of a rhombus. Faltinsen, Hydrodynamics of High-Speed Marine

@@ -4,15 +4,106 @@
 #include <exception>
 #include <limits>
 #include <map>
+#include <random>
 #include <string>
 #include <vector>
 
 #include "preprocess/base/output_file.h"
-#include "tests/study/stability/atlas_rows.h"
+#include "tests/study/stability/atlas_run.h"
 #include "tests/support/parse_or_exit.h"
 
 namespace ambient {
 namespace {
+
+/// A part of the stability atlas: values that its cases are drawn from.
+struct AtlasRow {
+  const char* name = "";
+  const char* what = "";  ///< one line for the table
+  PressureLaw law = PressureLaw::kForm;
+  std::vector<double> hertz, density_ratios, speeds, spins;
+  bool is_needle = false;                   ///< true: the needle alone; false: the other shapes
+  std::vector<double> load_ratios = {0};    ///< AtlasCase::load_ratio
+  std::vector<AtlasSetting> settings = {};  ///< empty: all
+};
+
+const std::vector<double> kHertz{30, 60, 120, 240, 960};
+const std::vector<double> kDensityRatios{1e-3, 1e-2, 0.1, 1, 10, 100, 1e3, 1e4};
+const std::vector<double> kSpeeds{0, 0.1, 1, 10, 100, 340};
+const std::vector<double> kSpins{0, 1, 10, 100, 1000, 5000};
+
+AtlasRow wideRow(const char* name, const char* what) {
+  AtlasRow row;
+  row.name = name;
+  row.what = what;
+  row.hertz = kHertz;
+  row.density_ratios = kDensityRatios;
+  row.speeds = kSpeeds;
+  row.spins = kSpins;
+  return row;
+}
+
+std::vector<AtlasRow> makeRows() {
+  AtlasRow wide = wideRow("wide", "wide ranges of everything");
+  AtlasRow published = wideRow("published", "the same by the published law");
+  published.law = PressureLaw::kPublished;
+  AtlasRow slow = wideRow("slow", "the same in steps of 1/15 s");
+  slow.hertz = {15};
+  AtlasRow density = wideRow("density", "1e-6, 1e-5, 1e5 and 1e6 times as dense as the fluid");
+  density.density_ratios = {1e-6, 1e-5, 1e5, 1e6};
+  AtlasRow needle = wideRow("needle", "ellipsoids 1000 times as long as thick");
+  needle.is_needle = true;
+  AtlasRow stack = wideRow("stack", "two boxes, the upper one of 1000 or 1/1000 of the mass");
+  stack.load_ratios = {1e3, 1e-3};
+  stack.settings = {AtlasSetting::kOnPlane};
+  stack.speeds = {0, 0.1, 1};
+  stack.spins = {0, 0.1, 1};
+  return {wide, published, slow, density, needle, stack};
+}
+
+/// All rows.
+const std::vector<AtlasRow>& atlasRows() {
+  static const std::vector<AtlasRow> all = makeRows();
+  return all;
+}
+
+/// Draws the cases of a row at random. Each value of a quantity occurs as often as any other;
+/// combinations are random.
+class AtlasCaseGenerator {
+ public:
+  /// @pre row and the shapes of makeAtlasShapes() outlive the generator
+  AtlasCaseGenerator(const AtlasRow& row, const std::vector<AtlasShape>& shapes, unsigned seed)
+      : row_(row), shapes_(shapes), engine_(seed) {}
+
+  AtlasCase next() {
+    AtlasCase c;
+    // Number of shapes before the needle, the last one.
+    const std::size_t others = shapes_.size() - 1;
+    const std::size_t shape = engine_() % others;
+    c.shape = &shapes_[row_.is_needle ? others : shape];
+    c.setting = static_cast<AtlasSetting>(engine_() % kAtlasSettings);
+    if (!row_.settings.empty()) c.setting = any(row_.settings);
+    c.law = row_.law;
+    c.water = engine_() % 2 == 1;
+    c.density_ratio = any(row_.density_ratios);
+    c.size = any(std::vector<double>{1e-3, 1e-2, 0.1, 1, 10, 100});
+    c.speed = any(row_.speeds);
+    c.spin = any(row_.spins);
+    c.step = 1 / any(row_.hertz);
+    c.seed = static_cast<unsigned>(engine_());
+    if (row_.load_ratios.size() > 1) c.load_ratio = any(row_.load_ratios);
+    return c;
+  }
+
+ private:
+  template <class Value>
+  const Value& any(const std::vector<Value>& values) {
+    return values[engine_() % values.size()];
+  }
+
+  const AtlasRow& row_;
+  const std::vector<AtlasShape>& shapes_;
+  std::mt19937 engine_;
+};
 
 /// Tolerance of the relative energy rise: the rounding of Bullet's own numbers. In float the bodies
 /// of stock Bullet rise by up to 1.3e-5 in these runs.

@@ -114,10 +114,4 @@ double Pile::energy() const {
   return sum;
 }
 
-double Pile::meanSpeed() const {
-  double sum = 0;
-  for (const auto& box : boxes()) sum += static_cast<double>(box->getLinearVelocity().length2());
-  return std::sqrt(sum / static_cast<double>(boxes().size()));
-}
-
 }  // namespace ambient::test

@@ -44,8 +44,6 @@ class Pile {
   bool isAsleep() const;
   /// Of boxes and fluid, kinetic and potential [J].
   double energy() const;
-  /// Root mean square over all boxes [m/s].
-  double meanSpeed() const;
 
  private:
   void addWalls(int edge);
