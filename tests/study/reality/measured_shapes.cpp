@@ -1,8 +1,6 @@
 #include "tests/study/reality/measured_shapes.h"
 
 #include <cmath>
-#include <functional>
-#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -51,76 +49,38 @@ TriangleMesh cone(double half_angle) {
   return makeConeMesh(0.5, 0.5 / portable::tan(half_angle * kPi / 180), kMeshFaces);
 }
 
-using Maker = std::function<Made(double)>;
-
-const std::map<std::string, Maker>& makers() {
-  using Points = std::vector<Eigen::Vector3d>;
-  static const Points octahedron{{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
-                                 {0, -1, 0}, {0, 0, 1},  {0, 0, -1}};
-  static const Points tetrahedron{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
-  static const std::map<std::string, Maker> made{
-      {"ball",
-       [](double) {
-         return Made{makeEllipsoidMesh({0.5, 0.5, 0.5}, 320), false, 0.5};
-       }},
-      {"cube",
-       [](double) {
-         return Made{makeBoxMesh({0.5, 0.5, 0.5}, kMeshFaces)};
-       }},
-      {"rod",
-       [](double x) {
-         return Made{makeBoxMesh({x / 2, kLong / 2, 0.5}, kMeshFaces)};
-       }},
-      {"plate",
-       [](double x) {
-         return Made{makeRectangularSheetMesh(1, x, kMeshFaces), true};
-       }},
-      {"disc",
-       [](double) {
-         return Made{makeEllipticSheetMesh(0.5, 0.5, kMeshFaces), true};
-       }},
-      {"cylinder", [](double x) { return Made{makeCylinderMesh(0.5, x, kMeshFaces)}; }},
-      {"cone", [](double x) { return Made{cone(x)}; }},
-      {"spheroid",
-       [](double x) {
-         return Made{makeEllipsoidMesh({0.5, 0.5, x / 2}, kMeshFaces)};
-       }},
-      {"hemisphere", [](double) { return Made{hemisphereMesh(true)}; }},
-      {"cup",
-       [](double) {
-         return Made{hemisphereMesh(false), true};
-       }},
-      {"half pipe",
-       [](double) {
-         return Made{halfPipeMesh(kLong), true};
-       }},
-      {"hexagonal rod", [](double) { return Made{hexagonalRod()}; }},
-      {"elliptic rod", [](double x) { return Made{ellipticRod(x)}; }},
-      {"aerofoil rod", [](double x) { return Made{aerofoilMesh(x, kLong)}; }},
-      {"delta",
-       [](double x) {
-         return Made{deltaMesh(x, kMeshFaces), true};
-       }},
-      {"shuttlecock",
-       [](double) {
-         return Made{shuttlecockMesh(), true};
-       }},
-      {"drop", [](double x) { return Made{dropMesh(x)}; }},
-      {"octahedron", [](double) { return Made{hullMesh(octahedron)}; }},
-      {"tetrahedron", [](double) { return Made{hullMesh(tetrahedron)}; }},
-      {"cuboctahedron", [](double) { return Made{cuboctahedron()}; }},
-      {"triangular rod", [](double) {
-         return Made{prismMesh({{-0.5, 0}, {0.5, 0}, {0, std::sqrt(3.0) / 2}}, kLong)};
-       }}};
-  return made;
+Made meshOf(const std::string& type, double x) {
+  const auto sheet = [](TriangleMesh mesh) { return Made{std::move(mesh), true}; };
+  if (type == "ball") return {makeEllipsoidMesh({0.5, 0.5, 0.5}, 320), false, 0.5};
+  if (type == "cube") return {makeBoxMesh({0.5, 0.5, 0.5}, kMeshFaces)};
+  if (type == "rod") return {makeBoxMesh({x / 2, kLong / 2, 0.5}, kMeshFaces)};
+  if (type == "plate") return sheet(makeRectangularSheetMesh(1, x, kMeshFaces));
+  if (type == "disc") return sheet(makeEllipticSheetMesh(0.5, 0.5, kMeshFaces));
+  if (type == "cylinder") return {makeCylinderMesh(0.5, x, kMeshFaces)};
+  if (type == "cone") return {cone(x)};
+  if (type == "spheroid") return {makeEllipsoidMesh({0.5, 0.5, x / 2}, kMeshFaces)};
+  if (type == "hemisphere") return {hemisphereMesh(true)};
+  if (type == "cup") return sheet(hemisphereMesh(false));
+  if (type == "half pipe") return sheet(halfPipeMesh(kLong));
+  if (type == "hexagonal rod") return {hexagonalRod()};
+  if (type == "elliptic rod") return {ellipticRod(x)};
+  if (type == "aerofoil rod") return {aerofoilMesh(x, kLong)};
+  if (type == "delta") return sheet(deltaMesh(x, kMeshFaces));
+  if (type == "shuttlecock") return sheet(shuttlecockMesh());
+  if (type == "drop") return {dropMesh(x)};
+  if (type == "octahedron")
+    return {hullMesh({{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}})};
+  if (type == "tetrahedron") return {hullMesh({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}})};
+  if (type == "cuboctahedron") return {cuboctahedron()};
+  if (type == "triangular rod")
+    return {prismMesh({{-0.5, 0}, {0.5, 0}, {0, std::sqrt(3.0) / 2}}, kLong)};
+  throw std::invalid_argument("shape \"" + type + "\" is not known");
 }
 
 }  // namespace
 
 FluidBody makeMeasuredShape(const std::string& type, double size) {
-  const auto maker = makers().find(type);
-  if (maker == makers().end()) throw std::invalid_argument("shape \"" + type + "\" is not known");
-  const Made made = maker->second(size);
+  const Made made = meshOf(type, size);
   BuildSettings settings;
   settings.name = type;
   settings.flow.sheet = made.sheet;
