@@ -54,6 +54,7 @@ class FluidDoor : public testing::Test, protected WorldParts<>, protected Rising
   }
   template <class Base, class... Args>
   void expectRiseWith(Args... args) {
+    discrete.setConstraintSolver(&sequential);
     Fluid fluid(discrete);
     const auto solver = makeSolver<Base>(fluid, args...);
     discrete.setConstraintSolver(solver.get());

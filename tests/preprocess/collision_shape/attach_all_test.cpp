@@ -27,7 +27,7 @@ class CrateScene {
   }
   void add(double mass, std::unique_ptr<btCollisionShape> shape) {
     const auto x = static_cast<btScalar>(3 * (host.contents.bodies().size() + 1));
-    host.contents.add(mass, *shape, {btQuaternion::getIdentity(), btVector3(x, 0, 5)});
+    host.contents.add(mass, *shape, btTransform(btQuaternion::getIdentity(), btVector3(x, 0, 5)));
     shapes.push_back(std::move(shape));
   }
   btRigidBody& body(std::size_t i) { return *host.contents.bodies()[i]; }

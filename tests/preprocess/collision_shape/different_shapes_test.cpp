@@ -39,7 +39,7 @@ class Rubble {
     for (int i = 0; i < count; ++i) {
       shapes.push_back(make({size(), size(), size()}));
       host.contents.add(300, {30, 30, 30}, *shapes.back(),
-                        {btQuaternion::getIdentity(), btVector3(toScalar(3 * i), 0, 0)});
+                        btTransform(btQuaternion::getIdentity(), btVector3(toScalar(3 * i), 0, 0)));
     }
     fluid.addRegion(waterBelow(0));
   }

@@ -64,7 +64,7 @@ double pushed(LightBox& box, double hertz, double height) {
   fluid.addRegion(waterBelow(0));
   btRigidBody& body = host.contents.add(
       box.mass, box.shape,
-      {btQuaternion::getIdentity(), btVector3(0, 0, static_cast<btScalar>(height))});
+      btTransform(btQuaternion::getIdentity(), btVector3(0, 0, static_cast<btScalar>(height))));
   body.setActivationState(DISABLE_DEACTIVATION);
   AttachDef def;
   def.fluid_body = box.fluid_body;
