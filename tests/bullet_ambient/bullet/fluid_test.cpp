@@ -19,6 +19,7 @@
 
 #include "bullet_ambient/ambient.h"
 #include "tests/bullet_ambient/bullet/rising_ball.h"
+#include "tests/support/refusal_of.h"
 
 namespace ambient::test {
 namespace {
@@ -62,15 +63,11 @@ class FluidDoor : public testing::Test, protected WorldParts<>, protected Rising
   }
   static std::string refusal(btDynamicsWorld& world) {
     const btConstraintSolver* solver = world.getConstraintSolver();
-    try {
-      const Fluid fluid(world);
-    } catch (const std::invalid_argument& error) {
-      EXPECT_EQ(std::string(error.what()).rfind("Fluid: ", 0), 0u) << error.what();
-      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-      EXPECT_EQ(world.getConstraintSolver(), solver);
-      return error.what();
-    }
-    return {};
+    const std::string said = refusalOf<std::invalid_argument>([&] { const Fluid fluid(world); });
+    EXPECT_EQ(said.rfind("Fluid: ", 0), 0u) << said;
+    EXPECT_EQ(said.find('\n'), std::string::npos);
+    EXPECT_EQ(world.getConstraintSolver(), solver);
+    return said;
   }
   static void expectNames(const std::string& sentence, const char* text) {
     EXPECT_NE(sentence.find(text), std::string::npos) << sentence;

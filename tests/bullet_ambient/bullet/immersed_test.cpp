@@ -12,6 +12,7 @@
 #include "tests/support/bodies/free_body.h"
 #include "tests/support/bodies/part_bodies.h"
 #include "tests/support/bodies/random_bodies.h"
+#include "tests/support/refusal_of.h"
 
 namespace ambient::test {
 namespace {
@@ -21,13 +22,9 @@ AttachDef inAir() { return {std::make_shared<FluidBody>(meshedEllipsoid(kUnequal
 // The sentence of what a handle throws; empty: nothing.
 template <class Call>
 std::string refusal(const Call& call) {
-  try {
-    call();
-  } catch (const std::logic_error& error) {  // std::invalid_argument is one
-    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-    return error.what();
-  }
-  return "";
+  const std::string said = refusalOf<std::logic_error>(call);  // std::invalid_argument is one
+  EXPECT_EQ(said.find('\n'), std::string::npos);
+  return said;
 }
 
 TEST(Immersed, TellsAndChangesWhatIsKnownOfABody) {

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <stdexcept>
-#include <string>
-
 #include "bullet_ambient/fluid_body/fluid_body.h"
 #include "tests/support/bodies/geodesic.h"
+#include "tests/support/refusal_of.h"
 
 namespace ambient::test {
 
@@ -32,17 +30,6 @@ inline FluidBody exampleBody(int level = 1) {
   for (const Eigen::Vector3i& t : mesh.triangles)
     body.surface.triangles.insert(body.surface.triangles.end(), {t[0], t[1], t[2]});
   return body;
-}
-
-/// Returns the sentence of a refusal by readFluidBody() or a similar action; empty if accepted.
-template <class Action>
-std::string refusalOf(const Action& action) {
-  try {
-    action();
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "";
 }
 
 }  // namespace ambient::test

@@ -9,6 +9,7 @@
 
 #include "bullet_ambient/fluid_body/form_shape.h"
 #include "tests/support/bodies/geodesic.h"
+#include "tests/support/refusal_of.h"
 
 namespace ambient {
 namespace {
@@ -90,14 +91,9 @@ TEST(Sharpness, IsOneOfFacesWithoutASurface) {
 TEST(Sharpness, NeedsTheTrianglesOfTheFaces) {
   FluidBody body = bodyOf(test::geodesicSphere(0));
   body.surface.triangles.resize(27);
-  try {
-    computeSharpness(body);
-    FAIL() << "nothing was refused";
-  } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(),
-                 "fluid body 'round': number of its faces is 20, must be that of the triangles of "
-                 "its surface, or twice that of a sheet's, for the form law");
-  }
+  EXPECT_EQ(test::refusalOf<std::invalid_argument>([&] { computeSharpness(body); }),
+            "fluid body 'round': number of its faces is 20, must be that of the triangles of its "
+            "surface, or twice that of a sheet's, for the form law");
 }
 
 TEST(FormLawFaces, TakeAKnownSharpnessWithoutASurface) {

@@ -5,6 +5,7 @@
 #include "demos/integrators/integrators.h"
 #include "demos/scene/scene_lookup.h"
 #include "tests/demos/scene/scene_refusals.h"
+#include "tests/support/refusal_of.h"
 
 namespace ambient {
 namespace {
@@ -88,13 +89,8 @@ TEST(SceneLookup, ListsTheKnownNamesWhenOneIsNot) {
   const TemporaryFolder folder;
   writeScene(folder, "{}", "a.json");
   writeScene(folder, "{}", "b.json");
-  try {
-    findScene("c", {folder.path()});
-    FAIL() << "found a scene that is not there";
-  } catch (const std::exception& error) {
-    EXPECT_STREQ(error.what(),
-                 "scene \"c\" is not known; known are: a, b; or give the path of a .json file");
-  }
+  EXPECT_EQ(test::refusalOf<std::exception>([&] { findScene("c", {folder.path()}); }),
+            "scene \"c\" is not known; known are: a, b; or give the path of a .json file");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "bullet_ambient/base/plain_text.h"
 #include "demos/integrators/integrators.h"
 #include "tests/demos/scene/scene_refusals.h"
+#include "tests/support/refusal_of.h"
 
 namespace ambient {
 namespace {
@@ -15,12 +16,7 @@ using nlohmann::json;
 
 std::string complaintAboutText(const std::string& text) {
   const TemporaryFolder folder;
-  try {
-    readScene(writeScene(folder, text));
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "";
+  return test::refusalOf<std::exception>([&] { readScene(writeScene(folder, text)); });
 }
 
 TEST(SceneReader, TakesEveryValueOver) {
@@ -154,12 +150,8 @@ TEST(SceneReader, RejectsWhatCannotBe) {
 }
 
 TEST(SceneReader, NamesAMissingFile) {
-  EXPECT_THROW(
-      try { readScene("no/such/scene.json"); } catch (const std::exception& error) {
-        EXPECT_STREQ(error.what(), "no/such/scene.json: no such file");
-        throw;
-      },
-      std::exception);
+  EXPECT_EQ(test::refusalOf<std::exception>([] { readScene("no/such/scene.json"); }),
+            "no/such/scene.json: no such file");
 }
 
 // The schema names them too, for editors.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "tests/demos/scene/scene_refusals.h"
+#include "tests/support/refusal_of.h"
 
 namespace ambient {
 namespace {
@@ -39,12 +40,7 @@ Scene readRobots(const json& scene) {
 }
 
 std::string complaintOf(const json& scene) {
-  try {
-    readRobots(scene);
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "";
+  return test::refusalOf([&] { readRobots(scene); });
 }
 
 TEST(SceneRobots, LinksThatCollideAreBodies) {

@@ -13,6 +13,7 @@
 #include "bullet_ambient/spatial/inertia.h"
 #include "preprocess/floating/floating_energy.h"
 #include "tests/support/bodies/hull_bodies.h"
+#include "tests/support/refusal_of.h"
 
 namespace ambient::test {
 namespace {
@@ -178,13 +179,8 @@ TEST(FloatingAttitudes, WhatIsTooHeavyHasNone) {
 }
 
 TEST(FloatingAttitudes, SayWhatIsWrong) {
-  const auto complaint = [](FloatingBody body) -> std::string {
-    try {
-      findFloatingAttitudes(body);
-    } catch (const std::invalid_argument& error) {
-      return error.what();
-    }
-    return "";
+  const auto complaint = [](const FloatingBody& body) {
+    return refusalOf<std::invalid_argument>([&] { findFloatingAttitudes(body); });
   };
   FloatingBody body = boxAfloat({1, 1, 1}, 0.5);
   body.mass = 0;

@@ -6,6 +6,7 @@
 
 #include "preprocess/hand_over.h"
 #include "tests/preprocess/hand_over/handed_bodies.h"
+#include "tests/support/refusal_of.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ambient::test {
@@ -15,12 +16,7 @@ std::string exportRefusal(const std::shared_ptr<const FluidBody>& body, ExportFo
                           const std::function<void(ExportSettings&)>& change) {
   ExportSettings settings;
   change(settings);
-  try {
-    exportFluidBody(body, format, settings);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "accepted";
+  return refusalOf<std::invalid_argument>([&] { exportFluidBody(body, format, settings); });
 }
 
 std::string exportRefusal(const std::function<void(ExportSettings&)>& change) {

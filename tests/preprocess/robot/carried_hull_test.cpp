@@ -11,6 +11,7 @@
 #include "preprocess/robot/robot_fluid.h"
 #include "tests/preprocess/robot/fluid_robot_world.h"
 #include "tests/preprocess/robot/urdf_text_of.h"
+#include "tests/support/refusal_of.h"
 
 namespace ambient {
 namespace {
@@ -120,12 +121,10 @@ TEST(CarriedHull, IsWhereItsLinkIs) {
   const Immersed added = in.fluid.add(own.body, 0, {shapes.fluidBody(own.box), water()});
   EXPECT_LT((added.wet().centre_of_buoyancy - toVector3(centre)).norm(), 1e-6);
   for (const int link : {-1, 0}) {
-    try {
-      in.fluid.add(own.body, link, {shapes.fluidBody(own.box), water()});
-      FAIL();
-    } catch (const std::invalid_argument& error) {
-      EXPECT_NE(std::string(error.what()).find("added already"), std::string::npos);
-    }
+    const AttachDef again{shapes.fluidBody(own.box), water()};
+    const std::string said =
+        test::refusalOf<std::invalid_argument>([&] { in.fluid.add(own.body, link, again); });
+    EXPECT_NE(said.find("added already"), std::string::npos) << said;
   }
 }
 

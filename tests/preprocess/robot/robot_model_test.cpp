@@ -5,17 +5,13 @@
 #include <cmath>
 
 #include "tests/preprocess/robot/urdf_text_of.h"
+#include "tests/support/refusal_of.h"
 
 namespace ambient {
 namespace {
 
 std::string complaintOf(const std::string& content, bool fixed_base = false) {
-  try {
-    checkRobot(parseRobot(content), fixed_base);
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "";
+  return test::refusalOf([&] { checkRobot(parseRobot(content), fixed_base); });
 }
 
 TEST(RobotModel, FixedLinksBecomePartOfTheirParent) {

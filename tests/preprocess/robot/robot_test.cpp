@@ -10,6 +10,7 @@
 #include "tests/preprocess/robot/robot_world.h"
 #include "tests/preprocess/robot/urdf_text_of.h"
 #include "tests/reference/ellipsoid_added_mass.h"
+#include "tests/support/refusal_of.h"
 
 namespace ambient {
 namespace {
@@ -310,13 +311,8 @@ TEST(RobotFluid, RefusalNamesTheLinkAndLeavesNothing) {
   FluidBodyCache shapes;
   AttachDef def;
   def.medium = water();
-  try {
-    attachRobot(in.fluid, robot, shapes, def);
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_EQ(std::string(error.what()).find("r.urdf: link \"b\": no/such.ambient"), 0u)
-        << error.what();
-  }
+  const std::string said = test::refusalOf([&] { attachRobot(in.fluid, robot, shapes, def); });
+  EXPECT_EQ(said.find("r.urdf: link \"b\": no/such.ambient"), 0u) << said;
   EXPECT_FALSE(in.fluid.find(robot.multiBody(), -1));
 }
 

@@ -7,6 +7,7 @@
 #include "preprocess/robot/file_reference.h"
 #include "tests/preprocess/robot/urdf_text_of.h"
 #include "tests/support/comma_locale.h"
+#include "tests/support/refusal_of.h"
 #include "tests/support/refusals.h"
 #include "tests/support/temporary_folder.h"
 
@@ -14,12 +15,7 @@ namespace ambient {
 namespace {
 
 std::string complaintAbout(const std::string& content) {
-  try {
-    parseRobot(content);
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "";
+  return test::refusalOf([&] { parseRobot(content); });
 }
 
 TEST(UrdfReader, ReadsLinksAndJoints) {
@@ -113,12 +109,7 @@ TEST(UrdfReader, RefusesBadInputInOneLine) {
 
 TEST(UrdfReader, RefusesWhatIsNotARobot) {
   const auto complaint = [](const std::string& text) {
-    try {
-      parseUrdf(text, "r.urdf");
-    } catch (const std::runtime_error& error) {
-      return std::string(error.what());
-    }
-    return std::string();
+    return test::refusalOf([&] { parseUrdf(text, "r.urdf"); });
   };
   EXPECT_EQ(complaint("<sdf/>"), "r.urdf: has no element <robot>");
   EXPECT_NE(complaint("").find("r.urdf: "), std::string::npos);

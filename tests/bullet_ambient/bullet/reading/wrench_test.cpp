@@ -11,6 +11,7 @@
 #include "tests/bullet_ambient/bullet/state/saved_run.h"
 #include "tests/support/bits_of.h"
 #include "tests/support/bodies/part_bodies.h"
+#include "tests/support/refusal_of.h"
 
 // The wrench of the fluid where closed forms tell it, and what its reading may not do.
 namespace ambient::test {
@@ -196,12 +197,8 @@ TEST(WrenchReading, ChangesNoMotion) {
 TEST(WrenchReading, IsRefusedWhereNobodyHasAskedForIt) {
   Swimmer swimmer(1, stillWater());
   const Immersed body = swimmer.add();
-  try {
-    body.wrench();
-    FAIL();
-  } catch (const std::logic_error& error) {
-    EXPECT_STREQ(error.what(), "wrench: it is not read; call readWrench(true) before a step");
-  }
+  EXPECT_EQ(refusalOf<std::logic_error>([&] { body.wrench(); }),
+            "wrench: it is not read; call readWrench(true) before a step");
   body.readWrench(true);
   EXPECT_GT(body.wrench().buoyancy.force.z(), 0);
   body.readWrench(false);

@@ -7,6 +7,7 @@
 
 #include "bullet_ambient/fluid.h"
 #include "tests/bullet_ambient/bullet/regions/region_world.h"
+#include "tests/support/refusal_of.h"
 
 // Regions of fluid, and the search for a body's region.
 namespace ambient::test {
@@ -201,20 +202,12 @@ TEST(FluidRegions, ARegionThatABodyCannotMeetChangesNothing) {
                std::invalid_argument);
   FluidRegion wrong = filledWith(air());
   wrong.below.density = -1;
-  const auto expectSays = [](const auto& change, const char* sentence) {
-    try {
-      change();
-      ADD_FAILURE() << "not refused: " << sentence;
-    } catch (const std::invalid_argument& error) {
-      EXPECT_STREQ(error.what(), sentence);
-    }
-  };
-  expectSays([&] { scene.fluid.addRegion(wrong); },
-             "region of fluid 1: density of the medium [kg/m^3] is -1; must be zero or positive "
-             "and finite");
-  expectSays([&] { scene.fluid.setRegion(id, wrong); },
-             "region of fluid 0: density of the medium [kg/m^3] is -1; must be zero or positive "
-             "and finite");
+  const std::string sentence =
+      ": density of the medium [kg/m^3] is -1; must be zero or positive and finite";
+  EXPECT_EQ(refusalOf<std::invalid_argument>([&] { scene.fluid.addRegion(wrong); }),
+            "region of fluid 1" + sentence);
+  EXPECT_EQ(refusalOf<std::invalid_argument>([&] { scene.fluid.setRegion(id, wrong); }),
+            "region of fluid 0" + sentence);
   scene.step(kWorldStep);
   EXPECT_EQ(scene.of(body).medium().density, 8);
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tests/bullet_ambient/bullet/robots/robot_world.h"
+#include "tests/support/refusal_of.h"
 
 namespace ambient::test {
 
@@ -21,12 +22,7 @@ class Robots : public testing::Test {
     return coupledFluid(arbitrary, body, link, 2);
   }
   std::string refusal(btMultiBody& body, int link, const AttachDef& def) {
-    try {
-      world.fluid.add(body, link, def);
-    } catch (const std::invalid_argument& error) {
-      return error.what();
-    }
-    return "";
+    return refusalOf<std::invalid_argument>([&] { world.fluid.add(body, link, def); });
   }
 
   std::vector<std::string> heard;

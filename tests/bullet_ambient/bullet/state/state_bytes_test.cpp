@@ -6,21 +6,18 @@
 #include <stdexcept>
 
 #include "tests/bullet_ambient/bullet/state/state_scene.h"
+#include "tests/support/refusal_of.h"
 
 namespace ambient::test {
 namespace {
 
 // Returns the sentence of decodeState()'s refusal; empty if accepted.
 std::string refusal(const std::string& bytes, const FluidBodyLookup& lookup) {
-  try {
-    decodeState(bytes, "quick.save", lookup);
-  } catch (const std::runtime_error& error) {
-    const std::string sentence = error.what();
-    EXPECT_EQ(sentence.find("quick.save: the saved state "), 0u) << sentence;
-    EXPECT_EQ(sentence.find('\n'), std::string::npos);
-    return sentence;
-  }
-  return {};
+  const std::string sentence = refusalOf([&] { decodeState(bytes, "quick.save", lookup); });
+  if (sentence.empty()) return sentence;
+  EXPECT_EQ(sentence.find("quick.save: the saved state "), 0u) << sentence;
+  EXPECT_EQ(sentence.find('\n'), std::string::npos);
+  return sentence;
 }
 
 btManifoldPoint& firstPoint(WorldState& state) {
@@ -76,14 +73,8 @@ TEST_F(StateBytes, NameEveryFluidBodyOnce) {
   other.volume *= 2;
   state.bodies.push_back(twin);
   state.bodies.back().ambient->def.fluid_body = std::make_shared<FluidBody>(other);
-  try {
-    encodeState(state);
-    ADD_FAILURE() << "not refused";
-  } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("have the name '" + other.name + "'"),
-              std::string::npos)
-        << error.what();
-  }
+  const std::string said = refusalOf([&] { encodeState(state); });
+  EXPECT_NE(said.find("have the name '" + other.name + "'"), std::string::npos) << said;
 }
 
 TEST_F(StateBytes, AreRefusedWhenTheyAreCutShort) {
@@ -203,12 +194,9 @@ TEST_F(StateBytes, WithNumbersThatNoWorldCanHaveAreRefusedHoweverTheyCome) {
     WorldState wrong = state;
     forgery.forge(wrong);
     expectSays(encodeState(wrong), forgery.words);
-    try {
-      scene.scene.fluid.restore(wrong);
-      ADD_FAILURE() << forgery.words;
-    } catch (const std::invalid_argument& error) {
-      EXPECT_NE(std::string(error.what()).find(forgery.words), std::string::npos) << error.what();
-    }
+    const std::string said =
+        refusalOf<std::invalid_argument>([&] { scene.scene.fluid.restore(wrong); });
+    EXPECT_NE(said.find(forgery.words), std::string::npos) << forgery.words << ": " << said;
   }
   WorldState now = scene.scene.fluid.save();
   EXPECT_EQ(encodeState(now), bytes);

@@ -5,6 +5,7 @@
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/force/medium/waves.h"
+#include "tests/support/refusal_of.h"
 
 // Laws of waves on deep water, checked by differences between samples.
 namespace ambient::test {
@@ -146,12 +147,7 @@ TEST(WaterSurfaceFunction, SaysWhatTheFunctionSays) {
 }
 
 std::string seaError(const CalmSea& sea, const std::vector<WaveComponent>& waves) {
-  try {
-    AiryWaves made(sea, waves);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
+  return test::refusalOf<std::invalid_argument>([&] { AiryWaves made(sea, waves); });
 }
 
 TEST(AiryWaves, SayWhatIsWrong) {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "bullet_ambient/force/medium/waves.h"
+#include "tests/support/refusal_of.h"
 
 namespace ambient::test {
 namespace {
@@ -86,12 +87,7 @@ TEST(FluidRegion, IsSteadyWithoutFunctionsAndMovingSurfaces) {
 }
 
 std::string regionError(const FluidRegion& region) {
-  try {
-    checkRegion(region);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
+  return test::refusalOf<std::invalid_argument>([&] { checkRegion(region); });
 }
 
 TEST(FluidRegion, SaysWhatIsWrong) {

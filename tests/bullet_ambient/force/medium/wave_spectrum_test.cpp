@@ -8,6 +8,7 @@
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/force/medium/waves.h"
+#include "tests/support/refusal_of.h"
 
 namespace ambient::test {
 namespace {
@@ -111,12 +112,7 @@ TEST(WaveSpectrum, HasThePhasesOfItsSeed) {
 }
 
 std::string complaintAbout(const WaveSpectrum& spectrum) {
-  try {
-    wavesOf(spectrum);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
+  return test::refusalOf<std::invalid_argument>([&] { wavesOf(spectrum); });
 }
 
 TEST(WaveSpectrum, RefusesWhatIsNoSea) {

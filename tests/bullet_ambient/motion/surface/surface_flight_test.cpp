@@ -7,6 +7,7 @@
 #include "bullet_ambient/motion/flight/flight.h"
 #include "tests/support/bodies/random_bodies.h"
 #include "tests/support/floating_runs.h"
+#include "tests/support/refusal_of.h"
 
 namespace ambient {
 namespace {
@@ -326,12 +327,7 @@ TEST(SurfaceModel, RefusesWhatCannotFloat) {
   FluidBody body = test::floatingBox({1, 1, 1});
   const auto refusal = [&] {
     def.shape = std::make_shared<const FluidBody>(body);
-    try {
-      makeSurfaceModel(def);
-    } catch (const std::invalid_argument& error) {
-      return std::string(error.what());
-    }
-    return std::string();
+    return test::refusalOf<std::invalid_argument>([&] { makeSurfaceModel(def); });
   };
   def.mass = {1, Matrix3::Identity()};
   def.below = water();

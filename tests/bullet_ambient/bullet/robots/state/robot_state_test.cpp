@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "tests/bullet_ambient/bullet/robots/state/robot_state_scene.h"
+#include "tests/support/refusal_of.h"
 
 // Saved states of worlds with robots.
 namespace ambient::test {
@@ -15,13 +16,9 @@ constexpr auto kNaN = std::numeric_limits<btScalar>::quiet_NaN();
 constexpr auto kInfinity = std::numeric_limits<btScalar>::infinity();
 
 std::string refusal(RobotStateScene& scene, const WorldState& state) {
-  try {
-    scene.restore(state);
-  } catch (const std::invalid_argument& error) {
-    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-    return error.what();
-  }
-  return "";
+  const std::string said = refusalOf<std::invalid_argument>([&] { scene.restore(state); });
+  EXPECT_EQ(said.find('\n'), std::string::npos);
+  return said;
 }
 
 TEST(RobotState, GoesOnBitForBitInTheSameWorldAndInOneBuiltByTheSameCode) {
@@ -292,12 +289,9 @@ TEST(RobotState, WithNumbersThatNoWorldCanHaveIsRefused) {
   for (const Forgery& forgery : forgeries) {
     WorldState wrong = run.save();
     forgery.forge(wrong.multi_bodies[1]);
-    try {
-      decodeState(encodeState(wrong), "forged", run.lookup());
-      ADD_FAILURE() << forgery.words;
-    } catch (const std::runtime_error& error) {
-      EXPECT_NE(std::string(error.what()).find(forgery.words), std::string::npos) << error.what();
-    }
+    const std::string said =
+        refusalOf([&] { decodeState(encodeState(wrong), "forged", run.lookup()); });
+    EXPECT_NE(said.find(forgery.words), std::string::npos) << forgery.words << ": " << said;
     EXPECT_NE(refusal(run, wrong), "") << forgery.words;
   }
   WorldState wrong = run.save();
