@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <string>
 #include <type_traits>
 
 #include "tests/bullet_ambient/bullet/contact/arbitrary_contacts.h"
@@ -14,22 +13,6 @@ namespace {
 
 // Joints of an ambient body to a plane, an ordinary body and another ambient body. The reference
 // solves the joint's own rows densely with K.
-
-enum class JointType {
-  kPointToPoint,
-  kHinge,
-  kSlider,
-  kConeTwist,
-  kGeneric6Dof,
-  kGeneric6DofSpring,
-  kGeneric6DofSpring2,
-  kFixed,
-  kGear
-};
-constexpr JointType kJointTypes[] = {
-    JointType::kPointToPoint,       JointType::kHinge,       JointType::kSlider,
-    JointType::kConeTwist,          JointType::kGeneric6Dof, JointType::kGeneric6DofSpring,
-    JointType::kGeneric6DofSpring2, JointType::kFixed,       JointType::kGear};
 
 struct Frames {
   btTransform in_a, in_b;
@@ -193,45 +176,41 @@ Real bound(btScalar limit) {
 // Clamps infinite target velocities, set by springs that their force bounds, to a large value.
 Real finite(btScalar error) { return std::clamp<Real>(error, -1e6L, 1e6L); }
 
-std::string jointName(JointType type) {
-  constexpr const char* kNames[] = {"PointToPoint",       "Hinge",       "Slider",
-                                    "ConeTwist",          "Generic6Dof", "Generic6DofSpring",
-                                    "Generic6DofSpring2", "Fixed",       "Gear"};
-  return kNames[static_cast<int>(type)];
+using MadeJoint = std::unique_ptr<btTypedConstraint>;
+
+/// Makes a joint at the contact of a pair with frames slightly turned and moved apart. Random
+/// limits, motors and springs, if it has bounds.
+struct JointType {
+  const char* name;
+  bool has_bounds;
+  MadeJoint (*make)(Arbitrary&, const ContactPair&, const Frames&);
+};
+
+MadeJoint pointToPoint(Arbitrary&, const ContactPair& pair, const Frames& frames) {
+  return std::make_unique<btPoint2PointConstraint>(
+      pair.a().body(), pair.b().body(), frames.in_a.getOrigin(), frames.in_b.getOrigin());
 }
 
-// Makes a joint at the contact of a pair with frames slightly turned and moved apart. Random
-// limits, motors and springs, if the type has any.
-std::unique_ptr<btTypedConstraint> arbitraryJoint(Arbitrary& arbitrary, JointType type,
-                                                  const ContactPair& pair) {
-  const Frames frames = arbitraryFrames(arbitrary, pair);
-  btRigidBody& a = pair.a().body();
-  btRigidBody& b = pair.b().body();
-  switch (type) {
-    case JointType::kPointToPoint:
-      return std::make_unique<btPoint2PointConstraint>(a, b, frames.in_a.getOrigin(),
-                                                       frames.in_b.getOrigin());
-    case JointType::kHinge:
-      return hinge(arbitrary, pair, frames);
-    case JointType::kSlider:
-      return slider(arbitrary, pair, frames);
-    case JointType::kConeTwist:
-      return coneTwist(arbitrary, pair, frames);
-    case JointType::kGeneric6Dof:
-      return generic(arbitrary, pair, frames);
-    case JointType::kGeneric6DofSpring:
-      return genericSpring(arbitrary, pair, frames);
-    case JointType::kGeneric6DofSpring2:
-      return genericSpring2(arbitrary, pair, frames);
-    case JointType::kFixed:
-      return std::make_unique<btFixedConstraint>(a, b, frames.in_a, frames.in_b);
-    case JointType::kGear:
-      return std::make_unique<btGearConstraint>(a, b, toBt(arbitrary.vector()).normalized(),
-                                                toBt(arbitrary.vector()).normalized(),
-                                                btScalar(arbitrary.between(0.2, 3)));
-  }
-  return nullptr;
+MadeJoint fixed(Arbitrary&, const ContactPair& pair, const Frames& frames) {
+  return std::make_unique<btFixedConstraint>(pair.a().body(), pair.b().body(), frames.in_a,
+                                             frames.in_b);
 }
+
+MadeJoint gear(Arbitrary& arbitrary, const ContactPair& pair, const Frames&) {
+  return std::make_unique<btGearConstraint>(
+      pair.a().body(), pair.b().body(), toBt(arbitrary.vector()).normalized(),
+      toBt(arbitrary.vector()).normalized(), btScalar(arbitrary.between(0.2, 3)));
+}
+
+constexpr JointType kJointTypes[] = {{"PointToPoint", false, pointToPoint},
+                                     {"Hinge", true, hinge},
+                                     {"Slider", true, slider},
+                                     {"ConeTwist", true, coneTwist},
+                                     {"Generic6Dof", true, generic},
+                                     {"Generic6DofSpring", true, genericSpring},
+                                     {"Generic6DofSpring2", true, genericSpring2},
+                                     {"Fixed", false, fixed},
+                                     {"Gear", false, gear}};
 
 // Rows requested by the joint's getInfo2() at the start of a step with these settings. Bullet's
 // softness of a joint is a multiple of the row's response.
@@ -281,11 +260,6 @@ constexpr int kJointsEach = 150;
 
 bool hasSoftRow(const Rows& rows) {
   return std::any_of(rows.begin(), rows.end(), [](const auto& row) { return row.softness != 0; });
-}
-
-// Tells if the type has limits, motors or springs.
-bool hasBounds(JointType type) {
-  return type != JointType::kPointToPoint && type != JointType::kFixed && type != JointType::kGear;
 }
 
 // Drops second rows along one direction, for example of the two ends of a range.
@@ -341,7 +315,7 @@ using JointSolvers = std::conditional_t<sizeof(btScalar) == 8, AllSolvers, Exact
 TYPED_TEST_SUITE(Joint, JointSolvers, SolverName);
 
 TYPED_TEST(Joint, EqualsTheDenseSolution) {
-  for (const JointType type : kJointTypes) {
+  for (const JointType& type : kJointTypes) {
     Arbitrary arbitrary(61);
     double worst = 0, worst_feedback = 0;
     int solved = 0, at_bounds = 0;
@@ -353,7 +327,7 @@ TYPED_TEST(Joint, EqualsTheDenseSolution) {
       if (!std::is_same_v<TypeParam, ConjugateGradient>)
         info.m_leastSquaresResidualThreshold *= 100;
       pushAtRandom(arbitrary, pair, info.m_timeStep);
-      const auto joint = arbitraryJoint(arbitrary, type, pair);
+      const auto joint = type.make(arbitrary, pair, arbitraryFrames(arbitrary, pair));
       btJointFeedback feedback;
       joint->setJointFeedback(&feedback);
       const Before before(pair);
@@ -375,10 +349,10 @@ TYPED_TEST(Joint, EqualsTheDenseSolution) {
       worst_feedback = std::max(worst_feedback, feedbackError(feedback, rows, bodies, expected,
                                                               pair.a().size(), info.m_timeStep));
     }
-    EXPECT_LT(worst, kTolerance) << jointName(type);
-    EXPECT_LT(worst_feedback, kFeedbackTolerance) << jointName(type);
-    EXPECT_GT(solved, kJointsEach / 4) << jointName(type);
-    EXPECT_GT(at_bounds, hasBounds(type) ? 10 : -1) << jointName(type);
+    EXPECT_LT(worst, kTolerance) << type.name;
+    EXPECT_LT(worst_feedback, kFeedbackTolerance) << type.name;
+    EXPECT_GT(solved, kJointsEach / 4) << type.name;
+    EXPECT_GT(at_bounds, type.has_bounds ? 10 : -1) << type.name;
   }
 }
 
