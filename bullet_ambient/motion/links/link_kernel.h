@@ -8,8 +8,9 @@ namespace ambient {
 // must not include Eigen. No struct has functions: these would be shared with the other kernels.
 
 /// Three components along the axes of a frame. The fourth lane is 0. A struct, because without AVX
-/// a compiler has no agreed way to pass the vector itself.
-struct AxisRow {
+/// a compiler has no agreed way to pass the vector itself. Its alignment is that of machines with
+/// AVX on all: gcc would take 16 bytes without.
+struct alignas(32) AxisRow {
   double __attribute__((vector_size(32))) at;
 };
 struct AxisMatrix {
