@@ -53,7 +53,7 @@ inline Matrix6 coupledAddedMass(Arbitrary& arbitrary, double mass, double size) 
 inline Joint randomJoint(Arbitrary& arbitrary, JointKind kind) {
   Joint joint;
   joint.kind = kind;
-  joint.zero_axes = arbitrary.rotation();
+  joint.zero_axes = arbitrary.rotation().transpose();
   joint.parent_to_pivot = Vector3(0.15, 0, 0) + arbitrary.vector(0.03);
   const Vector3 d = Vector3(0.15, 0, 0) + arbitrary.vector(0.03);
   const Vector3 n = arbitrary.vector().normalized();
