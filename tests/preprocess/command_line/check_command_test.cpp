@@ -54,7 +54,8 @@ TEST_F(CommandLine, CheckSaysWhatBuildWouldDo) {
   EXPECT_EQ(refused.exit_code, 1);
   EXPECT_NE(refused.output.find("\nwith --sheet     usable: "), std::string::npos)
       << refused.output;
-  EXPECT_EQ(buildUsageRefusal(open, {"--wrap", "--strict"}), "--wrap: excludes --strict");
+  EXPECT_EQ(usageRefusal({"build", open, "-o", path("x.ambient"), "--wrap", "--strict"}),
+            "--wrap: excludes --strict");
 }
 
 TEST_F(CommandLine, RefusalsMentionWrapWhichMendsThem) {
