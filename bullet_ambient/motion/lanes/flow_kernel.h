@@ -215,7 +215,7 @@ void flow(FlightLanes& bodies, int at, const Mask& active) {
   // twist: rounding of K^-1 grows with the condition of K.
   now.motion.momentum = Matrices(bodies.inertia, at) * now.motion.twist;
   const Lanes after = inner(now.motion, now.motion);
-  const Lanes removed = moves & (after > energy) ? 0.5 * (after - energy) : zero;
+  const Lanes removed = (moves & (after > energy)) ? 0.5 * (after - energy) : zero;
   store(bodies.energy_removed + at, load(bodies.energy_removed + at) + removed);
   const Pairs start{load6(bodies.twist_B, at), load6(bodies.momentum_B, at)};
   now.motion = select(moves, scaleWithin(after, energy) * now.motion, start);

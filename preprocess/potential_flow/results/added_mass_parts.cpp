@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -119,10 +120,33 @@ struct Axis {
   Vector3 point, direction;
 };
 
-/// Finds the axis through the centroid whose spin moves next to no panel along its normal; none if
-/// no or more than one principal axis is such.
+/// Whether the surface about an axis through the centroid is one of revolution: spin moves next to
+/// no panel along its normal, and the distance from the axis is alike all around, as seen by its
+/// first harmonics. A flat plate, whatever its outline, meets the first alone.
+bool isRoundAbout(const Vector3& axis, const Vector3& centroid, const Panels& panels) {
+  constexpr double kRound = 0.01;  // polygon of 16 sides: 0.013, of 24: 0.006
+  constexpr int kHarmonics = 6;
+  const Vector3 first = axis.unitOrthogonal(), second = axis.cross(first);
+  double along = 0, all = 0;
+  std::complex<double> harmonics[kHarmonics] = {};
+  for (const PanelInertia& panel : panels) {
+    const Vector3 r = panel.centroid - centroid;
+    const std::complex<double> way(first.dot(r), second.dot(r));
+    const double square = std::norm(way);
+    along += panel.area * std::pow(panel.normal.dot(axis.cross(r)), 2);
+    all += panel.area * square;
+    if (!(square > 0)) continue;
+    const std::complex<double> direction = way / std::sqrt(square);
+    std::complex<double> turning = panel.area * square;
+    for (std::complex<double>& harmonic : harmonics) harmonic += turning *= direction;
+  }
+  return along < kRound * all &&
+         std::all_of(harmonics, harmonics + kHarmonics,
+                     [&](const auto& harmonic) { return std::abs(harmonic) < kRound * all; });
+}
+
+/// Finds the principal axis that a surface is one of revolution about; a ball has none.
 std::optional<Axis> axisOf(const Panels& panels) {
-  constexpr double kRound = 0.01;  // a polygon of 16 sides has 0.013, of 24 sides 0.006
   double area = 0;
   Vector3 centroid = Vector3::Zero();
   for (const PanelInertia& panel : panels) {
@@ -138,13 +162,7 @@ std::optional<Axis> axisOf(const Panels& panels) {
   const Matrix3 axes = symmetricEigen<3>(squares).vectors;
   std::optional<Axis> found;
   for (int i = 0; i < 3; ++i) {
-    double along = 0, all = 0;
-    for (const PanelInertia& panel : panels) {
-      const Vector3 way = axes.col(i).cross(Vector3(panel.centroid - centroid));
-      along += panel.area * std::pow(panel.normal.dot(way), 2);
-      all += panel.area * way.squaredNorm();
-    }
-    if (!(along < kRound * all)) continue;
+    if (!isRoundAbout(axes.col(i), centroid, panels)) continue;
     if (found) return std::nullopt;
     found = Axis{centroid, axes.col(i)};
   }

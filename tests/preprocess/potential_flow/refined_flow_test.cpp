@@ -24,10 +24,9 @@ namespace {
 using test::differenceOf;
 using test::relativeError;
 
-PotentialFlowSettings withPanels(int panels, bool sheet = false) {
+PotentialFlowSettings withPanels(int panels) {
   PotentialFlowSettings settings;
   settings.max_panels = panels;
-  settings.sheet = sheet;
   return settings;
 }
 
@@ -178,14 +177,12 @@ TEST(RefinedFlow, RodsOf1000DiametersFollowStripTheory) {
 TEST(RefinedFlow, PlaceAttitudeAndSizeStayIdentities) {
   const TriangleMesh ellipsoid = makeEllipsoidMesh({1, 0.7, 0.5}, 80);
   const TriangleMesh box = makeBoxMesh({1, 0.5, 0.25}, 12);
-  const TriangleMesh cube = makeBoxMesh({1, 1, 1}, 12);  // regular: all choices are equal
-  const TriangleMesh skew = test::skewBody(makeBoxMesh({0.5, 0.35, 0.6}, 48));
   const Eigen::Matrix3d R = someRotation();
   const Eigen::Vector3d d(0.3, -0.2, 0.5);
   const auto solved = [](const TriangleMesh& mesh) {
     return solveRefinedFlow(mesh, withPanels(300)).added_mass;
   };
-  for (const TriangleMesh& mesh : {ellipsoid, box, cube, skew}) {
+  for (const TriangleMesh& mesh : {ellipsoid, box}) {
     const Matrix6 K = solved(mesh);
     EXPECT_LT(differenceOf(solved(rotated(mesh, R)), rotateAxes(K, R)), 1e-10);
     EXPECT_LT(differenceOf(solved(scaled(mesh, 1e-5)), scaleShape(K, 1e-5), 1e-5), 1e-10);
@@ -193,28 +190,36 @@ TEST(RefinedFlow, PlaceAttitudeAndSizeStayIdentities) {
   }
 }
 
+PotentialFlowSettings panelSettings(int panels, bool sheet = false) {
+  PotentialFlowSettings settings;
+  settings.max_panels = panels;
+  settings.sheet = sheet;
+  return settings;
+}
+
 TEST(FlowEstimate, OfADividedMeshIsAboveItsError) {
   const TriangleMesh cube = makeBoxMesh({1, 1, 1}, 12);
-  const auto estimate = estimateFlow(cube, withPanels(1000));
+  const auto estimate = estimateFlow(cube, panelSettings(1000));
   ASSERT_TRUE(estimate);
   EXPECT_LT(estimate->other_panels, estimate->panels);
-  const Matrix6 K = solveRefinedFlow(cube, withPanels(1000)).added_mass;
+  const Matrix6 K = solveRefinedFlow(cube, panelSettings(1000)).added_mass;
+  const auto errorOf = [](double value, double truth) { return std::abs(value / truth - 1); };
   // Estimate and error, measured: 1.0e-1 and 1.5e-3, 9.1e-3 and 2.0e-3.
-  EXPECT_GT(estimate->rotation_error, relativeError(K(0, 0), reference::cubeRotationalAddedMass()));
+  EXPECT_GT(estimate->rotation_error, errorOf(K(0, 0), reference::cubeRotationalAddedMass()));
   EXPECT_GT(estimate->translation_error,
-            relativeError(K(3, 3), 8 * reference::cubeAddedMassCoefficient()));
+            errorOf(K(3, 3), 8 * reference::cubeAddedMassCoefficient()));
   EXPECT_LT(estimate->translation_error, 2e-2);
 }
 
 TEST(FlowEstimate, OfAFineMeshIsFromMorePanels) {
   const TriangleMesh egg = makeEllipsoidMesh({1, 0.8, 0.6}, 320);
-  const auto estimate = estimateFlow(egg, withPanels(0));
+  const auto estimate = estimateFlow(egg, panelSettings(0));
   ASSERT_TRUE(estimate);
   EXPECT_EQ(estimate->panels, 320);
   EXPECT_GT(estimate->other_panels, 960);
   // The error beside many more panels on these facets, over the largest entry of the block.
-  const Matrix6 limit = solvePotentialFlow(divideTriangles(egg, 4000), withPanels(0)).added_mass,
-                K = solvePotentialFlow(egg, withPanels(0)).added_mass;
+  const Matrix6 limit = solvePotentialFlow(divideTriangles(egg, 4000), panelSettings(0)).added_mass,
+                K = solvePotentialFlow(egg, panelSettings(0)).added_mass;
   const auto block = [](const Matrix6& matrix) {
     return matrix.bottomRightCorner<3, 3>().cwiseAbs().maxCoeff();
   };
@@ -223,20 +228,20 @@ TEST(FlowEstimate, OfAFineMeshIsFromMorePanels) {
 }
 
 TEST(FlowEstimate, LargeMeshesHaveNone) {
-  EXPECT_FALSE(estimateFlow(makeEllipsoidMesh({1, 1, 1}, 2700), withPanels(0)));
+  EXPECT_FALSE(estimateFlow(makeEllipsoidMesh({1, 1, 1}, 2700), panelSettings(0)));
 }
 
 TEST(FlowEstimate, PlaceOfTheMeshDoesNotMatter) {
   const TriangleMesh box = makeBoxMesh({1, 0.5, 0.2}, 12);
-  const auto here = estimateFlow(box, withPanels(600));
-  const auto there = estimateFlow(moved(box, {5, 6, 7}), withPanels(600));
+  const auto here = estimateFlow(box, panelSettings(600));
+  const auto there = estimateFlow(moved(box, {5, 6, 7}), panelSettings(600));
   ASSERT_TRUE(here && there);
   EXPECT_NEAR(there->rotation_error, here->rotation_error, 1e-5);
   EXPECT_NEAR(there->translation_error, here->translation_error, 1e-6);
 }
 
 TEST(FlowEstimate, OfASheet) {
-  const auto estimate = estimateFlow(makeRectangularSheetMesh(2, 1, 16), withPanels(800, true));
+  const auto estimate = estimateFlow(makeRectangularSheetMesh(2, 1, 16), panelSettings(800, true));
   ASSERT_TRUE(estimate);
   EXPECT_GT(estimate->translation_error, 0);
 }

@@ -140,7 +140,8 @@ TEST(Buoy, DoesNotSpinInWaves) {
         {"shape": {"type": "cylinder", "radius": 2, "height": 6}, "position": [0, 0, -4]},
         {"shape": {"type": "cylinder", "radius": 4, "height": 1}, "position": [0, 0, -7]}]}}]})");
   double turn = 0, before = 0, most_tilt = 0;
-  for (const MotionSample& sample : run(readScene(folder / "buoy.json")).motion[0]) {
+  const RunRecord record = run(readScene(folder / "buoy.json"));
+  for (const MotionSample& sample : record.motion[0]) {
     const Vector3 axis = sample.orientation * Vector3::UnitZ();
     turn += axis.dot(sample.twist.angular) * (sample.time - before);
     before = sample.time;
