@@ -104,7 +104,8 @@ struct WrenchLanes {
   float lanes[6][kLanes];
   float pitch[kLanes];
 
-  void set(const Vectors& torque, const Vectors& force, int lane) {
+  // Inlined: else the vectors pass through memory.
+  [[gnu::always_inline]] void set(const Vectors& torque, const Vectors& force, int lane) {
     store(lanes[0] + lane, torque.x);
     store(lanes[1] + lane, torque.y);
     store(lanes[2] + lane, torque.z);
