@@ -147,7 +147,7 @@ TEST(Buoy, DoesNotSpinInWaves) {
     before = sample.time;
     most_tilt = std::max(most_tilt, std::acos(std::min(1.0, axis.z())));
   }
-  EXPECT_GT(most_tilt, 0.2);  // it does rock
+  EXPECT_GT(most_tilt, 0.2);        // it does rock
   EXPECT_LT(std::abs(turn), 0.12);  // measured 0.087; without rings of parts some 0.7
 }
 
