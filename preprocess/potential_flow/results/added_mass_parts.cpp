@@ -133,7 +133,8 @@ bool isRoundAbout(const Vector3& axis, const Vector3& centroid, const Panels& pa
     const Vector3 r = panel.centroid - centroid;
     const std::complex<double> way(first.dot(r), second.dot(r));
     const double square = std::norm(way);
-    along += panel.area * std::pow(panel.normal.dot(axis.cross(r)), 2);
+    const double speed = panel.normal.dot(axis.cross(r));  // of unit spin, along the normal
+    along += panel.area * speed * speed;
     all += panel.area * square;
     if (!(square > 0)) continue;
     const std::complex<double> direction = way / std::sqrt(square);
