@@ -114,7 +114,7 @@ TEST(DifferentShapes, CylindersCostLittle) {
         return std::make_unique<btCylinderShapeZ>(
             btVector3(toScalar(s.x()), toScalar(s.x()), toScalar(s.y())));
       },
-      {312, 6750, 10500});
+      {317, 3540, 5720});
 }
 
 TEST(DifferentShapes, CapsulesCostLittle) {
@@ -122,7 +122,7 @@ TEST(DifferentShapes, CapsulesCostLittle) {
       [](const Sizes& s) {
         return std::make_unique<btCapsuleShapeZ>(toScalar(s.x()), toScalar(2 * s.y()));
       },
-      {257, 4950, 17500});
+      {260, 3130, 10700});
 }
 
 TEST(DifferentShapes, ConesCostLittle) {
@@ -130,7 +130,7 @@ TEST(DifferentShapes, ConesCostLittle) {
       [](const Sizes& s) {
         return std::make_unique<btConeShapeZ>(toScalar(s.x()), toScalar(2 * s.y()));
       },
-      {286, 6400, 15500});
+      {289, 3700, 8640});
 }
 
 }  // namespace
