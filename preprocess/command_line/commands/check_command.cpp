@@ -12,6 +12,7 @@
 #include "preprocess/base/output_file.h"
 #include "preprocess/builder/blocked_signals.h"
 #include "preprocess/builder/elapsed_display.h"
+#include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/input_shape.h"
 #include "preprocess/command_line/json_numbers.h"
