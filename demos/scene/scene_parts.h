@@ -8,7 +8,7 @@
 #include "demos/scene/scene.h"
 #include "preprocess/shape/json_schema.h"
 
-// What the sources that read scenes share.
+// Functions of several sources that read scenes.
 
 namespace ambient {
 

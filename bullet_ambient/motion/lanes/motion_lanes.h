@@ -2,8 +2,8 @@
 
 #include "bullet_ambient/motion/lanes/body_kernel.h"
 
-// What several kernels read from FlightLanes and do with them. For sources that are compiled once
-// per instruction set, see spatial_lanes.h.
+// Reading of FlightLanes, and steps on them, that several kernels share. For sources that are
+// compiled once per instruction set, see spatial_lanes.h.
 
 namespace ambient {
 namespace {

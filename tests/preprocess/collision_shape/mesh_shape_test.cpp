@@ -62,7 +62,7 @@ TEST(MeshShape, CavitiesDoNotDisplace) {
   EXPECT_NEAR(body.uniform_mass.centre.x(), -0.05 / 6 / (8 - 1.0 / 6), 1e-6);
 }
 
-// As they come, and at size 1 from the cache, whose warning has metres all the same.
+// Makes the body of the mesh itself, and by the cache at size 1: both warnings are in metres.
 TEST(MeshShape, OpenMeshesAreWrappedUnlessStrict) {
   btTriangleMesh triangles;
   addTriangles(withoutTriangle(scaled(unitTetrahedron(), 10), 0), triangles);

@@ -20,7 +20,7 @@ namespace {
 
 using nlohmann::json;
 
-/// What follows from a shape, axes along x, y, z.
+/// Mesh and numbers of a shape, axes along x, y, z.
 struct FallingShape {
   TriangleMesh mesh;
   Vector3 size;  ///< full lengths; of a sheet z = 0 [m]
