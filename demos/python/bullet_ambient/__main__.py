@@ -88,6 +88,13 @@ def _run(arguments: argparse.Namespace) -> int:
     return 1 if failures else 0
 
 
+def _sentence(error: Exception) -> str:
+    """What the error says, its file first: "cases.jsonl: no such file or directory"."""
+    if isinstance(error, OSError) and error.filename and error.strerror:
+        return f"{error.filename}: {error.strerror[0].lower()}{error.strerror[1:]}"
+    return str(error)
+
+
 def main() -> int:
     arguments = _arguments()
     for ending in (signal.SIGTERM, signal.SIGHUP):
@@ -97,7 +104,7 @@ def main() -> int:
     except KeyboardInterrupt:
         print("bullet_ambient: interrupted", file=sys.stderr)
     except (OSError, ValueError, RuntimeError) as error:
-        print(f"bullet_ambient: {_plain(str(error))}", file=sys.stderr)
+        print(f"bullet_ambient: {_plain(_sentence(error))}", file=sys.stderr)
     return 1
 
 

@@ -251,7 +251,8 @@ class CommandTest(Cases):
             self.assertTrue(result.stderr.startswith("bullet_ambient: "), result.stderr)
         self.assertEqual(self.sweep("--help").returncode, 0)
         self.cases.unlink()
-        self.assertEqual(self.sweep("--out", "out").returncode, 1)
+        gone = self.sweep("--out", "out")
+        self.assertEqual((gone.returncode, gone.stderr), (1, f"bullet_ambient: {self.cases}: no such file or directory\n"))
 
 
 if __name__ == "__main__":
