@@ -112,7 +112,7 @@ TEST(ConvexShape, ScaledSphereOfAMultiSphereIsAnEllipsoid) {
 
 // Limbs of MJCF files.
 TEST(ConvexShape, TwoEqualBallsOfAMultiSphereAreACapsuleOfTheTables) {
-  const btScalar r(0.4);
+  const auto r = btScalar(0.4);
   const btScalar radii[2] = {r, r};
   const btVector3 along_y[2] = {btVector3(0, btScalar(-0.6), 0), btVector3(0, btScalar(0.6), 0)};
   const FluidBody capsule = makeFluidBody(btCapsuleShape(r, btScalar(1.2)), coarse());

@@ -51,7 +51,7 @@ TEST(HullShape, CubeOf8PointsIsRight) {
 
 // Bullet's default margin of 4 cm is as large as these hulls.
 TEST(HullShape, AMarginDisplacesNothing) {
-  const btScalar size(0.05);
+  const auto size = btScalar(0.05);
   btConvexHullShape tetrahedron, octahedron, cube;
   for (const btVector3& point :
        {btVector3(0, 0, 0), btVector3(1, 0, 0), btVector3(0, 1, 0), btVector3(0, 0, 1)})
