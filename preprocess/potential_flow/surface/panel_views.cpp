@@ -1,6 +1,6 @@
 #include "preprocess/potential_flow/surface/panel_views.h"
 
-#include "bullet_ambient/force/kernels/lanes.h"
+#include "bullet_ambient/base/lanes.h"
 
 // Compiled once per instruction set; AMBIENT_KERNEL() adds its name to that of the kernel.
 
