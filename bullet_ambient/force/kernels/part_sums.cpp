@@ -1,7 +1,7 @@
 #include "bullet_ambient/force/kernels/part_sums.h"
 
 #include "bullet_ambient/base/instruction_set.h"
-#include "bullet_ambient/force/kernels/lanes.h"
+#include "bullet_ambient/base/lanes.h"
 
 // Compiled once per instruction set; AMBIENT_KERNEL() adds its name to that of the kernel.
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bullet_ambient/force/kernels/lanes.h"
+#include "bullet_ambient/base/lanes.h"
 #include "bullet_ambient/force/kernels/load_sums.h"
 #include "bullet_ambient/force/law/skin_friction.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bullet_ambient/force/kernels/lane_vectors.h"
+#include "bullet_ambient/base/lane_vectors.h"
 
 namespace ambient {
 

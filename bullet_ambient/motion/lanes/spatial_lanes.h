@@ -3,7 +3,7 @@
 #include <type_traits>
 
 #include "bullet_ambient/base/elementary.h"
-#include "bullet_ambient/force/kernels/lanes.h"
+#include "bullet_ambient/base/lanes.h"
 #include "bullet_ambient/motion/lanes/flight_lanes.h"
 
 // Mathematics of rigid bodies: of one body per lane of a register, Real = Lanes, or of a single

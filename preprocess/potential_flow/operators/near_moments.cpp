@@ -69,10 +69,10 @@ Matrix36 computeNearMoments(const PanelSurface& surface, const std::vector<NearP
       case PairKind::SharedEdge:
       case PairKind::SharedVertex:
       case PairKind::Near:
-        fine.add(source, jump, computeDoubleLayer);
+        fine.add(source, jump);
         break;
       case PairKind::Close:
-        coarse.add(source, jump, computeDoubleLayer);
+        coarse.add(source, jump);
         break;
       case PairKind::Middle:
       case PairKind::Far:

@@ -47,14 +47,11 @@ class NodePotentials {
     solid_angle_.setZero();
   }
 
-  template <typename DoubleLayer>
-  void add(const Panel& source, const Eigen::Matrix<double, 3, 6>& jump,
-           const DoubleLayer& doubleLayer) {
-    for (std::size_t k = 0; k < N; ++k) {
-      const Eigen::Vector3d weights = doubleLayer(source, nodes_[k]);
-      potential_.row(k) += weights.transpose() * jump;
-      solid_angle_[k] += weights.sum();
-    }
+  /// Adds a source by closed forms.
+  void add(const Panel& source, const Eigen::Matrix<double, 3, 6>& jump) {
+    std::array<Eigen::Vector3d, N> weights;
+    computeDoubleLayers(source, nodes_.data(), N, weights.data());
+    for (std::size_t k = 0; k < N; ++k) add(k, weights[k].transpose() * jump, weights[k].sum());
   }
 
   /// Adds a source, given the weights of its corners at all nodes.

@@ -1,40 +1,43 @@
 #include "preprocess/potential_flow/surface/panel.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cstddef>
 
-#include "bullet_ambient/base/elementary.h"
+#include "bullet_ambient/base/ambient_assert.h"
+#include "preprocess/potential_flow/surface/panel_views.h"
 
 namespace ambient {
+
+const Kernels<decltype(&viewPanelBaseline)> kViewPanel{AMBIENT_KERNELS(viewPanel)};
+
 namespace {
 
-/// The building blocks of all potentials of a panel seen from x: signed height over its plane,
-/// signed solid angle, and per edge the distance P_e (positive inside) and f_e = int_e 1/|x - y|
-/// dl.
-struct PanelView {
-  double height, solid_angle;
-  std::array<double, 3> edge_distance, edge_potential;
-};
-
-PanelView view(const Panel& panel, const Eigen::Vector3d& x) {
-  PanelView v;
-  const std::array<Eigen::Vector3d, 3> d = {panel.corner[0] - x, panel.corner[1] - x,
-                                            panel.corner[2] - x};
-  const std::array<double, 3> r = {d[0].norm(), d[1].norm(), d[2].norm()};
+PanelNumbers numbersOf(const Panel& panel) {
+  PanelNumbers numbers;
   for (int k = 0; k < 3; ++k) {
-    const int next = (k + 1) % 3;
-    v.edge_distance[k] = d[k].dot(panel.edge_normal[k]);
-    const double sum = r[k] + r[next];
-    const double gap = sum - panel.edge_length[k];
-    // On the edge itself the logarithm is infinite, but always multiplied by a distance of 0.
-    v.edge_potential[k] = gap > 0 ? portable::log((sum + panel.edge_length[k]) / gap) : 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      numbers.corner[k][axis] = panel.corner[k][axis];
+      numbers.edge_normal[k][axis] = panel.edge_normal[k][axis];
+    }
+    numbers.edge_length[k] = panel.edge_length[k];
+    numbers.normal[k] = panel.normal[k];
   }
-  v.height = -d[0].dot(panel.normal);
-  const double denominator =
-      r[0] * r[1] * r[2] + d[0].dot(d[1]) * r[2] + d[1].dot(d[2]) * r[0] + d[2].dot(d[0]) * r[1];
-  // van Oosterom and Strackee 1983, with the triple product -d0.(d1 x d2) = 2 area height.
-  v.solid_angle = 2 * portable::atan2(2 * panel.area * v.height, denominator);
-  return v;
+  numbers.area = panel.area;
+  return numbers;
+}
+
+/// Views of a panel from up to kMostPanelPoints points.
+PanelViews viewsFrom(const Eigen::Vector3d* points, std::size_t count, const Panel& panel) {
+  static const auto view = kViewPanel.fastest();
+  AMBIENT_ASSERT(count > 0 && count <= kMostPanelPoints);
+  const std::size_t computed = count <= 8 ? 8 : kMostPanelPoints;
+  PanelPoints of_kernel;
+  for (std::size_t k = 0; k < computed; ++k)
+    for (int axis = 0; axis < 3; ++axis)
+      of_kernel.at[axis][k] = points[std::min(k, count - 1)][axis];
+  PanelViews views;
+  view(numbersOf(panel), of_kernel, static_cast<int>(computed), views);
+  return views;
 }
 
 }  // namespace
@@ -55,24 +58,39 @@ Panel makePanel(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen:
   return p;
 }
 
+void computeNewtonPotentials(const Panel& panel, const Eigen::Vector3d* points, std::size_t count,
+                             double* potentials) {
+  const PanelViews v = viewsFrom(points, count, panel);
+  for (std::size_t i = 0; i < count; ++i) {
+    potentials[i] = -v.height[i] * v.solid_angle[i];
+    for (int k = 0; k < 3; ++k) potentials[i] += v.edge_distance[k][i] * v.edge_potential[k][i];
+  }
+}
+
+void computeDoubleLayers(const Panel& panel, const Eigen::Vector3d* points, std::size_t count,
+                         Eigen::Vector3d* weights) {
+  const PanelViews v = viewsFrom(points, count, panel);
+  std::array<Eigen::Vector3d, 3> gradient;
+  for (int a = 0; a < 3; ++a) gradient[a] = panel.hatGradient(a);
+  for (std::size_t i = 0; i < count; ++i) {
+    Eigen::Vector3d edge_flux = Eigen::Vector3d::Zero();
+    for (int k = 0; k < 3; ++k) edge_flux += panel.edge_normal[k] * v.edge_potential[k][i];
+    const Eigen::Vector3d offset = points[i] - panel.centroid;
+    for (int a = 0; a < 3; ++a)
+      weights[i][a] = (1.0 / 3.0 + gradient[a].dot(offset)) * v.solid_angle[i] -
+                      v.height[i] * gradient[a].dot(edge_flux);
+  }
+}
+
 double computeNewtonPotential(const Panel& panel, const Eigen::Vector3d& x) {
-  const PanelView v = view(panel, x);
-  double potential = -v.height * v.solid_angle;
-  for (int k = 0; k < 3; ++k) potential += v.edge_distance[k] * v.edge_potential[k];
+  double potential = 0;
+  computeNewtonPotentials(panel, &x, 1, &potential);
   return potential;
 }
 
 Eigen::Vector3d computeDoubleLayer(const Panel& panel, const Eigen::Vector3d& x) {
-  const PanelView v = view(panel, x);
-  Eigen::Vector3d edge_flux = Eigen::Vector3d::Zero();
-  for (int k = 0; k < 3; ++k) edge_flux += panel.edge_normal[k] * v.edge_potential[k];
-  const Eigen::Vector3d offset = x - panel.centroid;
   Eigen::Vector3d weights;
-  for (int a = 0; a < 3; ++a) {
-    const Eigen::Vector3d gradient = panel.hatGradient(a);
-    weights[a] =
-        (1.0 / 3.0 + gradient.dot(offset)) * v.solid_angle - v.height * gradient.dot(edge_flux);
-  }
+  computeDoubleLayers(panel, &x, 1, &weights);
   return weights;
 }
 

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
+#include <cstddef>
 
 namespace ambient {
 
@@ -36,12 +37,17 @@ struct Panel {
 /// makePanelSurface() refuses such panels.
 Panel makePanel(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
 
-/// int_S 1/|x - y| dy [length], exact for every x, on the panel too (Wilton et al. 1984).
+/// int_S 1/|x - y| dy [length] at up to 16 points x, exact for every x, on the panel too (Wilton et
+/// al. 1984).
+void computeNewtonPotentials(const Panel& panel, const Eigen::Vector3d* points, std::size_t count,
+                             double* potentials);
 double computeNewtonPotential(const Panel& panel, const Eigen::Vector3d& x);
 
-/// int_S h_b(y) n.(x - y)/|x - y|^3 dy [1] for the three hat functions h_b, exact; their sum is the
-/// solid angle of the panel seen from x, positive on the side of the normal. In the panel's own
-/// plane: the principal value, 0, outside of the panel.
+/// int_S h_b(y) n.(x - y)/|x - y|^3 dy [1] for the three hat functions h_b at up to 16 points x,
+/// exact; their sum is the solid angle of the panel seen from x, positive on the side of the
+/// normal. In the panel's own plane: the principal value, 0, outside of the panel.
+void computeDoubleLayers(const Panel& panel, const Eigen::Vector3d* points, std::size_t count,
+                         Eigen::Vector3d* weights);
 Eigen::Vector3d computeDoubleLayer(const Panel& panel, const Eigen::Vector3d& x);
 
 }  // namespace ambient

@@ -44,29 +44,36 @@ double selfIntegral(const Panel& p) {
   return 4.0 / 3.0 * p.area * p.area * sum;
 }
 
-/// Mean of the potential of `source` over the segment from a to b.
-double meanAlong(const Panel& source, const Vector3d& a, const Vector3d& b) {
+/// Mean of the potential of `source` over points with weights.
+template <std::size_t N>
+double meanAt(const std::array<Vector3d, N>& points, const std::array<double, N>& weights,
+              const Panel& source) {
+  std::array<double, N> potentials;
+  computeNewtonPotentials(source, points.data(), N, potentials.data());
   double mean = 0;
-  for (const SegmentNode& node : kSegmentRule)
-    mean += node.weight * computeNewtonPotential(source, a + node.position * (b - a));
+  for (std::size_t i = 0; i < N; ++i) mean += weights[i] * potentials[i];
   return mean;
 }
 
-/// Mean of the potential over the segment from a to b, where a is a corner of the source. The
-/// substitution u = t^2 removes the logarithm there.
-double meanAlongFromCorner(const Panel& source, const Vector3d& a, const Vector3d& b) {
-  double mean = 0;
-  for (const SegmentNode& node : kSegmentRule) {
-    const double u = node.position * node.position;
-    mean += node.weight * 2 * node.position * computeNewtonPotential(source, a + u * (b - a));
+/// Mean of the potential of `source` over the segment from a to b. Where a is a corner of the
+/// source, the substitution u = t^2 removes the logarithm there.
+double meanAlong(const Panel& source, const Vector3d& a, const Vector3d& b, bool from_corner) {
+  std::array<Vector3d, kSegmentRule.size()> points;
+  std::array<double, kSegmentRule.size()> weights;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto [t, weight] = kSegmentRule[i];
+    points[i] = a + (from_corner ? t * t : t) * (b - a);
+    weights[i] = from_corner ? weight * 2 * t : weight;
   }
-  return mean;
+  return meanAt(points, weights, source);
 }
 
 /// 1/r is homogeneous about the shared vertex, which leaves the two opposite edges.
 double sharedVertexIntegral(const Panel& t, int corner_t, const Panel& s, int corner_s) {
-  const double over_t = meanAlong(s, t.corner[(corner_t + 1) % 3], t.corner[(corner_t + 2) % 3]);
-  const double over_s = meanAlong(t, s.corner[(corner_s + 1) % 3], s.corner[(corner_s + 2) % 3]);
+  const double over_t =
+      meanAlong(s, t.corner[(corner_t + 1) % 3], t.corner[(corner_t + 2) % 3], false);
+  const double over_s =
+      meanAlong(t, s.corner[(corner_s + 1) % 3], s.corner[(corner_s + 2) % 3], false);
   return 2.0 / 3.0 * (t.area * over_t + s.area * over_s);
 }
 
@@ -77,7 +84,7 @@ double sharedEdgeIntegral(const Panel& t, const Panel& s, const SharedCorners& s
   double sum = 0;
   for (int end = 0; end < 2; ++end) {
     const Vector3d& p = t.corner[shared.of_t[end]];
-    sum += t.area * meanAlongFromCorner(s, p, apex_t) + s.area * meanAlongFromCorner(t, p, apex_s);
+    sum += t.area * meanAlong(s, p, apex_t, true) + s.area * meanAlong(t, p, apex_s, true);
   }
   return sum / 3;
 }
@@ -90,10 +97,13 @@ double analyticByPoints(const Panel& t, const Panel& s, const std::array<Triangl
   const bool on_s = s.radius < kClearlySmaller * t.radius;
   const Panel& outer = on_s ? s : t;
   const Panel& inner = on_s ? t : s;
-  double mean = 0;
-  for (const TriangleNode& node : rule)
-    mean += node.weight * computeNewtonPotential(inner, outer.at(node.barycentric));
-  return outer.area * mean;
+  std::array<Vector3d, N> points;
+  std::array<double, N> weights;
+  for (std::size_t i = 0; i < N; ++i) {
+    points[i] = outer.at(rule[i].barycentric);
+    weights[i] = rule[i].weight;
+  }
+  return outer.area * meanAt(points, weights, inner);
 }
 
 double pointsByPoints(const Panel& t, const Panel& s) {

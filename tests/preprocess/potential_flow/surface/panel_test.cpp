@@ -3,8 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
+#include <random>
 
+#include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
+#include "preprocess/potential_flow/surface/panel_views.h"
 #include "preprocess/potential_flow/surface/quadrature_rules.h"
 #include "tests/reference/triangle_potentials.h"
 
@@ -45,6 +49,75 @@ TEST(Panel, HatFunctionsAreOneAtTheirCornerAndZeroAtTheOthers) {
     EXPECT_NEAR(p.hatGradient(a).dot(p.edge[(a + 1) % 3]), 0, 1e-14);
     EXPECT_NEAR(p.hatGradient(a).dot(p.normal), 0, 1e-14);
     EXPECT_LT((p.normal.cross(p.hatGradient(a)) + p.hatCurl(a)).norm(), 1e-14);
+  }
+}
+
+/// A panel and sixteen points at any distance from it, the last ones in its plane, on a corner and
+/// on an edge's line.
+struct SeenPanel {
+  PanelNumbers panel;
+  PanelPoints points;
+
+  SeenPanel() {
+    const Panel p = skewPanel();
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> number(-1, 1);
+    std::vector<Vector3d> at;
+    for (int i = 0; i < kMostPanelPoints - 3; ++i)
+      at.push_back(p.centroid + std::pow(10, 2 * number(random)) *
+                                    Vector3d(number(random), number(random), number(random)));
+    at.insert(at.end(), {p.centroid, p.corner[1], p.corner[0] - 2 * p.edge[0]});
+    for (int axis = 0; axis < 3; ++axis) {
+      for (std::size_t i = 0; i < at.size(); ++i) points.at[axis][i] = at[i][axis];
+      for (int k = 0; k < 3; ++k) {
+        panel.corner[k][axis] = p.corner[k][axis];
+        panel.edge_normal[k][axis] = p.edge_normal[k][axis];
+        panel.edge_length[k] = p.edge_length[k];
+      }
+      panel.normal[axis] = p.normal[axis];
+    }
+    panel.area = p.area;
+  }
+  Vector3d point(int i) const { return {points.at[0][i], points.at[1][i], points.at[2][i]}; }
+  Vector3d corner(int k) const { return Vector3d(panel.corner[k]); }
+};
+
+TEST(PanelViews, EveryInstructionSetGivesTheSameBits) {
+  const SeenPanel seen;
+  for (const int count : {8, 16}) {
+    PanelViews baseline{}, other{};
+    viewPanelBaseline(seen.panel, seen.points, count, baseline);
+    for (const InstructionSet set : {InstructionSet::kAvx2, InstructionSet::kAvx512}) {
+      const auto view = kViewPanel.of(set);
+      if (!view) continue;
+      view(seen.panel, seen.points, count, other);
+      EXPECT_EQ(std::memcmp(&baseline, &other, sizeof other), 0);
+    }
+  }
+}
+
+TEST(PanelViews, HaveLogarithmsAndAnglesToRounding) {
+  const SeenPanel seen;
+  PanelViews views;
+  viewPanelBaseline(seen.panel, seen.points, kMostPanelPoints, views);
+  for (int i = 0; i < kMostPanelPoints; ++i) {
+    Vector3d d[3];
+    double r[3];
+    for (int k = 0; k < 3; ++k) {
+      d[k] = seen.corner(k) - seen.point(i);
+      r[k] = d[k].norm();
+    }
+    for (int k = 0; k < 3; ++k) {
+      const double sum = r[k] + r[(k + 1) % 3], length = seen.panel.edge_length[k];
+      const double exact =
+          sum > length ? portable::log((sum + length) / (sum - length)) : 0;  // 0.9 ulp
+      EXPECT_NEAR(views.edge_potential[k][i], exact, 1e-15 * (1 + exact) * (1 + r[0] / length))
+          << i;
+    }
+    const double across = -2 * seen.panel.area * d[0].dot(Vector3d(seen.panel.normal));
+    const double along =
+        r[0] * r[1] * r[2] + d[0].dot(d[1]) * r[2] + d[1].dot(d[2]) * r[0] + d[2].dot(d[0]) * r[1];
+    EXPECT_NEAR(views.solid_angle[i], 2 * portable::atan2(across, along), 3e-15) << i;
   }
 }
 

@@ -11,7 +11,7 @@
 #include <immintrin.h>
 #endif
 
-#include "bullet_ambient/force/kernels/lane_vectors.h"
+#include "bullet_ambient/base/lane_vectors.h"
 
 namespace ambient {
 namespace {
