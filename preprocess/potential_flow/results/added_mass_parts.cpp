@@ -37,19 +37,20 @@ struct Patch {
   double weight = 0;      ///< how much there is to be gained by dividing it
 };
 
+using Coordinates = std::vector<Vector6>;  // of panels
+
 /// Normals first: what faces up and what faces aside do not mix.
-Vector6 coordinatesOf(const PanelInertia& panel, double size) {
-  return stack(2 * panel.normal, panel.centroid / size);
+Vector6 coordinatesOf(const Vector3& normal, const Vector3& centroid, double size) {
+  return stack(2 * normal, centroid / size);
 }
 
-Patch patchOf(const Panels& panels, std::vector<std::size_t> chosen, double size) {
+Patch patchOf(const Panels& panels, const Coordinates& places, std::vector<std::size_t> chosen) {
   Patch patch;
-  Vector6 low = coordinatesOf(panels[chosen.front()], size), high = low;
+  Vector6 low = places[chosen.front()], high = low;
   double area = 0;
   for (const std::size_t i : chosen) {
-    const Vector6 at = coordinatesOf(panels[i], size);
-    low = low.cwiseMin(at);
-    high = high.cwiseMax(at);
+    low = low.cwiseMin(places[i]);
+    high = high.cwiseMax(places[i]);
     area += panels[i].area;
   }
   const double width = (high - low).maxCoeff(&patch.axis);
@@ -61,10 +62,11 @@ Patch patchOf(const Panels& panels, std::vector<std::size_t> chosen, double size
 
 /// Divides the patch with the largest weight in the middle, again and again, into up to
 /// `most_patches`.
-std::vector<Patch> dividedPatches(const Panels& panels, double size, std::size_t most_patches) {
+std::vector<Patch> dividedPatches(const Panels& panels, const Coordinates& places,
+                                  std::size_t most_patches) {
   std::vector<std::size_t> all(panels.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  std::vector<Patch> patches{patchOf(panels, std::move(all), size)};
+  std::vector<Patch> patches{patchOf(panels, places, std::move(all))};
   while (patches.size() < most_patches) {
     const auto most =
         std::max_element(patches.begin(), patches.end(),
@@ -72,13 +74,13 @@ std::vector<Patch> dividedPatches(const Panels& panels, double size, std::size_t
     if (!(most->weight > 0)) break;
     std::vector<std::size_t> halves[2];
     for (const std::size_t i : most->panels)
-      halves[coordinatesOf(panels[i], size)[most->axis] > most->middle].push_back(i);
+      halves[places[i][most->axis] > most->middle].push_back(i);
     if (halves[0].empty() || halves[1].empty()) {  // as wide as rounding
       most->weight = 0;
       continue;
     }
-    *most = patchOf(panels, std::move(halves[0]), size);
-    patches.push_back(patchOf(panels, std::move(halves[1]), size));
+    *most = patchOf(panels, places, std::move(halves[0]));
+    patches.push_back(patchOf(panels, places, std::move(halves[1])));
   }
   return patches;
 }
@@ -109,9 +111,11 @@ double sizeOf(const Panels& panels) {
   return size > 0 ? size : 1;
 }
 
-std::vector<AddedMassPart> joined(const Panels& panels, std::size_t most_parts) {
+/// Joins panels whose places are alike into parts.
+std::vector<AddedMassPart> joined(const Panels& panels, const Coordinates& places,
+                                  std::size_t most_parts) {
   std::vector<AddedMassPart> parts;
-  for (const Patch& patch : dividedPatches(panels, sizeOf(panels), most_parts))
+  for (const Patch& patch : dividedPatches(panels, places, most_parts))
     parts.push_back(join(panels, patch.panels));
   return parts;
 }
@@ -182,29 +186,38 @@ Vector6 productsTurned(const Vector6& products, const Matrix3& turn) {
 
 constexpr int kSectors = 12;
 
-/// Turns about an axis through the origin by multiples of the angle between sectors.
+/// Turn about an axis through the origin.
+Matrix3 turnAbout(const Vector3& axis, double angle) {
+  const double cosine = portable::cos(angle), sine = portable::sin(angle);
+  return cosine * Matrix3::Identity() + sine * crossMatrix(axis) +
+         (1 - cosine) * axis * axis.transpose();
+}
+
+/// Turns by multiples of the angle between sectors.
 std::vector<Matrix3> turnsAbout(const Vector3& axis) {
   std::vector<Matrix3> turns;
-  for (int k = 0; k < kSectors; ++k) {
-    const double angle = 2 * kPi * k / kSectors;
-    const double cosine = portable::cos(angle), sine = portable::sin(angle);
-    turns.push_back(cosine * Matrix3::Identity() + sine * crossMatrix(axis) +
-                    (1 - cosine) * axis * axis.transpose());
-  }
+  for (int k = 0; k < kSectors; ++k) turns.push_back(turnAbout(axis, 2 * kPi * k / kSectors));
   return turns;
 }
 
-/// Rings of alike parts. All panels are turned into one sector, each with its share of them all.
+/// Rings of alike parts. All panels are turned into one sector, each with its share of them all,
+/// and divided by where they are along the meridian.
 std::vector<AddedMassPart> joinedAbout(const Axis& axis, const Panels& panels) {
   const std::vector<Matrix3> turns = turnsAbout(axis.direction);
   const Vector3 first = axis.direction.unitOrthogonal(), second = axis.direction.cross(first);
   // Takes the spin about the axis out of a motion about the point of the axis.
   Matrix6 rest = Matrix6::Identity();
   rest.topLeftCorner<3, 3>() -= axis.direction * axis.direction.transpose();
+  const double size = sizeOf(panels);
   Panels folded;
+  Coordinates on_meridian;
+  folded.reserve(panels.size());
+  on_meridian.reserve(panels.size());
   for (PanelInertia panel : panels) {
     const Vector3 way = panel.centroid - axis.point;
     const double angle = portable::atan2(second.dot(way), first.dot(way));
+    const Matrix3 to_meridian = turnAbout(axis.direction, -angle);
+    on_meridian.push_back(coordinatesOf(to_meridian * panel.normal, to_meridian * way, size));
     const int sector = static_cast<int>(std::lround(angle / (2 * kPi) * kSectors));
     const Matrix3& back = turns[static_cast<std::size_t>((kSectors - sector) % kSectors)];
     panel.normal = back * panel.normal;
@@ -215,7 +228,7 @@ std::vector<AddedMassPart> joinedAbout(const Axis& axis, const Panels& panels) {
     folded.push_back(panel);
   }
   std::vector<AddedMassPart> parts;
-  for (const AddedMassPart& part : joined(folded, kMostParts / kSectors))
+  for (const AddedMassPart& part : joined(folded, on_meridian, kMostParts / kSectors))
     for (const Matrix3& turn : turns) {
       AddedMassPart& copy = parts.emplace_back();
       copy.centre = turn * part.centre + axis.point;
@@ -230,7 +243,12 @@ std::vector<AddedMassPart> joinedAbout(const Axis& axis, const Panels& panels) {
 std::vector<AddedMassPart> joinPanels(const std::vector<PanelInertia>& panels) {
   if (panels.empty()) return {};
   if (const std::optional<Axis> axis = axisOf(panels)) return joinedAbout(*axis, panels);
-  return joined(panels, kMostParts);
+  const double size = sizeOf(panels);
+  Coordinates places;
+  places.reserve(panels.size());
+  for (const PanelInertia& panel : panels)
+    places.push_back(coordinatesOf(panel.normal, panel.centroid, size));
+  return joined(panels, places, kMostParts);
 }
 
 std::vector<AddedMassPart> placed(std::vector<AddedMassPart> parts, double length,

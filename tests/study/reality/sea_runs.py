@@ -121,7 +121,7 @@ class SeaRuns:
         if what["of"] == "added mass":
             document = self.data["scenes"][self.data["cases"][row["case"]]["scene"]]
             body, axis = ba.FluidBody.from_shape(document["bodies"][0]["shape"], folder=self.folder), 3 + what["axis"]
-            return document["water"]["density"] * body.added_mass[axis, axis]
+            return document["medium"]["density"] * body.added_mass[axis, axis]
         return measure(what, *self.series(what["along"], row["case"]))
 
     def curves(self):
