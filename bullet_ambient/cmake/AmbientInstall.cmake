@@ -35,15 +35,14 @@ function(ambient_install_box name)
 endfunction()
 
 # The public headers stand in bullet_ambient/ and preprocess/ themselves. What they include is installed below
-# bullet_ambient/detail, under the paths of the source tree, and free to change.
-function(ambient_install_headers folder)
-  file(GLOB public_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.h)
-  install(FILES ${public_headers} DESTINATION ${ARGN})
-  file(GLOB_RECURSE details RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*/*.h)
-  foreach(header IN LISTS details)
-    cmake_path(GET header PARENT_PATH room)
-    install(FILES ${PROJECT_SOURCE_DIR}/${header} DESTINATION ${BULLET_AMBIENT_DETAIL_DIR}/${room})
-  endforeach()
+# bullet_ambient/detail, under the paths of the source tree, and free to change; headers that no public one needs are not.
+function(ambient_install_headers folder destination)
+  install(CODE "
+    set(source \"${PROJECT_SOURCE_DIR}\")
+    set(folder \"${folder}\")
+    set(destination \"\${CMAKE_INSTALL_PREFIX}/${destination}\")
+    set(details \"\${CMAKE_INSTALL_PREFIX}/${BULLET_AMBIENT_DETAIL_DIR}\")
+    include(\"${CMAKE_CURRENT_FUNCTION_LIST_DIR}/InstallHeaders.cmake\")")
 endfunction()
 
 # find_package(BulletAmbient)
