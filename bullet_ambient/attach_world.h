@@ -19,13 +19,13 @@ class btRigidBody;
 
 namespace ambient {
 
+struct AmbientBody;
 struct FluidBody;
 
 }  // namespace ambient
 
 AMBIENT_BEGIN
 
-struct AmbientBody;
 class AmbientBodies;
 
 /// Interface for finding the fluid body of a collision shape. FluidBodyCache makes fluid bodies by

@@ -10,13 +10,13 @@ class btIDebugDraw;
 
 namespace ambient {
 
+struct AmbientBody;
 struct FluidRegion;
+struct MotionView;
 
 }  // namespace ambient
 
 AMBIENT_BEGIN
-
-struct AmbientBody;
 
 /// Selection of what is drawn for bodies in a fluid, through the world's btIDebugDraw. Vectors are
 /// drawn as lines from the point where they act: forces on the body, and velocities of the fluid
@@ -63,7 +63,8 @@ inline const btVector3 kAttached(0, 1, 0), kSeparated(1, 0, 0),
 /// Draws one body for its present motion. The total wrench is that of pressure, friction (after the
 /// passivity guard) and buoyancy; the inertia of the fluid, waves and wind are no part of it. @pre
 /// the body is in a fluid, alive and dynamic
-void drawFluid(const AmbientBody& ambient, const FluidDrawing& what, btIDebugDraw& drawer);
+void drawFluid(const AmbientBody& ambient, const MotionView& now, const FluidDrawing& what,
+               btIDebugDraw& drawer);
 
 /// Water surface of a region at a time.
 struct DrawnSurface {

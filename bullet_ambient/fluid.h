@@ -13,12 +13,12 @@
 #include "bullet_ambient/bullet/connection/fitted_solvers.h"
 #include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/bullet/members/member_slots.h"
-#include "bullet_ambient/bullet/reading/wet_state.h"
 #include "bullet_ambient/bullet/solver/fluid_solver.h"
 #include "bullet_ambient/drawing.h"
 #include "bullet_ambient/force/medium/fluid_region.h"
 #include "bullet_ambient/immersed/attach_def.h"
 #include "bullet_ambient/immersed/region_id.h"
+#include "bullet_ambient/immersed/wet_state.h"
 
 class btCollisionObject;
 class btDynamicsWorld;

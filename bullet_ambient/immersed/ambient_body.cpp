@@ -6,7 +6,7 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/spatial/rotation.h"
 
-AMBIENT_BEGIN
+namespace ambient {
 
 namespace {
 
@@ -22,45 +22,30 @@ bool dependOnWake(const FluidModels& models) {
 
 }  // namespace
 
-RigidState readState(const btRigidBody& body) {
-  RigidState state;
-  state.orientation = toQuaternion(body.getWorldTransform().getRotation());
-  state.position = toVector3(body.getWorldTransform().getOrigin());
-  state.twist = turned(state.orientation.conjugate(), velocityOf(body));
-  return state;
-}
-
-AxisFactors axisFactors(const btRigidBody& body) {
-  return {toVector3(body.getAngularFactor()), toVector3(body.getLinearFactor())};
-}
-
-Wrench pushByFlow(const AmbientBody& ambient) noexcept {
-  if (!ambient.flow_along || ambient.flow_along->isNone()) return {};
+Wrench pushByFlow(const AmbientBody& ambient, const Quaternion& q) noexcept {
+  if (!hasFlowAlong(ambient)) return {};
   const FlowAlongBody& flow = *ambient.flow_along;
-  const btRigidBody& body = *ambient.body;
-  const Quaternion q = toQuaternion(body.getWorldTransform().getRotation());
-  const double mass = 1 / static_cast<double>(body.getInvMass());
+  const double mass = 1 / ambient.models->inverse_mass.mass;
   const Wrench push_B = flow.at_rest_B + flow.push_B;
   return Wrench{q * push_B.torque, q * push_B.force + mass * flow.lean_W} + flow.wrenchAtSides();
 }
 
-void addFlowAlong(const AmbientBody& ambient, Surroundings& surroundings) noexcept {
-  if (!ambient.flow_along || ambient.flow_along->isNone()) return;
+void addFlowAlong(const AmbientBody& ambient, const Quaternion& orientation,
+                  Surroundings& surroundings) noexcept {
+  if (!hasFlowAlong(ambient)) return;
   const FlowAlongBody& flow = *ambient.flow_along;
   surroundings.flow = &flow;
   surroundings.gravity += flow.lean_W;
-  surroundings.applied += pushByFlow(ambient);
+  surroundings.applied += pushByFlow(ambient, orientation);
 }
 
-void followWake(AmbientBody& ambient, double duration) noexcept {
+void followWake(AmbientBody& ambient, const Twist& twist_W, double duration) noexcept {
   const auto& loads = loadsOn(ambient);
   const double by_wake = loads ? loads->wakeShare() : 0;
   AMBIENT_ASSERT(by_wake >= 0 && by_wake <= 1);
   ambient.load_share = 1;
   if (by_wake > 0 && ambient.wake) {
-    const btRigidBody& body = *ambient.body;
-    const Twist motion{toVector3(body.getAngularVelocity()),
-                       toVector3(body.getLinearVelocity()) - ambient.medium.velocity};
+    const Twist motion{twist_W.angular, twist_W.linear - ambient.medium.velocity};
     const FluidBody& shape = *ambient.def->fluid_body;
     const double developed =
         developWake({motion, shape.area, shape.volume, duration}, *ambient.wake);
@@ -115,20 +100,16 @@ void setModels(AmbientBody& ambient, std::shared_ptr<const FluidModels> models) 
   }
 }
 
-bool isModelStale(const AmbientBody& ambient) {
-  return !(ambient.models->inverse_mass == inverseMassOf(*ambient.body));
-}
-
-void rebuildModels(AmbientBody& ambient) {
+void rebuildModels(AmbientBody& ambient, const InverseMass& mass) {
   if (!ambient.has_own_models) {
     setModels(ambient, std::make_shared<FluidModels>(*ambient.models));
     ambient.has_own_models = true;
   }
   // Made above, and not const there.
   FluidModels& own = const_cast<FluidModels&>(*ambient.models);
-  setMass(own, *ambient.def, inverseMassOf(*ambient.body));
+  setMass(own, *ambient.def, mass);
   if (ambient.meeting) ambient.meeting->is_valid = false;
   forgetFlight(ambient);
 }
 
-AMBIENT_END
+}  // namespace ambient

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <BulletDynamics/Dynamics/btRigidBody.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <memory>
@@ -9,11 +7,10 @@
 #include <string>
 #include <variant>
 
-#include "bullet_ambient/bullet/core/conversions.h"
-#include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "bullet_ambient/immersed/attach_def.h"
 #include "bullet_ambient/immersed/fluid_models.h"
+#include "bullet_ambient/immersed/motion_view.h"
 #include "bullet_ambient/immersed/region_id.h"
 #include "bullet_ambient/motion/body/body_model.h"
 #include "bullet_ambient/motion/body/wake.h"
@@ -23,7 +20,9 @@
 #include "bullet_ambient/motion/rows/axis_locks.h"
 #include "bullet_ambient/motion/surface/surface_stand.h"
 
-AMBIENT_BEGIN
+class btRigidBody;
+
+namespace ambient {
 
 /// Outcome of a substep for a body, from the solver; docs/bullet_step.md has the transitions.
 enum class Outcome : std::uint8_t {
@@ -139,12 +138,12 @@ struct SurfaceMeeting {
   }
 };
 
-/// Everything that the library keeps of one body in a fluid. Links have one each, too, with a
-/// stand-in for the btRigidBody. Members lie in the order in which a step uses them, so that a
-/// flight touches few lines of the cache; those that few steps or few bodies use are last, or
-/// behind a pointer.
+/// Everything that the library keeps of one body or link in a fluid. Members lie in the order in
+/// which a step uses them, so that a flight touches few lines of the cache; those that few steps or
+/// few bodies use are last, or behind a pointer.
 struct AmbientBody {
-  btRigidBody* body = nullptr;      ///< may have been destroyed: look it up in a world first
+  btRigidBody* body = nullptr;      ///< null: a link. May have been destroyed: look it up in a
+                                    ///< world first
   AmbientBody* next_met = nullptr;  ///< next body in the list of AmbientBodies::takeMet()
   int instance = 0;                 ///< instanceNumber() of the body that was attached
   int surface_media = -1;  ///< index into FluidModels::surfaces; -1: no surface is near the body
@@ -207,46 +206,28 @@ inline void countLoads(AmbientBody& ambient, int evaluations) noexcept {
   if (loads) ambient.counters.faces += static_cast<long long>(evaluations) * loads->faces();
 }
 
-/// Reads the velocity of a btRigidBody, world axes.
-inline Twist velocityOf(const btRigidBody& body) {
-  return {toVector3(body.getAngularVelocity()), toVector3(body.getLinearVelocity())};
+/// True if the fluid differs along a body: addFlowAlong() adds something.
+inline bool hasFlowAlong(const AmbientBody& ambient) noexcept {
+  return ambient.flow_along && !ambient.flow_along->isNone();
 }
-
-/// Adds a change to that velocity, in Bullet's arithmetic: impulses that others have applied
-/// meanwhile survive.
-inline void addVelocity(btRigidBody& body, const Twist& change_W) {
-  body.setAngularVelocity(body.getAngularVelocity() + toBullet(change_W.angular));
-  body.setLinearVelocity(body.getLinearVelocity() + toBullet(change_W.linear));
-}
-
-/// Reads pose and twist of a btRigidBody; pose in W, twist in body axes.
-RigidState readState(const btRigidBody& body);
-
-/// Reads the linear and angular factors of a btRigidBody, world axes.
-AxisFactors axisFactors(const btRigidBody& body);
-
 /// Returns what the flow along a body adds to the applied wrench; world axes, about the centre of
 /// mass.
-Wrench pushByFlow(const AmbientBody& ambient) noexcept;
+Wrench pushByFlow(const AmbientBody& ambient, const Quaternion& orientation) noexcept;
 /// Adds the flow along a body to its surroundings, if there is any.
-void addFlowAlong(const AmbientBody& ambient, Surroundings& surroundings) noexcept;
+void addFlowAlong(const AmbientBody& ambient, const Quaternion& orientation,
+                  Surroundings& surroundings) noexcept;
 
-/// Collects gravity, applied forces and torques, and the ambient flow at the start of a step; world
-/// axes.
-inline Surroundings readSurroundings(const AmbientBody& ambient) {
-  const btRigidBody& body = *ambient.body;
-  Surroundings surroundings{toVector3(body.getGravity()),
-                            {toVector3(body.getTotalTorque()), toVector3(body.getTotalForce())},
-                            ambient.medium.velocity,
-                            ambient.medium.acceleration,
-                            ambient.load_share};
-  addFlowAlong(ambient, surroundings);
-  return surroundings;
+/// Returns gravity, applied wrench and the flow around a body at the start of a step, without what
+/// addFlowAlong() adds; world axes.
+inline Surroundings surroundingsOf(const AmbientBody& ambient, const Vector3& gravity,
+                                   const Wrench& applied) {
+  return {gravity, applied, ambient.medium.velocity, ambient.medium.acceleration,
+          ambient.load_share};
 }
 
 /// Lets the wake of a smooth body follow its motion over a step of `duration` [s], and sets
 /// `load_share`; docs/theory.md eq. (51c), (51d).
-void followWake(AmbientBody& ambient, double duration) noexcept;
+void followWake(AmbientBody& ambient, const Twist& twist_W, double duration) noexcept;
 
 /// Lets the next flight of a body begin without memory of the last one, and in a wake of its own.
 void forgetFlight(AmbientBody& ambient) noexcept;
@@ -262,12 +243,14 @@ void keepName(const std::string& name, AmbientBody& ambient);
 /// its surface unless they lack that.
 void setModels(AmbientBody& ambient, std::shared_ptr<const FluidModels> models);
 
-/// True if the mass properties differ from those of the models: setMassProps() was called.
-bool isModelStale(const AmbientBody& ambient);
+/// True if mass properties differ from those of the models: Bullet has got others.
+inline bool isModelStale(const AmbientBody& ambient, const InverseMass& mass) {
+  return !(ambient.models->inverse_mass == mass);
+}
 
-/// Makes the models again for the present mass. From then on the body does not share them: the
+/// Makes the models again for another mass. From then on the body does not share them: the
 /// first time allocates them.
 /// @throws std::invalid_argument as setMass().
-void rebuildModels(AmbientBody& ambient);
+void rebuildModels(AmbientBody& ambient, const InverseMass& mass);
 
-AMBIENT_END
+}  // namespace ambient

@@ -7,7 +7,7 @@
 #include "bullet_ambient/fluid_body/fluid_body.h"
 #include "bullet_ambient/immersed/attach_def.h"
 
-AMBIENT_BEGIN
+namespace ambient {
 namespace {
 
 const char* sentenceOf(Complaint complaint) {
@@ -151,4 +151,4 @@ void Complaints::tell(const std::string& sentence) noexcept {
   }
 }
 
-AMBIENT_END
+}  // namespace ambient

@@ -6,14 +6,9 @@
 #include <string>
 #include <utility>
 
-#include "bullet_ambient/bullet/core/precision_check.h"
-
 namespace ambient {
 
 struct AttachDef;
-}  // namespace ambient
-
-AMBIENT_BEGIN
 
 /// Names a body in a sentence: "body 'crate'", or "body with fluid body 'box'" without a name.
 /// @pre it has a fluid body
@@ -78,4 +73,4 @@ class Complaints {
   std::function<void(const std::string&)> report_;
 };
 
-AMBIENT_END
+}  // namespace ambient

@@ -1,19 +1,18 @@
 #include "bullet_ambient/immersed/fluid_models.h"
 
-#include <BulletDynamics/Dynamics/btRigidBody.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "bullet_ambient/bullet/core/conversions.h"
+#include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/fluid_body/fluid_body.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
+#include "bullet_ambient/spatial/cholesky.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/principal_frame.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 
-AMBIENT_BEGIN
+namespace ambient {
 
 namespace {
 
@@ -30,6 +29,13 @@ Vector3 stillAxisOf(const FluidBody& body) {
 }
 
 }  // namespace
+
+Matrix6 makeVelocityBasis(const BodyModel& model, const Vector3& moments) {
+  AMBIENT_ASSERT(moments.minCoeff() > 0 && model.mass > 0);
+  Vector6 scale;
+  scale << moments.cwiseSqrt(), Vector3::Constant(std::sqrt(model.mass));
+  return Cholesky<6>(model.inertia).inverseTransposed() * scale.asDiagonal();
+}
 
 BodyStations makeBodyStations(const AttachDef& def) {
   constexpr double kShort = 0.2;  // length relative to the longest axis
@@ -63,10 +69,8 @@ auto findKind(const Entries& entries, const Kind& kind) {
                       [&](const auto& entry) { return entry.kind == kind; });
 }
 
-Vector3 momentsOf(const InverseMass& mass) { return toVector3(mass.inertia).cwiseInverse(); }
-
 MassProperties propertiesOf(const InverseMass& mass) {
-  return {1 / static_cast<double>(mass.mass), momentsOf(mass).asDiagonal()};
+  return {1 / mass.mass, mass.moments().asDiagonal()};
 }
 
 // A double holds no sum of masses of which one is 2^52 times the other.
@@ -82,7 +86,7 @@ MediumModel inMedium(const AttachDef& def, const InverseMass& mass, const FluidK
   const BodyModel model =
       makeBodyModel(*def.fluid_body, def.fluid_frame, propertiesOf(mass), kind.medium(), loads);
   checkFluidMass(*def.fluid_body, model);
-  return {kind, model, makeVelocityBasis(model, momentsOf(mass))};
+  return {kind, model, makeVelocityBasis(model, mass.moments())};
 }
 
 SurfaceMedia atSurface(const AttachDef& def, const InverseMass& mass, const SurfaceKind& kind) {
@@ -143,7 +147,8 @@ Key keyOf(const AttachDef& def) {
 // Returns all numbers that models depend on.
 Key keyOf(const AttachDef& def, const InverseMass& mass, const RegionFluids& fluids) {
   Key key = keyOf(def);
-  append(key, mass.mass, mass.inertia.x(), mass.inertia.y(), mass.inertia.z());
+  append(key, mass.mass);
+  append(key, mass.inertia);
   if (!def.follow_regions) return key;
   append(key, mayBlow(def.medium), fluids.media.size());
   for (const FluidKind& kind : fluids.media) append(key, kind);
@@ -160,10 +165,6 @@ bool isFinite(const Key& key) {
 }
 
 }  // namespace
-
-InverseMass inverseMassOf(const btRigidBody& body) noexcept {
-  return {body.getInvMass(), body.getInvInertiaDiagLocal()};
-}
 
 const MediumModel* FluidModels::find(const FluidKind& kind) const noexcept {
   const auto found = findKind(media, kind);
@@ -214,4 +215,4 @@ void setMass(FluidModels& models, const AttachDef& def, const InverseMass& mass)
   models.inverse_mass = mass;
 }
 
-AMBIENT_END
+}  // namespace ambient

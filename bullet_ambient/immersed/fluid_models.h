@@ -3,16 +3,13 @@
 #include <memory>
 #include <vector>
 
-#include "bullet_ambient/bullet/core/precision_check.h"
-#include "bullet_ambient/bullet/core/velocity_basis.h"
 #include "bullet_ambient/force/loads/shared_tables.h"
 #include "bullet_ambient/immersed/attach_def.h"
 #include "bullet_ambient/immersed/fluid_regions.h"
+#include "bullet_ambient/immersed/motion_view.h"
 #include "bullet_ambient/motion/surface/surface_model.h"
 
-class btRigidBody;
-
-AMBIENT_BEGIN
+namespace ambient {
 
 /// Places along the principal axes of a body at which it samples the fluid beside its centre of
 /// mass: outer Gauss points of a bar with the second moment of the body, docs/theory.md eq. (83).
@@ -32,17 +29,10 @@ struct BodyStations {
 /// Computes the stations of a body from its volume, or from its surface if it has no volume.
 BodyStations makeBodyStations(const AttachDef& def);
 
-/// Mass properties as a btRigidBody has them. Default: those of bodies that are not dynamic, for
-/// which they serve until the body is.
-struct InverseMass {
-  btScalar mass = 1;           ///< [1/kg]
-  btVector3 inertia{1, 1, 1};  ///< of the principal moments [1/(kg m^2)]
-
-  friend bool operator==(const InverseMass& a, const InverseMass& b) {
-    return a.mass == b.mass && a.inertia == b.inertia;
-  }
-};
-InverseMass inverseMassOf(const btRigidBody& body) noexcept;
+/// T in body axes with T D T^T = K^-1, D = diag(I^-1, 1/m) being what Bullet holds; docs/theory.md
+/// eq. (26). From one Cholesky factor K = L L^T: T = L^-T diag(sqrt I, sqrt m), upper triangular.
+/// `moments`: principal moments I of the dry body [kg m^2].
+Matrix6 makeVelocityBasis(const BodyModel& model, const Vector3& moments);
 
 /// A body in one medium.
 struct MediumModel {
@@ -93,4 +83,4 @@ std::shared_ptr<const FluidModels> makeFluidModels(const AttachDef& def, const I
 /// @throws std::invalid_argument as makeFluidModels().
 void setMass(FluidModels& models, const AttachDef& def, const InverseMass& mass);
 
-AMBIENT_END
+}  // namespace ambient

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-AMBIENT_BEGIN
+namespace ambient {
 
 namespace {
 
@@ -131,4 +131,4 @@ RegionCall* RegionCall::current(const FluidRegions& regions) noexcept {
   return call;
 }
 
-AMBIENT_END
+}  // namespace ambient

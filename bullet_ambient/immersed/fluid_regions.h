@@ -5,12 +5,11 @@
 #include <tuple>
 #include <vector>
 
-#include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/force/medium/fluid_region.h"
 #include "bullet_ambient/immersed/region_id.h"
 #include "bullet_ambient/immersed/region_index.h"
 
-AMBIENT_BEGIN
+namespace ambient {
 
 /// Properties of a medium on which surface loads depend. Media that differ in velocity only share
 /// their loads.
@@ -130,4 +129,4 @@ class RegionCall {
   RegionCall* outer_;
 };
 
-AMBIENT_END
+}  // namespace ambient

@@ -5,7 +5,7 @@
 #include "bullet_ambient/immersed/fluid_regions.h"
 #include "bullet_ambient/immersed/surface_encounter.h"
 
-AMBIENT_BEGIN
+namespace ambient {
 namespace {
 
 // Largest cosine between the normal of a side of a pool and the vertical.
@@ -28,12 +28,8 @@ double reachAlong(const SurfaceModel& model, const Vector3& along_B) {
 }
 
 // True if sides of a pool across an axis of W are upright.
-bool areUpright(const btRigidBody& body, int axis) {
-  return std::abs(toVector3(body.getGravity()).normalized()[axis]) <= kUpright;
-}
-
-Matrix3 worldToBody(const btRigidBody& body) {
-  return toQuaternion(body.getWorldTransform().getRotation()).toRotationMatrix().transpose();
+bool areUpright(const MotionView& now, int axis) {
+  return std::abs(now.gravity.normalized()[axis]) <= kUpright;
 }
 
 // True if what is at a point beyond a side is a liquid, too, or has a surface.
@@ -48,12 +44,12 @@ bool isWaterAt(const Vector3& point_W, const AmbientBody& ambient, const FluidRe
 }
 
 // True if a body outside of a pool, at the height of its bounds, reaches over its rim.
-bool reachesOver(const AmbientBody& ambient, const FluidRegion& pool, const SurfaceModel& model) {
-  const Vector3 way = pointIn(pool, centreOf(ambient)) - centreOf(ambient);
-  const Matrix3 to_body = worldToBody(*ambient.body);
+bool reachesOver(const MotionView& now, const FluidRegion& pool, const SurfaceModel& model) {
+  const Vector3 way = pointIn(pool, now.centre_W()) - now.centre_W();
+  const Matrix3 to_body = now.rotation_WB().transpose();
   for (int axis = 0; axis < 3; ++axis) {
     if (way[axis] == 0) continue;
-    if (!areUpright(*ambient.body, axis)) return false;
+    if (!areUpright(now, axis)) return false;
     const Vector3 in_B = to_body * (std::copysign(1, way[axis]) * Vector3::Unit(axis));
     if (!(reachAlong(model, in_B) > std::abs(way[axis]))) return false;
   }
@@ -61,18 +57,18 @@ bool reachesOver(const AmbientBody& ambient, const FluidRegion& pool, const Surf
 }
 
 // True if a body outside of a pool reaches into its water in a step.
-bool reachesInto(const AmbientBody& ambient, const RegionEntry& pool, const FluidRegions& regions,
-                 double duration) {
+bool reachesInto(const AmbientBody& ambient, const MotionView& now, const RegionEntry& pool,
+                 const FluidRegions& regions, double duration) {
   const SurfaceModel* model = modelIn(ambient, pool.region);
-  if (!model || !reachesOver(ambient, pool.region, *model)) return false;
-  const Vector3 point = pointIn(pool.region, centreOf(ambient));
+  if (!model || !reachesOver(now, pool.region, *model)) return false;
+  const Vector3 point = pointIn(pool.region, now.centre_W());
   long long asked = 0;
   if (regions.index().find(point, asked) != &pool) return false;
-  if (findSides(ambient, regions, pool, 0).count == 0) return false;
+  if (findSides(ambient, now, regions, pool, 0).count == 0) return false;
   RegionCall call(regions);
   const RegionSample sample = sampleRegion(pool.region, point, regions.time, ambient.def->medium);
   const NearSurface near =
-      nearSurface(ambient, SurfaceKind(pool.region), {sample, point}, duration);
+      nearSurface(ambient, now, SurfaceKind(pool.region), {sample, point}, duration);
   return sample.is_finite && near.media >= 0 && near.side != SurfaceSide::kAbove;
 }
 
@@ -89,29 +85,28 @@ Vector3 pointIn(const FluidRegion& region, const Vector3& centre_W) noexcept {
   return point;
 }
 
-RegionsAround findRegions(const AmbientBody& ambient, const FluidRegions& regions, double duration,
-                          long long& asked) noexcept {
-  const Vector3 centre = centreOf(ambient);
+RegionsAround findRegions(const AmbientBody& ambient, const MotionView& now,
+                          const FluidRegions& regions, double duration, long long& asked) noexcept {
+  const Vector3& centre = now.centre_W();
   const double reach = ambient.models->reach;
   RegionsAround around = regions.index().findAround(centre, reach, asked);
   if (around.is_alone || (around.entry && around.entry->region.surface)) return around;
   const RegionEntry* pool = regions.index().findPool(centre, reach, asked);
-  if (pool && reachesInto(ambient, *pool, regions, duration)) around.entry = pool;
+  if (pool && reachesInto(ambient, now, *pool, regions, duration)) around.entry = pool;
   return around;
 }
 
-PoolSides findSides(const AmbientBody& ambient, const FluidRegions& regions,
+PoolSides findSides(const AmbientBody& ambient, const MotionView& now, const FluidRegions& regions,
                     const RegionEntry& pool, double ahead) noexcept {
   PoolSides sides;
   const SurfaceModel* model = modelIn(ambient, pool.region);
   if (!model) return sides;
-  const btRigidBody& body = *ambient.body;
-  const Matrix3 to_body = worldToBody(body);
-  const Vector3 centre = centreOf(ambient) + ahead * toVector3(body.getLinearVelocity());
+  const Matrix3 to_body = now.rotation_WB().transpose();
+  const Vector3 centre = now.centre_W() + ahead * now.twist_W.linear;
   const FrameOffset& frame = model->fluid_frame;
   for (int wall = 0; wall < 6 && sides.count < PoolSides::kMost; ++wall) {
     const int axis = wall / 2, out = wall % 2 ? 1 : -1;
-    if (!areUpright(body, axis)) continue;
+    if (!areUpright(now, axis)) continue;
     const RegionBounds& bounds = *pool.region.bounds;
     const double place = (out < 0 ? bounds.lowest : bounds.highest)[axis];
     const double way = out * (place - centre[axis]);
@@ -132,9 +127,8 @@ namespace {
 
 // Returns the wrench in B by which a body keeps its momentum as the part of it that is in the pool
 // grows; none where it becomes smaller. The step before had the sides where they were a step ago.
-Wrench resistanceOfGrowth(const AmbientBody& ambient, double duration) {
+Wrench resistanceOfGrowth(const AmbientBody& ambient, const RigidState& state, double duration) {
   const SurfaceModel& model = *ambient.surface();
-  const RigidState state = readState(*ambient.body);
   const Vector3 velocity_F = model.fluid_frame.rotation.transpose() * state.twist.linear;
   PoolSides before = ambient.flow_along->sides_F;
   for (int i = 0; i < before.count; ++i) {
@@ -152,14 +146,14 @@ Wrench resistanceOfGrowth(const AmbientBody& ambient, double duration) {
 
 }  // namespace
 
-void findSidePush(AmbientBody& ambient, double duration) noexcept {
+void findSidePush(AmbientBody& ambient, const MotionView& now, double duration) noexcept {
   const SurfaceModel& model = *ambient.surface();
-  const SurfacePlane& plane_F = standNow(ambient).immersion_F.plane;
-  const Quaternion q = toQuaternion(ambient.body->getWorldTransform().getRotation());
+  const SurfacePlane& plane_F = standNow(ambient, now).immersion_F.plane;
+  const Quaternion& q = now.state.orientation;
   const auto inWorld = [&q](const Wrench& f) { return Wrench{q * f.torque, q * f.force}; };
   FlowAlongBody& flow = *ambient.flow_along;
   flow.side_push_W = inWorld(model.fluid_frame.toB(computeSidePush(*model.hull, plane_F)));
-  if (duration > 0) flow.growth_W = inWorld(resistanceOfGrowth(ambient, duration));
+  if (duration > 0) flow.growth_W = inWorld(resistanceOfGrowth(ambient, now.state, duration));
 }
 
-AMBIENT_END
+}  // namespace ambient

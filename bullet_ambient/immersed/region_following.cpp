@@ -11,7 +11,7 @@
 #include "bullet_ambient/immersed/station_samples.h"
 #include "bullet_ambient/immersed/surface_encounter.h"
 
-AMBIENT_BEGIN
+namespace ambient {
 namespace {
 
 // Allocates nothing.
@@ -39,10 +39,11 @@ void checkUp(RegionId id, const Vector3& up, const Vector3& gravity,
   complaints.say(Complaint::kUp, sentence);
 }
 
-RegionSample sampleFor(AmbientBody& ambient, const FluidRegions::Entry& entry,
-                       const FluidRegions& regions, Complaints& complaints) noexcept {
+RegionSample sampleFor(AmbientBody& ambient, const MotionView& now,
+                       const FluidRegions::Entry& entry, const FluidRegions& regions,
+                       Complaints& complaints) noexcept {
   RegionCall call(regions);
-  const RegionSample sample = sampleRegion(entry.region, pointIn(entry.region, centreOf(ambient)),
+  const RegionSample sample = sampleRegion(entry.region, pointIn(entry.region, now.centre_W()),
                                            regions.time, ambient.def->medium);
   if (sample.is_finite) return sample;
   ++ambient.counters.rejected;
@@ -55,6 +56,7 @@ struct FlowStep {
   const FluidRegions& regions;
   const FluidRegions::Entry* entry = nullptr;  // region of the fluid; null: the body's own medium
   double duration = 0;                         // [s]
+  const MotionView* now = nullptr;             // at its start; null: the body is in no region
 };
 
 // Largest acceleration of the water around a body at its surface, in gravities: the surface stands
@@ -88,10 +90,10 @@ Vector3 changeSince(const AmbientBody& ambient, const FlowStep& step, const Bare
 }
 
 // Returns the part of a change that comes about in this step.
-Vector3 partInStep(const AmbientBody& ambient, const Vector3& change, double duration) {
-  if (!ambient.place.is_at_surface || change.isZero(0)) return change;
-  const double gravity = static_cast<double>(ambient.body->getGravity().length());
-  return std::min(1.0, kLargestAtSurface * gravity * duration / change.norm()) * change;
+Vector3 partInStep(const AmbientBody& ambient, const Vector3& change, const FlowStep& step) {
+  if (!step.now || !ambient.place.is_at_surface || change.isZero(0)) return change;
+  const double gravity = step.now->gravity.norm();
+  return std::min(1.0, kLargestAtSurface * gravity * step.duration / change.norm()) * change;
 }
 
 // Makes the fluid of a sample go on from what the body has seen in its last substep: gives the
@@ -106,13 +108,12 @@ void followFlow(AmbientBody& ambient, const FlowStep& step, RegionSample& sample
   const bool is_above = ambient.flow.is_above;
   const BareVelocity& bare = bareOf(sample, is_above);
   const Vector3 change = changeSince(ambient, step, bare);
-  const Vector3 in_step = partInStep(ambient, change, step.duration);
+  const Vector3 in_step = partInStep(ambient, change, step);
   Medium& medium = is_above ? sample.above : sample.below;
   medium.velocity -= change;
   medium.acceleration += in_step / step.duration;
-  // Stand-ins of links are placed in regions only.
   const Vector3 position =
-      step.entry ? pointIn(step.entry->region, centreOf(ambient)) : Vector3(Vector3::Zero());
+      step.entry ? pointIn(step.entry->region, step.now->centre_W()) : Vector3(Vector3::Zero());
   ambient.flow = {step.regions.time + step.duration,
                   position,
                   bare.velocity - (change - in_step),
@@ -140,12 +141,13 @@ RegionSample ownSample(const AmbientBody& ambient) {
 }
 
 // Samples the stations of a body of which the fluid may differ along it; none: it does not.
-std::optional<StationSamples> sampleStations(AmbientBody& ambient, const FluidRegions& regions,
+std::optional<StationSamples> sampleStations(AmbientBody& ambient, const MotionView& now,
+                                             const FluidRegions& regions,
                                              const RegionsAround& around,
                                              const RegionSample& centre,
                                              Complaints& complaints) noexcept {
   if (!needsStations(ambient, around)) return std::nullopt;
-  std::optional<StationSamples> stations(std::in_place, ambient, regions, around, centre);
+  std::optional<StationSamples> stations(std::in_place, ambient, now, regions, around, centre);
   ambient.may_rest = ambient.may_rest && stations->isSteady();
   if (stations->isFinite()) return stations;
   ++ambient.counters.rejected;
@@ -153,11 +155,13 @@ std::optional<StationSamples> sampleStations(AmbientBody& ambient, const FluidRe
   return stations;
 }
 
-void enterOwnMedium(AmbientBody& ambient, const FluidRegions& regions, const RegionsAround& around,
-                    double duration, Complaints& complaints) noexcept {
+// Puts a body into its own medium beside regions.
+void enterOwnMedium(AmbientBody& ambient, const FlowStep& step, const RegionsAround& around,
+                    Complaints& complaints) noexcept {
   RegionSample sample = ownSample(ambient);
-  const auto stations = sampleStations(ambient, regions, around, sample, complaints);
-  followFlow(ambient, {regions, nullptr, duration}, sample);
+  const auto stations =
+      sampleStations(ambient, *step.now, step.regions, around, sample, complaints);
+  followFlow(ambient, step, sample);
   if (stations) {
     stations->addMeans(&RegionSample::below, sample);
     *ambient.flow_along = stations->flowAlong(&RegionSample::below);
@@ -170,12 +174,13 @@ void enterOwnMedium(AmbientBody& ambient, const FluidRegions& regions, const Reg
 SurfaceSide meetWater(AmbientBody& ambient, const FlowStep& step, bool is_alone,
                       const RegionSample& sample) noexcept {
   const FluidRegion& region = step.entry->region;
-  const SampleAt at{sample, pointIn(region, centreOf(ambient))};
-  const NearSurface near = nearSurface(ambient, SurfaceKind(region), at, step.duration);
+  const SampleAt at{sample, pointIn(region, step.now->centre_W())};
+  const NearSurface near = nearSurface(ambient, *step.now, SurfaceKind(region), at, step.duration);
   const bool has_sides = !is_alone && near.side != SurfaceSide::kAbove;
   return meetSurface(
       ambient, near, sample,
-      has_sides ? findSides(ambient, step.regions, *step.entry, step.duration / 2) : PoolSides{});
+      has_sides ? findSides(ambient, *step.now, step.regions, *step.entry, step.duration / 2)
+                : PoolSides{});
 }
 
 // Finds on which side of the surface of its region a body is, and what of the flow differs along
@@ -183,7 +188,7 @@ SurfaceSide meetWater(AmbientBody& ambient, const FlowStep& step, bool is_alone,
 SurfaceSide meetFluids(AmbientBody& ambient, const FlowStep& step, bool is_alone,
                        const std::optional<StationSamples>& stations,
                        RegionSample& sample) noexcept {
-  const Vector3 gravity = toVector3(ambient.body->getGravity());
+  const Vector3& gravity = step.now->gravity;
   if (stations) {
     stations->addMeans(&RegionSample::below, sample);
     stations->fitSurface(gravity, sample);
@@ -223,22 +228,28 @@ bool enterMedium(AmbientBody& ambient, const RegionPlace& place, const Medium& m
   return true;
 }
 
-void followRegions(AmbientBody& ambient, const FluidRegions& regions, double duration,
-                   Complaints& complaints) noexcept {
-  RegionsAround around;
-  if (ambient.def->follow_regions && !regions.empty())
-    around = findRegions(ambient, regions, duration, ambient.counters.regions_asked);
+void stayInOwnMedium(AmbientBody& ambient, const FluidRegions& regions, double duration) noexcept {
+  if (hasFlowAlong(ambient)) *ambient.flow_along = {};
+  ambient.may_rest = true;
+  RegionSample sample = ownSample(ambient);
+  followFlow(ambient, {regions, nullptr, duration}, sample);
+  enterMedium(ambient, {}, sample.below);
+}
+
+void followRegions(AmbientBody& ambient, const MotionView& now, const FluidRegions& regions,
+                   double duration, Complaints& complaints) noexcept {
+  const RegionsAround around =
+      findRegions(ambient, now, regions, duration, ambient.counters.regions_asked);
   const FluidRegions::Entry* entry = around.entry;
-  if (ambient.flow_along && !ambient.flow_along->isNone()) *ambient.flow_along = {};
+  if (hasFlowAlong(ambient)) *ambient.flow_along = {};
   ambient.may_rest = !entry || isSteady(entry->region);
-  if (!entry) return enterOwnMedium(ambient, regions, around, duration, complaints);
-  RegionSample sample = sampleFor(ambient, *entry, regions, complaints);
-  const auto stations = sampleStations(ambient, regions, around, sample, complaints);
-  const FlowStep step{regions, entry, duration};
+  const FlowStep step{regions, entry, duration, &now};
+  if (!entry) return enterOwnMedium(ambient, step, around, complaints);
+  RegionSample sample = sampleFor(ambient, now, *entry, regions, complaints);
+  const auto stations = sampleStations(ambient, now, regions, around, sample, complaints);
   followFlow(ambient, step, sample);
   if (entry->region.surface)
-    checkUp(entry->id, entry->region.surface->up(), toVector3(ambient.body->getGravity()),
-            complaints);
+    checkUp(entry->id, entry->region.surface->up(), now.gravity, complaints);
   const SurfaceSide side = meetFluids(ambient, step, around.is_alone, stations, sample);
   const bool is_above = side == SurfaceSide::kAbove;
   changeSide(ambient.flow, is_above, is_above ? sample.bare_above : sample.bare_below);
@@ -248,10 +259,10 @@ void followRegions(AmbientBody& ambient, const FluidRegions& regions, double dur
   AMBIENT_ASSERT(is_known);
 }
 
-void refreshModels(AmbientBody& ambient, const FluidRegions& regions, ModelTables& tables) {
-  const btRigidBody& body = *ambient.body;
-  const InverseMass mass = body.getInvMass() > 0 ? inverseMassOf(body) : InverseMass{};
-  auto models = makeFluidModels(*ambient.def, mass, regions.fluids(), tables);
+void refreshModels(AmbientBody& ambient, const InverseMass& mass, const FluidRegions& regions,
+                   ModelTables& tables) {
+  auto models =
+      makeFluidModels(*ambient.def, mass.mass > 0 ? mass : InverseMass{}, regions.fluids(), tables);
   ambient.medium = ambient.def->medium;
   ambient.place = {};
   ambient.surface_media = -1;
@@ -267,4 +278,4 @@ void takeStations(AmbientBody& ambient, const FluidRegions& regions) {
   if (has_stations && !ambient.flow_along) ambient.flow_along = std::make_unique<FlowAlongBody>();
 }
 
-AMBIENT_END
+}  // namespace ambient

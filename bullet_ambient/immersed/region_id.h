@@ -1,9 +1,8 @@
 #pragma once
 
-#include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/spatial/vector_types.h"
 
-AMBIENT_BEGIN
+namespace ambient {
 
 /// Number of a region of one Fluid: from 0, in the order of addition; never used twice.
 enum class RegionId : int { kNone = -1 };
@@ -31,4 +30,4 @@ struct FlowMemory {
   bool is_above = false;  ///< true: of the fluid above the region's surface
 };
 
-AMBIENT_END
+}  // namespace ambient

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-AMBIENT_BEGIN
+namespace ambient {
 namespace {
 
 RegionBounds boxOf(const FluidRegion& region) noexcept {
@@ -165,4 +165,4 @@ const RegionEntry* RegionIndex::findPool(const Vector3& point_W, double reach,
   return pool;
 }
 
-AMBIENT_END
+}  // namespace ambient

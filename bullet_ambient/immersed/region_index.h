@@ -5,11 +5,10 @@
 #include <utility>
 #include <vector>
 
-#include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/force/medium/fluid_region.h"
 #include "bullet_ambient/immersed/region_id.h"
 
-AMBIENT_BEGIN
+namespace ambient {
 
 /// Priority and number of a region. Among regions that hold a point, the highest rank wins.
 using RegionRank = std::pair<int, int>;
@@ -91,4 +90,4 @@ class RegionIndex {
   std::size_t removed_ = 0;
 };
 
-AMBIENT_END
+}  // namespace ambient

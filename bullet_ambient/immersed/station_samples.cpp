@@ -7,7 +7,7 @@
 #include "bullet_ambient/immersed/pool_rim.h"
 #include "bullet_ambient/immersed/surface_encounter.h"
 
-AMBIENT_BEGIN
+namespace ambient {
 namespace {
 
 constexpr double kWeight = BodyStations::kWeight;
@@ -49,10 +49,11 @@ bool needsStations(const AmbientBody& ambient, const RegionsAround& around) noex
   return isTaken(around, ambient.models->stations.lengths.maxCoeff());
 }
 
-StationSamples::StationSamples(const AmbientBody& ambient, const FluidRegions& regions,
-                               const RegionsAround& around, const RegionSample& centre) noexcept
-    : centre_W_(toVector3(ambient.body->getWorldTransform().getOrigin())),
-      to_world_(toQuaternion(ambient.body->getWorldTransform().getRotation()).toRotationMatrix()),
+StationSamples::StationSamples(const AmbientBody& ambient, const MotionView& now,
+                               const FluidRegions& regions, const RegionsAround& around,
+                               const RegionSample& centre) noexcept
+    : centre_W_(now.centre_W()),
+      to_world_(now.rotation_WB()),
       centre_(centre),
       still_axis_B_(ambient.models->stations.still_axis_B),
       surface_(bendingSurface(around.entry)),
@@ -203,13 +204,12 @@ double displacedFluid(const AmbientBody& ambient) {
 }
 
 // Returns the wrench in B by which fluid that is spun up takes a body along, eq. (88).
-Wrench pushBySpinUp(AmbientBody& ambient) {
+Wrench pushBySpinUp(AmbientBody& ambient, const MotionView& now) {
   const Matrix6 inertia =
-      ambient.surface() ? standNow(ambient).inertia.full() : ambient.model().inertia;
+      ambient.surface() ? standNow(ambient, now).inertia.full() : ambient.model().inertia;
   const Vector3& rate = ambient.flow_along->spin_up_B;
   Wrench push = Wrench::fromVector(inertia.leftCols<3>() * rate);
-  const Vector3 moments = toVector3(ambient.body->getInvInertiaDiagLocal()).cwiseInverse();
-  push.torque -= moments.cwiseProduct(rate);
+  push.torque -= ambient.models->inverse_mass.moments().cwiseProduct(rate);
   const double mass = 2 * kWeight * displacedFluid(ambient);
   const Matrix3& ways = ambient.models->stations.ways_B;
   push.torque += mass * (ways.squaredNorm() * rate - ways * (ways.transpose() * rate));
@@ -218,11 +218,11 @@ Wrench pushBySpinUp(AmbientBody& ambient) {
 
 }  // namespace
 
-void findPushes(AmbientBody& ambient, double duration) noexcept {
+void findPushes(AmbientBody& ambient, const MotionView& now, double duration) noexcept {
   if (!ambient.flow_along) return;
   FlowAlongBody& flow = *ambient.flow_along;
-  if (flow.sides_F.count > 0) findSidePush(ambient, duration);
-  if (!flow.spin_up_B.isZero(0)) flow.push_B = pushBySpinUp(ambient);
+  if (flow.sides_F.count > 0) findSidePush(ambient, now, duration);
+  if (!flow.spin_up_B.isZero(0)) flow.push_B = pushBySpinUp(ambient, now);
   if (flow.stations == 0) return;
   if (!loadsOn(ambient)) {
     flow.stations = 0;
@@ -230,9 +230,9 @@ void findPushes(AmbientBody& ambient, double duration) noexcept {
   }
   const SurfaceModel* surface = ambient.surface();
   flow.at_rest_B =
-      surface ? loadBelow(*surface, standNow(ambient), {}, {ambient.load_share, &flow}).wrench
+      surface ? loadBelow(*surface, standNow(ambient, now), {}, {ambient.load_share, &flow}).wrench
               : computeSurfaceLoad(ambient.model(), {}, ambient.load_share, &flow).wrench;
   countLoads(ambient, 1);
 }
 
-AMBIENT_END
+}  // namespace ambient

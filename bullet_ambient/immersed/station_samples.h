@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <array>
 
-#include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/immersed/ambient_body.h"
 #include "bullet_ambient/immersed/fluid_regions.h"
 
-AMBIENT_BEGIN
+namespace ambient {
 
 /// True if the fluid may differ along a body: the bounds of a region cross it, its region has a
 /// flow, or it is not small against the waves; docs/theory.md eq. (83). Cost: some comparisons.
@@ -19,7 +18,7 @@ class StationSamples {
  public:
   /// `centre`: sample at the centre of mass. Cost: a call of each function of the region for each
   /// station. Allocates nothing.
-  StationSamples(const AmbientBody& ambient, const FluidRegions& regions,
+  StationSamples(const AmbientBody& ambient, const MotionView& now, const FluidRegions& regions,
                  const RegionsAround& around, const RegionSample& centre) noexcept;
 
   bool isFinite() const noexcept { return is_finite_; }  ///< false: a station counts as the centre
@@ -78,6 +77,6 @@ class StationSamples {
 /// Finds what the flow along a body adds to its applied wrench in a step of `duration` [s]:
 /// FlowAlongBody::push_B, at_rest_B, side_push_W, growth_W. Allocates nothing. Cost: nothing where
 /// the fluid moves as one.
-void findPushes(AmbientBody& ambient, double duration) noexcept;
+void findPushes(AmbientBody& ambient, const MotionView& now, double duration) noexcept;
 
-AMBIENT_END
+}  // namespace ambient

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/pi.h"
@@ -10,7 +9,7 @@
 #include "bullet_ambient/motion/surface/stand_lanes.h"
 #include "bullet_ambient/spatial/cholesky.h"
 
-AMBIENT_BEGIN
+namespace ambient {
 namespace {
 
 // Returns the plane in W after a time since the step began: it moves with the water.
@@ -21,28 +20,22 @@ SurfacePlane movedPlane(const AmbientBody& ambient, double time) {
   return plane;
 }
 
-// Returns that plane in B, at the pose of now.
-SurfacePlane planeAfter(const AmbientBody& ambient, double time) {
-  const btTransform& pose = ambient.body->getWorldTransform();
-  return seenFrom(movedPlane(ambient, time), toQuaternion(pose.getRotation()).toRotationMatrix(),
-                  toVector3(pose.getOrigin()));
+// Returns the plane at the start of the step in B, at a pose.
+SurfacePlane planeAt(const AmbientBody& ambient, const RigidState& state) {
+  return seenFrom(ambient.encounter().plane_W, state.orientation.toRotationMatrix(),
+                  state.position);
 }
 
-// Whether two planes are one but for the rounding of Bullet's poses, relative to their place in W.
-bool isNear(const SurfacePlane& a, const SurfacePlane& b, double size) {
-  constexpr double kRounding = 64 * static_cast<double>(std::numeric_limits<btScalar>::epsilon());
+// Whether two planes are one but for a rounding of poses, relative to their place in W.
+bool isNear(const SurfacePlane& a, const SurfacePlane& b, double size, double rounding) {
   return a.density == b.density && a.gravity == b.gravity && a.sides_F == b.sides_F &&
-         (a.normal - b.normal).cwiseAbs().maxCoeff() <= kRounding &&
-         std::abs(a.height - b.height) <= kRounding * size;
+         (a.normal - b.normal).cwiseAbs().maxCoeff() <= rounding &&
+         std::abs(a.height - b.height) <= rounding * size;
 }
 
 bool isSame(const SurfacePlane& a, const SurfacePlane& b) {
   return a.normal == b.normal && a.height == b.height && a.density == b.density &&
          a.gravity == b.gravity && a.sides_F == b.sides_F;
-}
-
-const SurfaceStand& standAfter(AmbientBody& ambient, double time) {
-  return standAt(ambient, planeAfter(ambient, time));
 }
 
 // Sets the plane of the stand to a plane in B.
@@ -54,12 +47,14 @@ void moveTo(const SurfacePlane& plane_B, SurfaceMeeting& meeting) {
   }
 }
 
-// Sets the plane of the stand to a plane in B, unless they differ by the rounding of the pose only.
-void meetPlane(AmbientBody& ambient, const SurfacePlane& plane_B) {
+// Sets the plane of the stand to that at a pose, unless they differ by the rounding of the pose
+// only.
+void meetPlane(AmbientBody& ambient, const RigidState& state, double rounding) {
+  constexpr double kRoundings = 64;
   SurfaceMeeting& meeting = *ambient.meeting;
-  const double size =
-      ambient.surface()->radius + toVector3(ambient.body->getWorldTransform().getOrigin()).norm();
-  if (meeting.has_met && isNear(meeting.stand.plane, plane_B, size)) return;
+  const SurfacePlane plane_B = planeAt(ambient, state);
+  const double size = ambient.surface()->radius + state.position.norm();
+  if (meeting.has_met && isNear(meeting.stand.plane, plane_B, size, kRoundings * rounding)) return;
   moveTo(plane_B, meeting);
 }
 
@@ -104,18 +99,17 @@ SurfacePlane planeNear(const Vector3& position, const RegionSample& sample,
   return {normal, normal.dot(above), sample.below.density - sample.above.density, felt.norm()};
 }
 
-NearSurface nearSurface(const AmbientBody& ambient, const SurfaceKind& kind, const SampleAt& at,
-                        double duration) noexcept {
+NearSurface nearSurface(const AmbientBody& ambient, const MotionView& now, const SurfaceKind& kind,
+                        const SampleAt& at, double duration) noexcept {
   const RegionSample& sample = at.sample;
-  const btRigidBody& body = *ambient.body;
-  const Vector3 gravity = toVector3(body.getGravity());
+  const Vector3& gravity = now.gravity;
   const int media = ambient.models->findSurface(kind);
   if (media < 0 || !hasSurface(sample, gravity))
     return {sample.isAbove() ? SurfaceSide::kAbove : SurfaceSide::kBelow};
   const SurfaceModel& model = ambient.models->surfaces[static_cast<std::size_t>(media)].model;
-  const RigidState state = readState(body);
+  const RigidState& state = now.state;
   const SurfacePlane plane_W = planeNear(at.point_W, sample, gravity);
-  const double speed = (toVector3(body.getLinearVelocity()) - sample.below.velocity).norm();
+  const double speed = (now.twist_W.linear - sample.below.velocity).norm();
   const double travel =
       duration * (speed + model.radius * state.twist.angular.norm() + duration * gravity.norm());
   const SurfacePlane plane_B =
@@ -139,22 +133,17 @@ SurfaceSide meetSurface(AmbientBody& ambient, const NearSurface& near, const Reg
   return SurfaceSide::kAt;
 }
 
-void standAt(AmbientBody* const* bodies, const SurfacePlane* planes_B, int count) noexcept {
+void standAt(AmbientBody* const* bodies, const RigidState* states, int count,
+             double rounding) noexcept {
   AMBIENT_ASSERT(count > 0 && count <= kFlightsTogether);
-  for (int i = 0; i < count; ++i) meetPlane(*bodies[i], planes_B[i]);
+  for (int i = 0; i < count; ++i) meetPlane(*bodies[i], states[i], rounding);
   completeMet(bodies, count);
 }
 
-const SurfaceStand& standAt(AmbientBody& ambient, const SurfacePlane& plane_B) noexcept {
-  AmbientBody* const body = &ambient;
-  standAt(&body, &plane_B, 1);
-  return ambient.stand();
-}
-
-BodyModel modelNow(const AmbientBody& ambient) {
+BodyModel modelNow(const AmbientBody& ambient, const MotionView& now) {
   const SurfaceModel* surface = ambient.surface();
   if (!surface) return ambient.model();
-  const SurfaceStand stand = standAtSurface(*surface, planeAfter(ambient, 0));
+  const SurfaceStand stand = standAtSurface(*surface, planeAt(ambient, now.state));
   BodyModel model = frozenAt(*surface, stand);
   if (surface->loads_below.loads) {
     model.loads =
@@ -164,7 +153,11 @@ BodyModel modelNow(const AmbientBody& ambient) {
   return model;
 }
 
-const SurfaceStand& standNow(AmbientBody& ambient) noexcept { return standAfter(ambient, 0); }
+const SurfaceStand& standNow(AmbientBody& ambient, const MotionView& now) noexcept {
+  AmbientBody* const body = &ambient;
+  standAt(&body, &now.state, 1, now.rounding);
+  return ambient.stand();
+}
 
 StepModel::StepModel(const AmbientBody& ambient, double duration) noexcept {
   if (ambient.surface()) {
@@ -205,16 +198,15 @@ void warnOfCoarseSwing(const AmbientBody& ambient, double duration,
     complaints.sayCoarseSwing(*ambient.def, swing, duration);
 }
 
-Vector6 kickByWavesAndWind(AmbientBody& ambient, double duration) noexcept {
+Vector6 kickByWavesAndWind(AmbientBody& ambient, const RigidState& now, double duration) noexcept {
   const SurfaceModel& model = *ambient.surface();
   const SurfaceStand& stand = ambient.stand();
-  const RigidState state = readState(*ambient.body);
-  const Matrix3 R = state.orientation.toRotationMatrix();
-  Twist relative = state.twist;
+  const Matrix3 R = now.orientation.toRotationMatrix();
+  Twist relative = now.twist;
   relative.linear -= R.transpose() * ambient.medium.velocity;
   const Vector6 x = relative.vector();
   ambient.encounter().twist_before_rows = x;
-  ambient.encounter().plane_before_rows = planeAfter(ambient, 0);
+  ambient.encounter().plane_before_rows = planeAt(ambient, now);
   WaveMemory& waves = ambient.encounter().waves_with_rows;
   waves = ambient.encounter().waves;
   Vector6 end = exchangeWaves(stand.modes, R, stand.inverse, duration, x, waves);
@@ -231,17 +223,16 @@ std::optional<SurfacePlane> metPlane(const AmbientBody& ambient) noexcept {
   return ambient.stand().plane;
 }
 
-void meetAgain(AmbientBody& ambient, int media) noexcept {
+void meetAgain(AmbientBody& ambient, const RigidState& now, int media) noexcept {
   SurfaceEncounter& encounter = ambient.encounter();
   AMBIENT_ASSERT(ambient.meeting->has_met);
   ambient.surface_media = media;
   const SurfacePlane met = ambient.stand().plane;
-  const RigidState state = readState(*ambient.body);
-  const Vector3 normal_W = state.orientation * met.normal;
-  encounter.plane_W = {normal_W, met.height + normal_W.dot(state.position), met.density,
-                       met.gravity};
+  const Vector3 normal_W = now.orientation * met.normal;
+  encounter.plane_W = {normal_W, met.height + normal_W.dot(now.position), met.density, met.gravity};
   ambient.meeting->meet(met);
-  standAt(ambient, met);
+  AmbientBody* const body = &ambient;
+  completeMet(&body, 1);
 }
 
 namespace {
@@ -370,6 +361,8 @@ double hydrostaticEnergyAt(const AmbientBody& ambient, const FrameOffset& pose,
   return hydrostaticEnergy(wetVolumeAt(model, plane_B), plane_B);
 }
 
-bool mayRestAtSurface(AmbientBody& ambient) noexcept { return isStable(standNow(ambient)); }
+bool mayRestAtSurface(AmbientBody& ambient, const MotionView& now) noexcept {
+  return isStable(standNow(ambient, now));
+}
 
-AMBIENT_END
+}  // namespace ambient

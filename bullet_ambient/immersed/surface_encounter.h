@@ -3,12 +3,11 @@
 #include <optional>
 #include <utility>
 
-#include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/force/medium/fluid_region.h"
 #include "bullet_ambient/immersed/ambient_body.h"
 #include "bullet_ambient/immersed/complaints.h"
 
-AMBIENT_BEGIN
+namespace ambient {
 
 /// True if a region has a water surface for the body: it has one, and gravity relative to the water
 /// is not zero (no free fall).
@@ -39,29 +38,28 @@ struct NearSurface {
 /// Decides whether the surface matters to the body in a step of `duration` [s]. `at`: region where
 /// the body is. Without gravity there is no surface, and the place of the sample decides. Allocates
 /// nothing.
-NearSurface nearSurface(const AmbientBody& ambient, const SurfaceKind& kind, const SampleAt& at,
-                        double duration) noexcept;
+NearSurface nearSurface(const AmbientBody& ambient, const MotionView& now, const SurfaceKind& kind,
+                        const SampleAt& at, double duration) noexcept;
 
 /// Fills AmbientBody::encounter() if the surface matters to the body; where sides of its pool cut
 /// it and it is not dry, it does at any depth. Allocates nothing.
 SurfaceSide meetSurface(AmbientBody& ambient, const NearSurface& near, const RegionSample& sample,
                         const PoolSides& sides_F) noexcept;
 
-/// Computes the SurfaceStands of up to kFlightsTogether bodies for planes in B, side by side. Keeps
-/// the last one if the plane equals metPlane() up to the rounding of poses in Bullet.
-/// The result depends on metPlane() alone, so that a restored state continues with the same bits.
-/// Allocates nothing. @pre they are at a surface
-void standAt(AmbientBody* const* bodies, const SurfacePlane* planes_B, int count) noexcept;
-/// Calls standAt() for one body. Returns its stand.
-const SurfaceStand& standAt(AmbientBody& ambient, const SurfacePlane& plane_B) noexcept;
+/// Computes the SurfaceStands of up to kFlightsTogether bodies at poses when the step begins, side
+/// by side. Keeps the last one if the plane in B equals metPlane() up to `rounding` of poses in
+/// Bullet. The result depends on metPlane() alone, so that a restored state continues with the same
+/// bits. Allocates nothing. @pre they are at a surface
+void standAt(AmbientBody* const* bodies, const RigidState* states, int count,
+             double rounding) noexcept;
 
 /// Returns the model of the body at its present pose: AmbientBody::model(), or at a water surface
 /// the model for the present waterline.
-BodyModel modelNow(const AmbientBody& ambient);
+BodyModel modelNow(const AmbientBody& ambient, const MotionView& now);
 
-/// Finds the stand of the body at its present pose. Allocates nothing. @pre the body is at a
+/// Finds the stand of one body at its present pose. Allocates nothing. @pre the body is at a
 /// surface
-const SurfaceStand& standNow(AmbientBody& ambient) noexcept;
+const SurfaceStand& standNow(AmbientBody& ambient, const MotionView& now) noexcept;
 
 /// Loads on the wet part of a body at one moment.
 class LoadsAtSurface final : public SurfaceLoads {
@@ -121,7 +119,7 @@ void warnOfCoarseSwing(const AmbientBody& ambient, double duration,
 
 /// Returns the change of velocity in B by the waves that the body makes and by the wind, over a
 /// step in which rows move it; keeps the waves after the step. Allocates nothing. @pre standNow()
-Vector6 kickByWavesAndWind(AmbientBody& ambient, double duration) noexcept;
+Vector6 kickByWavesAndWind(AmbientBody& ambient, const RigidState& now, double duration) noexcept;
 
 /// Plane of the surface in B at the exact pose where the last flight or step with rows ended,
 /// before Bullet rounded it; none: the body has met no surface.
@@ -130,7 +128,7 @@ std::optional<SurfacePlane> metPlane(const AmbientBody& ambient) noexcept;
 /// Restores the encounter of a saved state with its surface, and the stand for metPlane(). Call
 /// between steps.
 /// @pre metPlane() is set; `media` is an index into FluidModels::surfaces
-void meetAgain(AmbientBody& ambient, int media) noexcept;
+void meetAgain(AmbientBody& ambient, const RigidState& now, int media) noexcept;
 
 /// Replaces the twists of up to kFlightsTogether bodies that Bullet has moved with rows by those
 /// after the change of their added mass on the way; in B, relative to the water. Removes energy
@@ -148,6 +146,6 @@ double hydrostaticEnergyAt(const AmbientBody& ambient, const FrameOffset& pose,
                            double duration) noexcept;
 
 /// True if a body that hardly moves may fall asleep where it floats: its balance is not unstable.
-bool mayRestAtSurface(AmbientBody& ambient) noexcept;
+bool mayRestAtSurface(AmbientBody& ambient, const MotionView& now) noexcept;
 
-AMBIENT_END
+}  // namespace ambient

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "bullet_ambient/bullet/reading/wet_state.h"
 #include "bullet_ambient/fluid.h"
+#include "bullet_ambient/immersed/wet_state.h"
 #include "bullet_ambient/reading.h"
 #include "demos/analysis/motion_sample.h"
 #include "demos/scene/scene.h"

@@ -19,6 +19,9 @@ inline btVector3 toBullet(const Vector3& v) {
   return {static_cast<btScalar>(v.x()), static_cast<btScalar>(v.y()), static_cast<btScalar>(v.z())};
 }
 
+/// Returns a vector with the numbers that Bullet keeps of it.
+inline Vector3 rounded(const Vector3& v) { return toVector3(toBullet(v)); }
+
 /// Smallest velocity [m/s] or [rad/s] that is given to Bullet. Below it, the square of half the
 /// turn in a step is a subnormal number, with which processors compute many times slower.
 inline double leastVelocity(double time_step) {

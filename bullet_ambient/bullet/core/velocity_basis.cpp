@@ -17,13 +17,6 @@ WorldBasis toBulletBasis(const Matrix6& T) {
 
 }  // namespace
 
-Matrix6 makeVelocityBasis(const BodyModel& model, const Vector3& inertia_diagonal) {
-  AMBIENT_ASSERT(inertia_diagonal.minCoeff() > 0 && model.mass > 0);
-  Vector6 scale;
-  scale << inertia_diagonal.cwiseSqrt(), Vector3::Constant(std::sqrt(model.mass));
-  return Cholesky<6>(model.inertia).inverseTransposed() * scale.asDiagonal();
-}
-
 WorldBasis toWorld(const Matrix6& basis_B, const Matrix3& R) {
   AMBIENT_ASSERT(isRotation(R));
   AMBIENT_ASSERT(basis_B.allFinite());

@@ -8,12 +8,8 @@
 
 AMBIENT_BEGIN
 
-/// T in body axes with T D T^T = K^-1, D = diag(I^-1, 1/m) being what Bullet holds; docs/theory.md
-/// eq. (26). From one Cholesky factor K = L L^T: T = L^-T diag(sqrt I, sqrt m), upper triangular.
-/// `inertia_diagonal`: principal moments I of the btRigidBody [kg m^2].
-Matrix6 makeVelocityBasis(const BodyModel& model, const Vector3& inertia_diagonal);
-
-/// T in world axes, in Bullet's precision: u = T u' with u = (w, v). The lower left block is zero.
+/// Velocity basis T of docs/theory.md eq. (26) in world axes, in Bullet's precision: u = T u' with
+/// u = (w, v). The lower left block is zero.
 struct WorldBasis {
   btMatrix3x3 angular = btMatrix3x3::getIdentity();    ///< w from w'
   btMatrix3x3 coupling = {0, 0, 0, 0, 0, 0, 0, 0, 0};  ///< w from v'

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/bullet/links/tree_links.h"
 #include "bullet_ambient/bullet/links/tree_surface.h"
 #include "bullet_ambient/bullet/members/flight_coupling.h"
@@ -18,15 +19,29 @@ namespace {
 
 AmbientLink& baseOf(const AmbientTree& tree) { return *tree.links.front(); }
 
-// Applies the forces on the base to the stand-in, without those of the flow along it, which the
-// flight adds.
-void applyForces(AmbientTree& tree) {
-  btRigidBody& stand_in = baseOf(tree).stand_in;
-  Wrench applied = tree.flight.dynamics().appliedWrench(0);
-  applied -= pushByFlow(baseOf(tree).ambient);
-  stand_in.clearForces();
-  stand_in.applyCentralForce(toBullet(applied.force));
-  stand_in.applyTorque(toBullet(applied.torque));
+// Reads where the flights of trees without joints begin, with the roundings of rigid bodies.
+void readDepartures(AmbientTree* const* trees, int count, Departures& departures) {
+  btMatrix3x3 rotations[kFlightsTogether];
+  const btMatrix3x3* all[kFlightsTogether] = {};
+  for (int i = 0; i < count; ++i) {
+    const LinkDynamics& dynamics = trees[i]->flight.dynamics();
+    departures.twists_W[i] = baseOf(*trees[i]).now.twist_W;
+    rotations[i] = toBulletMatrix(dynamics.rotation(0));
+    all[i] = &rotations[i];
+  }
+  Attitudes attitudes;
+  computeAttitudes(all, departures.twists_W, count, attitudes);
+  for (int i = 0; i < count; ++i) {
+    const AmbientLink& base = baseOf(*trees[i]);
+    const MotionView& now = base.now;
+    departures.states[i] = {attitudes.orientations[i], now.centre_W(), attitudes.twists_B[i]};
+    // That of the flow along it is added below.
+    Wrench applied = trees[i]->flight.dynamics().appliedWrench(0);
+    applied -= pushByFlow(base.ambient, now.state.orientation);
+    departures.surroundings[i] = surroundingsOf(base.ambient, now.gravity,
+                                                {rounded(applied.torque), rounded(applied.force)});
+    addFlowAlong(base.ambient, now.state.orientation, departures.surroundings[i]);
+  }
 }
 
 void setFlown(TreeStep& step) {
@@ -34,7 +49,7 @@ void setFlown(TreeStep& step) {
   step.reserve = 0;
 }
 
-// Moves a tree to the end of its stand-in's flight. Returns false if the flight has failed or
+// Moves a tree to the end of its link's flight. Returns false if the flight has failed or
 // Bullet cannot move the tree to its end.
 bool takeFlight(AmbientTree& tree, const TreeTask& task) {
   TreeStep& step = tree.step;
@@ -66,12 +81,13 @@ void flyAsBodies(AmbientTree* const* trees, int count, const TreeTask& task) noe
   Twist changes_W[kFlightsTogether];
   for (int i = 0; i < count; ++i) {
     AmbientLink& base = baseOf(*trees[i]);
-    applyForces(*trees[i]);
     bodies[i] = &base.ambient;
     before[i] = base.ambient.outcome.flight();
     if (base.ambient.surface()) base.start = *base.ambient.meeting;
   }
-  beginFlights(bodies, count, task.duration, changes_W);
+  Departures departures;
+  readDepartures(trees, count, departures);
+  beginFlights(bodies, departures, count, task.duration, changes_W);
   for (int i = 0; i < count; ++i) {
     if (takeFlight(*trees[i], task)) continue;
     bodies[i]->outcome.motion = before[i];  // in the place where the tree knows its memory
@@ -205,7 +221,7 @@ class TreeFlight {
   void returnToStart() {
     step_.pose = step_.surface.pose;
     step_.start = step_.surface.start;
-    placeStandIns(tree_, step_.start);
+    placeLinks(tree_, step_.start);
     forgetLoads(tree_);
     count_.error = count_.halted ? 1 : 0;
     count_.energy_removed = 0;

@@ -18,9 +18,9 @@ bool flyTree(AmbientTree& tree, const TreeTask& task) noexcept;
 bool fliesAsBody(const AmbientTree& tree) noexcept;
 
 /// Flies up to kFlightsTogether trees for which fliesAsBody() is true, side by side. Calls
-/// beginFlights() for their stand-ins, so that they have the bits of rigid bodies. Writes what
+/// beginFlights() for their links, so that they have the bits of rigid bodies. Writes what
 /// flyTree() does. A flight that is not finite, or turns faster than Bullet can move a multibody,
-/// leaves its tree and the outcome unchanged. @pre the stand-ins have the poses of the trees
+/// leaves its tree and the outcome unchanged. @pre prepareLinks()
 void flyAsBodies(AmbientTree* const* trees, int count, const TreeTask& task) noexcept;
 
 AMBIENT_END

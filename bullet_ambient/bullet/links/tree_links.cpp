@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/bullet/members/attach_link.h"
 #include "bullet_ambient/bullet/members/flight_coupling.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
@@ -19,7 +20,8 @@ void prepareLink(AmbientLink& link, AmbientTree& tree, const TreeTask& task) {
   Link& in_tree = tree.tree.links[link.link + 1];
   AmbientBody& ambient = link.ambient;
   in_tree.surroundings.flow = nullptr;
-  if (!prepareFluid(ambient, task.bodies, task.duration)) {
+  const StepStart start{&link.now, link.now.twist_W, link.mass};
+  if (link.mass.mass == 0 || !prepareFluid(ambient, start, task.bodies, task.duration)) {
     in_tree.model = nullptr;
     in_tree.surroundings.ambient_velocity.setZero();
     return;
@@ -27,17 +29,17 @@ void prepareLink(AmbientLink& link, AmbientTree& tree, const TreeTask& task) {
   in_tree.model = &ambient.model();
   in_tree.memory = &ambient.outcome.flight().memory;
   if (ambient.surface()) {
-    standNow(ambient);
+    standNow(ambient, link.now);
     link.frozen.freeze(ambient);
     in_tree.model = &*link.frozen;
     in_tree.memory = nullptr;  // its loads are those on the part that is wet when the step begins
   }
-  in_tree.mass = 1 / static_cast<double>(link.stand_in.getInvMass());
-  in_tree.surroundings.gravity = toVector3(task.gravity);
+  in_tree.mass = 1 / link.mass.mass;
+  in_tree.surroundings.gravity = link.now.gravity;
   in_tree.surroundings.ambient_velocity = ambient.medium.velocity;
   in_tree.surroundings.ambient_acceleration = ambient.medium.acceleration;
   in_tree.surroundings.load_share = ambient.load_share;
-  addFlowAlong(ambient, in_tree.surroundings);
+  addFlowAlong(ambient, link.now.state.orientation, in_tree.surroundings);
 }
 
 template <class IsTrue>
@@ -46,8 +48,7 @@ bool isOfAny(const AmbientTree& tree, const IsTrue& is_true) {
                      [&](const auto& link) { return is_true(link->ambient); });
 }
 
-// True if a link has a wake that depends on its motion (followWake()): then its stand-in needs the
-// velocity.
+// True if a link has a wake that depends on its motion (followWake()).
 bool hasWakes(const AmbientTree& tree) {
   return isOfAny(tree, [](const AmbientBody& ambient) {
     const auto& loads = ambient.model().loads;
@@ -72,26 +73,24 @@ bool moves(AmbientTree& tree) {
 // True if a tree of one link floats in an unstable balance. False for trees with joints, which may
 // hold their links.
 bool standsOnSaddle(AmbientTree& tree) {
-  AmbientBody& ambient = tree.links.front()->ambient;
-  if (tree.tree.size() > 1 || !ambient.surface()) return false;
+  AmbientLink& base = *tree.links.front();
+  if (tree.tree.size() > 1 || !base.ambient.surface()) return false;
   readPose(*tree.multi_body, tree.step.pose);
-  placeStandIns(tree, tree.step.end);
-  return !mayRestAtSurface(ambient);
+  placeLinks(tree, tree.step.end);
+  return !mayRestAtSurface(base.ambient, base.now);
 }
 
 }  // namespace
 
-void placeStandIns(AmbientTree& tree, const CoordinatesIn& u) noexcept {
+void placeLinks(AmbientTree& tree, const CoordinatesIn& u) noexcept {
   LinkDynamics& dynamics = tree.flight.dynamics();
   dynamics.moveTo(tree.step.pose);
   dynamics.setVelocity(u);
   for (const auto& link : tree.links) {
     const Matrix3& R = dynamics.rotation(link->link + 1);
     const Twist& twist = dynamics.twist(link->link + 1);
-    link->stand_in.setWorldTransform(
-        btTransform(toBulletMatrix(R), toBullet(dynamics.position(link->link + 1))));
-    link->stand_in.setLinearVelocity(toBullet(Vector3(R * twist.linear)));
-    link->stand_in.setAngularVelocity(toBullet(Vector3(R * twist.angular)));
+    const btTransform pose(toBulletMatrix(R), toBullet(dynamics.position(link->link + 1)));
+    setMotion(pose, {rounded(R * twist.angular), rounded(R * twist.linear)}, link->now);
   }
 }
 
@@ -107,9 +106,12 @@ void forgetLoads(AmbientTree& tree) noexcept {
 
 bool prepareLinks(AmbientTree& tree, const TreeTask& task) noexcept {
   readLinks(*tree.multi_body, tree.tree);
-  for (const auto& link : tree.links) standIn(*link, *tree.multi_body, task.gravity);
+  for (const auto& link : tree.links) {
+    link->mass = inverseMassOf(*tree.multi_body, link->link);
+    link->now.gravity = toVector3(task.gravity);
+  }
   if (!task.bodies.regions.empty() || tree.tree.size() == 1 || hasWakes(tree))
-    placeStandIns(tree, tree.step.start);
+    placeLinks(tree, tree.step.start);
   bool is_in_fluid = false;
   for (const auto& link : tree.links) {
     prepareLink(*link, tree, task);
@@ -118,10 +120,10 @@ bool prepareLinks(AmbientTree& tree, const TreeTask& task) noexcept {
   return is_in_fluid;
 }
 
-void moveStandIns(AmbientTree& tree) noexcept {
+void placeLinksNow(AmbientTree& tree) noexcept {
   readPose(*tree.multi_body, tree.step.pose);
   readVelocity(*tree.multi_body, tree.step.start);
-  placeStandIns(tree, tree.step.start);
+  placeLinks(tree, tree.step.start);
 }
 
 void addCount(const FlightCount& count, AmbientTree& tree) noexcept {

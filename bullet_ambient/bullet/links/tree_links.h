@@ -27,9 +27,9 @@ void forEachTree(btMultiBodyDynamicsWorld& world, const AmbientTrees& trees, con
     if (AmbientTree* tree = trees.find(world.getMultiBody(i))) visit(*tree);
 }
 
-/// Updates links, fluids and forces of a tree at the start of a substep. Moves the stand-ins to the
-/// links if regions, a smooth link or a tree without joints need it. Returns false if no link is in
-/// a fluid. Allocates nothing.
+/// Updates links, fluids and forces of a tree at the start of a substep. Places the links if
+/// regions, a smooth link or a tree without joints need it. Returns false if no link is in a fluid.
+/// Allocates nothing.
 bool prepareLinks(AmbientTree& tree, const TreeTask& task) noexcept;
 
 /// True if the velocity `now` is not `step.end`, up to Bullet's rounding: others have changed it
@@ -39,12 +39,12 @@ bool wasMovedByOthers(const AmbientTree& tree, const CoordinatesIn& now) noexcep
 /// Makes the links forget the loads at the end of the last flight, which the motion has left.
 void forgetLoads(AmbientTree& tree) noexcept;
 
-/// Gives the stand-ins the poses of the links at `step.pose`, and their velocities for the
-/// generalized velocity `u`. Leaves the dynamics there, with the models that they had.
-void placeStandIns(AmbientTree& tree, const CoordinatesIn& u) noexcept;
+/// Sets the motion of each link, AmbientLink::now, to that at `step.pose` and for the generalized
+/// velocity `u`. Leaves the dynamics there, with the models that they had.
+void placeLinks(AmbientTree& tree, const CoordinatesIn& u) noexcept;
 
-/// Gives the stand-ins the present poses and velocities of the links. Call between two steps.
-void moveStandIns(AmbientTree& tree) noexcept;
+/// Sets the motion of each link to the present one. Call between two steps.
+void placeLinksNow(AmbientTree& tree) noexcept;
 
 /// Adds the counts of a flight to the counters of the links: substeps to all, load evaluations in
 /// equal parts to those with loads, all others to the first link.

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "bullet_ambient/bullet/core/body_motion.h"
+#include "bullet_ambient/bullet/members/attach_link.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
 #include "bullet_ambient/force/surface/buoyancy.h"
 #include "bullet_ambient/immersed/surface_encounter.h"
@@ -45,23 +47,25 @@ void TreeNow::applyLoads() {
 
 void TreeNow::immerse(AmbientLink& ambient, const btMultiBody& body, const Vector3& gravity) {
   if (!ambient.ambient.isInFluid()) return;
-  ambient.stand_in.setWorldTransform(linkTransform(body, ambient.link));
+  readLinkPose(body, ambient);
   Link& link = tree_.links[ambient.link + 1];
-  models_.push_back(modelNow(ambient.ambient));
+  models_.push_back(modelNow(ambient.ambient, ambient.now));
   link.model = &models_.back();
   link.surroundings.gravity = gravity;
   link.surroundings.ambient_velocity = ambient.ambient.medium.velocity;
   link.surroundings.ambient_acceleration = ambient.ambient.medium.acceleration;
   link.surroundings.load_share = ambient.ambient.load_share;
-  addFlowAlong(ambient.ambient, link.surroundings);
+  addFlowAlong(ambient.ambient, ambient.now.state.orientation, link.surroundings);
 }
 
 Matrix6 inverseInertia(AmbientBody& ambient) {
-  if (isModelStale(ambient)) rebuildModels(ambient);
   const btRigidBody& body = *ambient.body;
-  const Matrix3 R = readState(body).orientation.toRotationMatrix();
+  const InverseMass mass = inverseMassOf(body);
+  if (isModelStale(ambient, mass)) rebuildModels(ambient, mass);
+  const MotionView now = motionOf(body);
+  const Matrix3 R = now.rotation_WB();
   const AxisFactors factors = axisFactors(body);
-  const BodyModel model = modelNow(ambient);
+  const BodyModel model = modelNow(ambient, now);
   if (factors.areFree()) return rotateAxes(model.inverse_inertia, R);
   return lockedInverse(rotateAxes(model.inertia, R), factors);
 }
@@ -74,8 +78,7 @@ void applyImpulseToBody(AmbientBody& ambient, const Wrench& impulse) {
     return;
   }
   const Twist change = Twist::fromVector(inverseInertia(ambient) * impulse.vector());
-  body.setAngularVelocity(body.getAngularVelocity() + toBullet(change.angular));
-  body.setLinearVelocity(body.getLinearVelocity() + toBullet(change.linear));
+  addVelocity(body, change);
 }
 
 void applyImpulseToLink(const AmbientTrees& trees, const AmbientTree& tree, int link,

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "bullet_ambient/bullet/members/tree_state.h"
-#include "bullet_ambient/bullet/reading/fluid_reading.h"
+#include "bullet_ambient/immersed/fluid_reading.h"
 
 AMBIENT_BEGIN
 
@@ -22,7 +22,7 @@ template <class Visit>
 void forEachRead(const AmbientTree& tree, const Visit& visit) {
   for (const auto& link : tree.links) {
     const Link& in_tree = tree.tree.links[link->link + 1];
-    if (link->ambient.reading && in_tree.model) visit(link->ambient, link->link + 1);
+    if (link->ambient.reading && in_tree.model) visit(*link, link->link + 1);
   }
 }
 
@@ -43,9 +43,11 @@ void beginTreeReading(AmbientTree& tree) noexcept {
   LinkDynamics& dynamics = tree.flight.dynamics();
   dynamics.setPose(tree.step.pose);
   dynamics.setVelocity(tree.step.start);
-  forEachRead(tree, [&](AmbientBody& ambient, int link) {
-    FluidReading& reading = *ambient.reading;
-    beginReading(ambient, stateOf(dynamics, link), tree.tree.links[link].surroundings, reading);
+  forEachRead(tree, [&](AmbientLink& read, int link) {
+    FluidReading& reading = *read.ambient.reading;
+    Surroundings surroundings = tree.tree.links[link].surroundings;
+    surroundings.applied -= pushByFlow(read.ambient, read.now.state.orientation);
+    beginReading(read.ambient, stateOf(dynamics, link), surroundings, reading);
     reading.model = *tree.tree.links[link].model;
   });
 }
@@ -58,8 +60,8 @@ void finishTreeReading(AmbientTree& tree, double duration) noexcept {
   readPose(*tree.multi_body, step.pose);
   dynamics.setPose(step.pose);
   dynamics.setVelocity(step.end);
-  forEachRead(tree, [&](AmbientBody& ambient, int link) {
-    FluidReading& reading = *ambient.reading;
+  forEachRead(tree, [&](AmbientLink& read, int link) {
+    FluidReading& reading = *read.ambient.reading;
     reading.end = stateOf(dynamics, link);
     reading.knows_impulse = is_free;
     const Matrix3& R = dynamics.rotation(link);
@@ -69,9 +71,9 @@ void finishTreeReading(AmbientTree& tree, double duration) noexcept {
   movePose(tree.tree, step.pose, step.moved, -duration / 2, step.pose);
   dynamics.setPose(step.pose);
   dynamics.setVelocity(step.moved);
-  forEachRead(tree, [&](AmbientBody& ambient, int link) {
-    FluidReading& reading = *ambient.reading;
-    finishReading(ambient,
+  forEachRead(tree, [&](AmbientLink& read, int link) {
+    FluidReading& reading = *read.ambient.reading;
+    finishReading(read.ambient,
                   {stateOf(dynamics, link), reading.end, reading.model,
                    step.outcome == TreeOutcome::kFlown, duration},
                   reading);

@@ -80,7 +80,8 @@ void kickAtSurface(AmbientTree& tree, const TreeTask& task) noexcept {
   step.surface.has_flown = false;
   std::fill(step.impulses.begin(), step.impulses.end(), Wrench{});
   forEachAtSurface(tree, [&](AmbientLink& link, int i) {
-    step.impulses[i] = impulseOf(link, kickByWavesAndWind(link.ambient, task.duration));
+    step.impulses[i] =
+        impulseOf(link, kickByWavesAndWind(link.ambient, link.now.state, task.duration));
   });
   step.meets_surface = addResponse(tree, step.start);
   forEachAtSurface(tree, [&](AmbientLink& link, int) {
@@ -113,7 +114,7 @@ void floatInMiddle(AmbientTree& tree) noexcept {
 double arriveAtSurface(AmbientTree& tree) noexcept {
   TreeStep& step = tree.step;
   const double duration = step.surface.time;
-  placeStandIns(tree, step.end);
+  placeLinks(tree, step.end);
   const LinkDynamics& dynamics = tree.flight.dynamics();
   std::fill(step.impulses.begin(), step.impulses.end(), Wrench{});
   double energy_removed = 0;

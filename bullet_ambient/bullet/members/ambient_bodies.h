@@ -21,8 +21,6 @@ class btCollisionObject;
 
 AMBIENT_BEGIN
 
-struct AmbientBody;
-
 /// Finds ambient bodies in their list by the addresses of their Bullet bodies: a hash table in one
 /// array, of which a search reads one line of the cache in most cases.
 class BodyIndex {

@@ -10,12 +10,6 @@
 
 AMBIENT_BEGIN
 
-AmbientLink::AmbientLink(int number)
-    : link(number),
-      stand_in(btRigidBody::btRigidBodyConstructionInfo(1, nullptr, nullptr, {1, 1, 1})) {
-  ambient.body = &stand_in;
-}
-
 TreeStep::TreeStep(Eigen::Index n, std::size_t links)
     : start(n),
       moved(n),

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <BulletDynamics/Dynamics/btRigidBody.h>
-
 #include <memory>
 #include <unordered_map>
 #include <vector>
@@ -18,15 +16,17 @@ class btMultiBodyDynamicsWorld;
 
 AMBIENT_BEGIN
 
-/// One link of a multibody in a fluid. A btRigidBody in no world stands in for the link: regions,
-/// water surfaces, drawing and saved states treat links like bodies.
+/// One link of a multibody in a fluid. Regions, water surfaces, drawing and saved states treat it
+/// like a body.
 struct AmbientLink {
-  explicit AmbientLink(int number);
+  explicit AmbientLink(int number) : link(number) {}
   AmbientLink(const AmbientLink&) = delete;
   AmbientLink& operator=(const AmbientLink&) = delete;
 
-  const int link;        ///< Bullet's number; -1: the base
-  btRigidBody stand_in;  ///< has the link's mass, pose and velocity, and the world's gravity
+  const int link;    ///< Bullet's number; -1: the base
+  MotionView now;    ///< pose and velocity of the link, rounded as Bullet rounds those of
+                     ///< bodies; gravity of the world
+  InverseMass mass;  ///< of the link at the start of the last substep
   AmbientBody ambient;
   StepModel frozen;      ///< at a water surface: the model in the present or last step
   SurfaceMeeting start;  ///< that of `ambient` at the start of the step, to repeat a flight from

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "bullet_ambient/base/plain_text.h"
+#include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/immersed/region_following.h"
 
@@ -19,7 +20,7 @@ void warnOfSuspiciousMass(const AmbientBody& ambient, Complaints& complaints) {
   constexpr double kRounding = 1e-3;
   const FluidBody& shape = *ambient.def->fluid_body;
   const std::string who = "bullet_ambient: " + nameOf(*ambient.def) + ' ';
-  const Vector3 moments = toVector3(ambient.body->getInvInertiaDiagLocal()).cwiseInverse();
+  const Vector3 moments = ambient.models->inverse_mass.moments();
   const double largest = moments.maxCoeff(), others = moments.sum() - largest;
   if (largest > (1 + kRounding) * others) {
     const std::string text = who + "has a principal moment of inertia of " +
@@ -64,9 +65,14 @@ void checkDef(const std::string& who, const AttachDef& def) {
   checkChoice(who, "the load precision", def.flow.precision, kLoadPrecisionNames);
 }
 
-void refresh(AmbientBody& ambient, AmbientBodies& bodies) {
-  refreshModels(ambient, bodies.regions, bodies.load_tables);
-  followRegions(ambient, bodies.regions, 0, bodies.complaints);
+void refresh(AmbientBody& ambient, const InverseMass& mass, const MotionView& now,
+             AmbientBodies& bodies) {
+  refreshModels(ambient, mass, bodies.regions, bodies.load_tables);
+  if (mayBeInRegion(ambient, bodies.regions)) {
+    followRegions(ambient, now, bodies.regions, 0, bodies.complaints);
+  } else {
+    stayInOwnMedium(ambient, bodies.regions, 0);
+  }
 }
 
 DisplacedMass displacedMass(const AmbientBody& ambient) {
@@ -74,8 +80,7 @@ DisplacedMass displacedMass(const AmbientBody& ambient) {
   if (ambient.place.region != RegionId::kNone)
     for (const SurfaceMedia& surface : ambient.models->surfaces)
       density = std::min(density, surface.kind.mediumAbove(ambient.def->medium).density);
-  return {1 / static_cast<double>(ambient.body->getInvMass()),
-          ambient.def->fluid_body->volume * density};
+  return {1 / ambient.models->inverse_mass.mass, ambient.def->fluid_body->volume * density};
 }
 
 AmbientBody& attachBody(AmbientBodies& bodies, btRigidBody& body, AttachDef def) {
@@ -101,7 +106,7 @@ AmbientBody& attachBody(AmbientBodies& bodies, btRigidBody& body, AttachDef def)
   AmbientBody ambient;
   ambient.body = &body;
   ambient.def = shareDef(std::move(def), bodies.load_tables);
-  refresh(ambient, bodies);
+  refresh(ambient, inverseMassOf(body), motionOf(body), bodies);
   if (ambient.isInFluid()) body.activate();
   warnOfSuspiciousMass(ambient, bodies.complaints);
   return bodies.insert(std::move(ambient));

@@ -4,24 +4,24 @@
 
 #include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/fluid_body/displaced_mass.h"
-#include "bullet_ambient/immersed/attach_def.h"
+#include "bullet_ambient/immersed/ambient_body.h"
+#include "bullet_ambient/immersed/complaints.h"
 
 class btRigidBody;
 
 AMBIENT_BEGIN
 
-struct AmbientBody;
 class AmbientBodies;
-class Complaints;
 
 /// Computes both masses in the medium around the body now. A body in a region with a water surface
-/// counts as floating. @pre the body is dynamic
+/// counts as floating. @pre the body was dynamic when its models were made
 DisplacedMass displacedMass(const AmbientBody& ambient);
 
-/// Makes the models of a body again, in the medium around it now. If this throws, nothing has
-/// changed.
+/// Makes the models of a body or link again, in the medium around it now. If this throws, nothing
+/// has changed.
 /// @throws std::invalid_argument as refreshModels().
-void refresh(AmbientBody& ambient, AmbientBodies& bodies);
+void refresh(AmbientBody& ambient, const InverseMass& mass, const MotionView& now,
+             AmbientBodies& bodies);
 
 /// Checks the flight settings and enumerators of a definition; refresh() checks shape and medium.
 /// @throws std::invalid_argument that begins with `who`.

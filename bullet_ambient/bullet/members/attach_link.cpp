@@ -11,7 +11,7 @@
 #include <string>
 #include <utility>
 
-#include "bullet_ambient/bullet/core/conversions.h"
+#include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/bullet/members/attach_body.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
@@ -72,13 +72,7 @@ const btVector3& inertiaOf(const btMultiBody& body, int link) {
   return link < 0 ? body.getBaseInertia() : body.getLinkInertia(link);
 }
 
-// Inverts a mass or moment like btRigidBody::setMassProps().
-btScalar inverseOf(btScalar a) { return a != 0 ? 1 / a : btScalar(0); }
-
-bool hasMass(const btRigidBody& body, btScalar mass, const btVector3& inertia) {
-  const btVector3 inverse(inverseOf(inertia.x()), inverseOf(inertia.y()), inverseOf(inertia.z()));
-  return body.getInvMass() == inverseOf(mass) && body.getInvInertiaDiagLocal() == inverse;
-}
+double inverseNumber(btScalar a) { return static_cast<double>(a != 0 ? 1 / a : btScalar(0)); }
 
 void checkTreeOf(const std::string& who, const LinkOf& at) {
   if (at.link < -1 || at.link >= at.multi_body.getNumLinks()) {
@@ -129,16 +123,17 @@ DisplacedMass displacedMassOf(const AmbientTree& tree) {
 
 }  // namespace
 
-void standIn(AmbientLink& link, const btMultiBody& body, const btVector3& gravity) noexcept {
-  btRigidBody& stand_in = link.stand_in;
-  const btScalar mass = massOf(body, link.link);
-  const btVector3& inertia = inertiaOf(body, link.link);
-  if (!hasMass(stand_in, mass, inertia)) stand_in.setMassProps(mass, inertia);
-  if (!(stand_in.getGravity() == gravity)) stand_in.setGravity(gravity);
+InverseMass inverseOf(btScalar mass, const btVector3& inertia) noexcept {
+  return {inverseNumber(mass),
+          {inverseNumber(inertia.x()), inverseNumber(inertia.y()), inverseNumber(inertia.z())}};
 }
 
-bool isReloaded(const AmbientLink& link, const btMultiBody& body) noexcept {
-  return !hasMass(link.stand_in, massOf(body, link.link), inertiaOf(body, link.link));
+InverseMass inverseMassOf(const btMultiBody& body, int link) noexcept {
+  return inverseOf(massOf(body, link), inertiaOf(body, link));
+}
+
+void readLinkPose(const btMultiBody& body, AmbientLink& link) noexcept {
+  setMotion(linkTransform(body, link.link), link.now.twist_W, link.now);
 }
 
 AmbientBody& attachLink(AmbientBodies& bodies, btMultiBodyDynamicsWorld& world, const LinkOf& given,
@@ -170,10 +165,11 @@ AmbientBody& attachLink(AmbientBodies& bodies, btMultiBodyDynamicsWorld& world, 
   }
   checkDef(who, def);
   auto link = std::make_unique<AmbientLink>(at.link);
-  standIn(*link, at.multi_body, world.getGravity());
-  link->stand_in.setWorldTransform(linkTransform(at.multi_body, at.link));
+  link->mass = inverseMassOf(at.multi_body, at.link);
+  link->now.gravity = toVector3(world.getGravity());
+  readLinkPose(at.multi_body, *link);
   link->ambient.def = shareDef(std::move(def), bodies.load_tables);
-  refresh(link->ambient, bodies);
+  refresh(link->ambient, link->mass, link->now, bodies);
   AmbientBody& attached = link->ambient;
   bodies.trees.insert(world, at.multi_body, std::move(link));
   wake(at.multi_body);
@@ -189,8 +185,9 @@ void wake(btMultiBody& body) noexcept {
 
 std::optional<DisplacedMass> risingMass(const AmbientBody& ambient, const AmbientTree* tree,
                                         const btVector3& gravity) {
-  const btRigidBody& body = *ambient.body;
-  const bool falls = !body.getGravity().isZero() || (!body.isInWorld() && !gravity.isZero());
+  const btRigidBody* body = ambient.body;
+  const bool falls =
+      (body && !body->getGravity().isZero()) || (!(body && body->isInWorld()) && !gravity.isZero());
   if (!falls) return std::nullopt;
   const DisplacedMass own = displacedMass(ambient);
   const DisplacedMass all = tree ? displacedMassOf(*tree) : own;

@@ -30,7 +30,6 @@ std::optional<FixedLink> carrierOf(const btMultiBody& multi_body, int link);
 /// Returns the links without mass whose carrier is a link with a mass, in ascending order.
 std::vector<FixedLink> carriedBy(const btMultiBody& multi_body, int carrier);
 
-struct AmbientBody;
 struct AmbientLink;
 struct AmbientTree;
 class AmbientBodies;
@@ -41,11 +40,13 @@ struct LinkOf {
   int link;
 };
 
-/// Gives the stand-in body of a link the mass of the link and the gravity of the world.
-void standIn(AmbientLink& link, const btMultiBody& multi_body, const btVector3& gravity) noexcept;
+/// Inverts a mass and moments as btRigidBody::setMassProps() does; 0 stays 0.
+InverseMass inverseOf(btScalar mass, const btVector3& inertia) noexcept;
+/// Returns the inverse mass of a link; 0: it has no mass.
+InverseMass inverseMassOf(const btMultiBody& multi_body, int link) noexcept;
 
-/// True if the link's mass properties have been changed since standIn().
-bool isReloaded(const AmbientLink& link, const btMultiBody& multi_body) noexcept;
+/// Sets the present pose of a link. Leaves its velocity.
+void readLinkPose(const btMultiBody& multi_body, AmbientLink& link) noexcept;
 
 /// Implements Fluid::add() for a link, except the warning about light links. A link without mass is
 /// carried by one at a fixed joint, carrierOf(): then that one is added. @throws

@@ -3,6 +3,7 @@
 #include <exception>
 
 #include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/immersed/region_following.h"
 #include "bullet_ambient/immersed/station_samples.h"
 #include "bullet_ambient/immersed/surface_encounter.h"
@@ -12,12 +13,18 @@ AMBIENT_BEGIN
 
 void readAttitudes(AmbientBody* const* bodies, const Twist* twists_W, int count,
                    Attitudes& attitudes) noexcept {
+  const btMatrix3x3* rotations[kFlightsTogether] = {};
+  for (int i = 0; i < count; ++i) rotations[i] = &bodies[i]->body->getWorldTransform().getBasis();
+  computeAttitudes(rotations, twists_W, count, attitudes);
+}
+
+void computeAttitudes(const btMatrix3x3* const* rotations, const Twist* twists_W, int count,
+                      Attitudes& attitudes) noexcept {
   AMBIENT_ASSERT(count > 0 && count <= kFlightsTogether);
   DepartureLanes lanes{};
   for (int i = 0; i < count; ++i) {
-    const btMatrix3x3& rotation = bodies[i]->body->getWorldTransform().getBasis();
     for (int row = 0; row < 3; ++row)
-      setLane(lanes.rotation + 3 * row, i, toVector3(rotation[row]));
+      setLane(lanes.rotation + 3 * row, i, toVector3((*rotations[i])[row]));
     setLane(lanes.twist_W, i, twists_W[i]);
   }
   kFlightKernels.fastest()->depart(lanes);
@@ -50,22 +57,34 @@ bool prepareStep(AmbientBody& ambient, AmbientBodies& bodies, double time_step) 
   if (outcome.kind == Outcome::kFlown) bodies.complaints.say(Complaint::kNoAction);
   bodies.meet(ambient);
   outcome.world_index = ambient.body->getWorldArrayIndex();
-  return prepareFluid(ambient, bodies, time_step);
+  const btRigidBody& body = *ambient.body;
+  if (body.isStaticOrKinematicObject()) return false;  // for now
+  const Twist twist_W = velocityOf(body);
+  const InverseMass mass = inverseMassOf(body);
+  if (!mayBeInRegion(ambient, bodies.regions))
+    return prepareFluid(ambient, {nullptr, twist_W, mass}, bodies, time_step);
+  const MotionView now = motionOf(body);
+  return prepareFluid(ambient, {&now, twist_W, mass}, bodies, time_step);
 }
 
-bool prepareFluid(AmbientBody& ambient, AmbientBodies& bodies, double time_step) noexcept {
-  AMBIENT_ASSERT(ambient.body && time_step >= 0);
-  if (ambient.body->isStaticOrKinematicObject()) return false;  // for now
-  followRegions(ambient, bodies.regions, time_step, bodies.complaints);
+bool prepareFluid(AmbientBody& ambient, const StepStart& start, AmbientBodies& bodies,
+                  double time_step) noexcept {
+  AMBIENT_ASSERT(time_step >= 0);
+  const bool may_be_in_region = mayBeInRegion(ambient, bodies.regions);
+  if (may_be_in_region) {
+    followRegions(ambient, *start.now, bodies.regions, time_step, bodies.complaints);
+  } else {
+    stayInOwnMedium(ambient, bodies.regions, time_step);
+  }
   if (!ambient.isInFluid()) return false;
   try {
-    if (isModelStale(ambient)) rebuildModels(ambient);
+    if (isModelStale(ambient, start.mass)) rebuildModels(ambient, start.mass);
   } catch (const std::exception&) {
     bodies.complaints.say(Complaint::kNotPhysical);
     return false;
   }
-  followWake(ambient, time_step);
-  findPushes(ambient, time_step);
+  followWake(ambient, start.twist_W, time_step);
+  if (may_be_in_region) findPushes(ambient, *start.now, time_step);
   return true;
 }
 
@@ -104,7 +123,8 @@ void keepAwakeWhileMoving(AmbientBody& ambient, Outcome kind) noexcept {
       kRestingTime * (static_cast<double>(body.getLinearVelocity().length()) +
                       size * static_cast<double>(body.getAngularVelocity().length()));
   const bool moves = travel > kRestingTravel * size;
-  const bool may_turn_over = ambient.surface() && !has_rows && !mayRestAtSurface(ambient);
+  const bool may_turn_over =
+      ambient.surface() && !has_rows && !mayRestAtSurface(ambient, motionOf(body));
   if (moves || may_turn_over) body.setDeactivationTime(0);
 }
 

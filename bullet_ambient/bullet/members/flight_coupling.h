@@ -18,6 +18,9 @@ struct Attitudes {
 /// Reads the orientations of bodies and turns one twist of each into its axes.
 void readAttitudes(AmbientBody* const* bodies, const Twist* twists_W, int count,
                    Attitudes& attitudes) noexcept;
+/// Computes them from orthogonal matrices, up to their rounding, B to W.
+void computeAttitudes(const btMatrix3x3* const* rotations, const Twist* twists_W, int count,
+                      Attitudes& attitudes) noexcept;
 
 /// Bodies at the start of a step.
 struct Departures {
@@ -32,9 +35,16 @@ void readDepartures(AmbientBody* const* bodies, int count, Departures& departure
 /// action, calls prepareFluid(). Returns true if the fluid acts on the body.
 bool prepareStep(AmbientBody& ambient, AmbientBodies& bodies, double time_step) noexcept;
 
-/// Finds the region of the body among those of `bodies`, and rebuilds a stale model. Returns true
-/// if the fluid acts on the body.
-bool prepareFluid(AmbientBody& ambient, AmbientBodies& bodies, double time_step) noexcept;
+/// Motion of a body or link at the start of a substep. `now`: null: it is in no region.
+struct StepStart {
+  const MotionView* now;
+  const Twist& twist_W;
+  const InverseMass& mass;
+};
+/// Finds the region of a body or link among those of `bodies`, and rebuilds a stale model. Returns
+/// true if the fluid acts on it. @pre StepStart::now is set if mayBeInRegion()
+bool prepareFluid(AmbientBody& ambient, const StepStart& start, AmbientBodies& bodies,
+                  double time_step) noexcept;
 
 /// Disables the body for a substep whose duration is not finite, in which Bullet must not move it.
 void hold(AmbientBody& ambient, AmbientBodies& bodies) noexcept;
@@ -54,12 +64,12 @@ void keepAwakeWhileMoving(AmbientBody& ambient, Outcome kind) noexcept;
 /// Keeps a body awake if the fluid around it changes with time.
 void keepAwakeInUnsteadyFluid(const AmbientBody& ambient) noexcept;
 
-/// Flies up to kFlightsTogether bodies over `time_step` [s] and keeps where they end. Writes the
-/// velocity changes in world axes that make Bullet's integrateTransform reach those poses,
-/// docs/theory.md eq. (29). A flight that is not finite leaves its body adrift, and nothing is
-/// kept.
-void beginFlights(AmbientBody* const* bodies, int count, double time_step,
-                  Twist* changes_W) noexcept;
+/// Flies up to kFlightsTogether bodies from `departures` over `time_step` [s] and keeps where they
+/// end. Writes the velocity changes in world axes that make Bullet's integrateTransform reach those
+/// poses, docs/theory.md eq. (29). A flight that is not finite leaves its body adrift, and nothing
+/// is kept.
+void beginFlights(AmbientBody* const* bodies, const Departures& departures, int count,
+                  double time_step, Twist* changes_W) noexcept;
 
 /// After Bullet has moved the body: gives it the velocity and the attitude of the end of its
 /// flight; where continuous collision detection has stopped it, the attitude there.

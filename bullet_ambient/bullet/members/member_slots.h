@@ -4,9 +4,14 @@
 
 #include "bullet_ambient/bullet/core/precision_check.h"
 
-AMBIENT_BEGIN
+namespace ambient {
 
 struct AmbientBody;
+
+}  // namespace ambient
+
+AMBIENT_BEGIN
+
 struct AmbientTree;
 
 /// Identifier of a body or link in one fluid; never used twice.

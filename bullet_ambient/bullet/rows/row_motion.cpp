@@ -7,6 +7,7 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/bullet/core/attitude.h"
+#include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/bullet/members/flight_coupling.h"
 #include "bullet_ambient/immersed/surface_encounter.h"
 #include "bullet_ambient/motion/rows/row_velocity.h"
@@ -17,11 +18,6 @@ AMBIENT_BEGIN
 namespace {
 
 constexpr double kRounding = 16 * static_cast<double>(std::numeric_limits<btScalar>::epsilon());
-
-Twist changeByRows(btSolverBody& b) {
-  return {toVector3(b.internalGetDeltaAngularVelocity()),
-          toVector3(b.internalGetDeltaLinearVelocity())};
-}
 
 // Returns the velocity that Bullet will write back, world axes.
 Twist solvedVelocity(btSolverBody& b) {

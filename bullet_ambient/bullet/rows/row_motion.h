@@ -22,6 +22,12 @@ AMBIENT_BEGIN
 // Functions for up to kFlightsTogether bodies side by side; the bits of a body do not depend on the
 // others.
 
+/// Returns the velocity change by rows after the iterations, world axes.
+inline Twist changeByRows(btSolverBody& b) {
+  return {toVector3(b.internalGetDeltaAngularVelocity()),
+          toVector3(b.internalGetDeltaLinearVelocity())};
+}
+
 /// A body after the iterations; `solver_body`: velocity changes in world axes.
 struct SolvedBody {
   AmbientBody* ambient;

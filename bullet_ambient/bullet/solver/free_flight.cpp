@@ -6,6 +6,7 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/bullet/core/attitude.h"
+#include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/bullet/members/flight_coupling.h"
 #include "bullet_ambient/immersed/surface_encounter.h"
 #include "bullet_ambient/motion/flight/flight_group.h"
@@ -19,13 +20,12 @@ namespace {
 // last flight is not used.
 constexpr double kSameVelocity = 1e-3;
 constexpr double kBulletMaxTurn = kPi / 4;  // [rad] per step in integrateTransform
-constexpr auto kEpsilon = static_cast<double>(std::numeric_limits<btScalar>::epsilon());
 // FlightTask::precision. Its error grows with the number of steps, rounding with the root of it.
-constexpr double kPrecision = std::max(1e-16, 1e-4 * kEpsilon);
+constexpr double kPrecision = std::max(1e-16, 1e-4 * kBulletRounding);
 
 // True if a velocity in Bullet is `b` up to a few of its roundings.
 bool isWithinRounding(const Vector3& a, const Vector3& b) {
-  constexpr double kRounding = std::max(1e-12, 8 * kEpsilon);
+  constexpr double kRounding = std::max(1e-12, 8 * kBulletRounding);
   return (a - b).squaredNorm() <= kRounding * kRounding * b.squaredNorm();
 }
 
@@ -44,8 +44,8 @@ SurfaceFlight surfaceFlight(AmbientBody& ambient, Flight& flight) {
   SurfaceEncounter& encounter = ambient.encounter();
   const FlightTask& task = flight.task;
   const RigidState& start = flight.body.state;
-  standAt(ambient,
-          seenFrom(encounter.plane_W, start.orientation.toRotationMatrix(), start.position));
+  AmbientBody* const body = &ambient;
+  standAt(&body, &start, 1, kBulletRounding);
   const SurfaceModel* model = ambient.surface();
   AMBIENT_ASSERT(model);
   return {{*model, encounter.plane_W, task.surroundings, encounter.velocity_above, task.settings,
@@ -161,7 +161,7 @@ std::optional<double> missingPart(const AmbientBody& ambient, const LastFlight& 
       flight.position - toVector3(ambient.body->getWorldTransform().getOrigin());
   const Vector3 way = time_step * flight.effective_W.linear;
   const double size = flight.position.norm() + ambient.model().reference_length + way.norm();
-  const double rounding = 16 * kEpsilon * size;
+  const double rounding = 16 * kBulletRounding * size;
   if (missing.norm() <= rounding) return 0;
   const double part = std::clamp(missing.dot(way) / way.squaredNorm(), 0.0, 1.0);
   if (!((missing - part * way).norm() <= rounding)) return std::nullopt;
@@ -187,12 +187,10 @@ void settle(AmbientBody& ambient, const LastFlight& flight, double time_step) {
 
 }  // namespace
 
-void beginFlights(AmbientBody* const* bodies, int count, double time_step,
-                  Twist* changes_W) noexcept {
+void beginFlights(AmbientBody* const* bodies, const Departures& departures, int count,
+                  double time_step, Twist* changes_W) noexcept {
   AMBIENT_ASSERT(count > 0 && count <= kFlightsTogether);
   AMBIENT_ASSERT(time_step > 0);
-  Departures departures;
-  readDepartures(bodies, count, departures);
   std::optional<Flight> flights[kFlightsTogether];
   Flight* all[kFlightsTogether] = {};
   for (int i = 0; i < count; ++i) {

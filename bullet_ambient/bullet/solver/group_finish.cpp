@@ -3,13 +3,14 @@
 #include <algorithm>
 
 #include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/bullet/members/flight_coupling.h"
-#include "bullet_ambient/bullet/reading/fluid_reading.h"
 #include "bullet_ambient/bullet/rows/joint_gaps.h"
 #include "bullet_ambient/bullet/rows/row_motion.h"
 #include "bullet_ambient/bullet/rows/row_rewriting.h"
 #include "bullet_ambient/bullet/solver/solver_group.h"
+#include "bullet_ambient/immersed/fluid_reading.h"
 #include "bullet_ambient/motion/rows/row_velocity.h"
 #include "bullet_ambient/threads.h"
 
@@ -137,7 +138,7 @@ void SolverGroup::settleMoved(SolverBodies& solver_bodies) noexcept {
   beginRowMotions(bodies, count, time_step_);
   for (int i = 0; i < count; ++i)
     if (bodies[i].ambient->reading)
-      readRows(*bodies[i].ambient, *bodies[i].solver_body, time_step_);
+      readRows(*bodies[i].ambient, changeByRows(*bodies[i].solver_body), time_step_);
   moved_members_.clear();
 }
 
@@ -182,7 +183,9 @@ void SolverGroup::flyTogether(int first, int count, SolverBodies* solver_bodies)
   Twist changes_W[kFlightsTogether];
   const FreeBody* free = free_.data() + first;
   for (int i = 0; i < count; ++i) bodies[i] = free[i].ambient;
-  beginFlights(bodies, count, time_step_, changes_W);
+  Departures departures;
+  readDepartures(bodies, count, departures);
+  beginFlights(bodies, departures, count, time_step_, changes_W);
   for (int i = 0; i < count; ++i) {
     if (free[i].solver_body == kAlone) {
       addVelocity(*bodies[i]->body, changes_W[i]);

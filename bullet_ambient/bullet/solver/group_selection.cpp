@@ -4,13 +4,14 @@
 
 #include <cmath>
 
+#include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/bullet/members/flight_coupling.h"
-#include "bullet_ambient/bullet/reading/fluid_reading.h"
 #include "bullet_ambient/bullet/rows/joint_chains.h"
 #include "bullet_ambient/bullet/rows/joint_gaps.h"
 #include "bullet_ambient/bullet/rows/row_rewriting.h"
 #include "bullet_ambient/bullet/solver/solver_group.h"
+#include "bullet_ambient/immersed/fluid_reading.h"
 #include "bullet_ambient/motion/rows/axis_locks.h"
 
 AMBIENT_BEGIN
@@ -116,7 +117,8 @@ void SolverGroup::findMembers(const GroupBodies& bodies, bool all_stay) noexcept
     stopIfNotFinite(*ambient, bodies_.complaints);
     const Marks marks = marksOf(object);
     const bool is_locked = !axisFactors(*ambient->body).areFree();
-    if (ambient->reading) beginBodyReading(*ambient, is_locked);
+    if (ambient->reading)
+      beginBodyReading(*ambient, readState(*ambient->body), readSurroundings(*ambient), is_locked);
     if (all_stay || is_locked || marks.is_near) {
       converted_.push_back(&object);
       members_.push_back({ambient, &object, is_locked, marks.has_rows, marks.is_held});

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/bullet/links/multibody_rows.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/bullet/members/flight_coupling.h"
@@ -51,16 +52,15 @@ void lock(RowBody& row_body, const btRigidBody& body, const BodyModel& model,
 void standAll(AmbientBody* const* bodies, const RigidState* states, int count, double time_step,
               Complaints& complaints) {
   AmbientBody* at_surface[kFlightsTogether] = {};
-  SurfacePlane planes_B[kFlightsTogether];
+  RigidState there[kFlightsTogether];
   int found = 0;
   for (int i = 0; i < count; ++i) {
     if (!bodies[i]->surface()) continue;
     at_surface[found] = bodies[i];
-    planes_B[found++] = seenFrom(bodies[i]->encounter().plane_W,
-                                 states[i].orientation.toRotationMatrix(), states[i].position);
+    there[found++] = states[i];
   }
   if (found == 0) return;
-  standAt(at_surface, planes_B, found);
+  standAt(at_surface, there, found, kBulletRounding);
   for (int i = 0; i < found; ++i) warnOfCoarseSwing(*at_surface[i], time_step, complaints);
 }
 
@@ -88,7 +88,7 @@ void computeForRows(const RowTask* const* tasks, const AxisFactors* factors, int
 void complete(AmbientBody& ambient, const RigidState& start, double time_step,
               Complaints& complaints, RowVelocity& row) {
   if (ambient.surface()) {
-    const Vector6 by_surface = kickByWavesAndWind(ambient, time_step);
+    const Vector6 by_surface = kickByWavesAndWind(ambient, readState(*ambient.body), time_step);
     const Twist kick_W = turned(start.orientation, Twist::fromVector(by_surface));
     row.change_W.angular += kick_W.angular;
     row.change_W.linear += kick_W.linear;

@@ -24,7 +24,6 @@ inline void setExternalImpulse(btSolverBody& solver_body, const Twist& change_W)
   solver_body.m_externalForceImpulse = toBullet(change_W.linear);
 }
 
-struct AmbientBody;
 class AmbientBodies;
 class JointChains;
 class JointGaps;

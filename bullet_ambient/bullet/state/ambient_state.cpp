@@ -6,6 +6,7 @@
 
 #include "bullet_ambient/bullet/links/tree_links.h"
 #include "bullet_ambient/bullet/members/attach_body.h"
+#include "bullet_ambient/bullet/members/attach_link.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
 #include "bullet_ambient/immersed/region_following.h"
 #include "bullet_ambient/immersed/surface_encounter.h"
@@ -21,7 +22,7 @@ void meetSurfaceAgain(AmbientLink& link, const FluidRegions& regions) {
   if (entry == regions.all().end()) return;
   const int media = ambient.models->findSurface(SurfaceKind(entry->second.region));
   if (media < 0) return;
-  meetAgain(ambient, media);
+  meetAgain(ambient, link.now.state, media);
   link.frozen.freeze(ambient);
 }
 
@@ -32,14 +33,14 @@ std::unique_ptr<AmbientLink> makeLink(const LinkFluidState& saved, const MultiBo
     throw std::invalid_argument("restoreState: a fluid is that of link " +
                                 std::to_string(saved.link) + ", which the state has not");
   auto link = std::make_unique<AmbientLink>(saved.link);
-  link->stand_in.setMassProps(state.links[index].mass, state.links[index].inertia);
-  link->ambient = makeAmbient(saved.ambient, link->stand_in, registered);
+  link->mass = inverseOf(state.links[index].mass, state.links[index].inertia);
+  link->ambient = makeAmbient(saved.ambient, link->mass, registered);
   return link;
 }
 
 }  // namespace
 
-AmbientState saveAmbient(const AmbientBody& ambient) {
+AmbientState saveAmbient(const AmbientBody& ambient, const InverseMass& mass) {
   const auto* last = std::get_if<LastFlight>(&ambient.outcome.motion);
   const LastFlight flight = last ? *last : LastFlight{};
   AmbientState state{*ambient.def,      ambient.medium,
@@ -47,7 +48,7 @@ AmbientState saveAmbient(const AmbientBody& ambient) {
                      flight.memory,     ambient.meeting ? ambient.encounter().waves : WaveMemory{},
                      metPlane(ambient), ambient.wake ? *ambient.wake : Wake{},
                      flight.left_W,     ambient.counters};
-  if (isModelStale(ambient)) state.memory = {};  // as the next step will do
+  if (isModelStale(ambient, mass)) state.memory = {};  // as the next step will do
   return state;
 }
 
@@ -58,20 +59,20 @@ void saveFluids(const AmbientTree& tree, MultiBodyState& state) {
   for (const auto& link : tree.links) {
     LinkFluidState& saved = state.fluids.emplace_back();
     saved.link = link->link;
-    saved.ambient = saveAmbient(link->ambient);
+    saved.ambient = saveAmbient(link->ambient, link->mass);
     if (was_moved) saved.ambient.memory = {};  // as the next step will do
   }
   state.turn_reserve = tree.step.reserve;
 }
 
-AmbientBody makeAmbient(const AmbientState& saved, btRigidBody& body, AmbientBodies& registered) {
+AmbientBody makeAmbient(const AmbientState& saved, const InverseMass& mass,
+                        AmbientBodies& registered) {
   if (!saved.def.fluid_body)
     throw std::invalid_argument("restoreState: an attached body of the state has no fluid body");
   checkDef("restoreState: body with fluid body '" + saved.def.fluid_body->name + "'", saved.def);
   AmbientBody ambient;
-  ambient.body = &body;
   ambient.def = shareDef(saved.def, registered.load_tables);
-  refreshModels(ambient, registered.regions, registered.load_tables);
+  refreshModels(ambient, mass, registered.regions, registered.load_tables);
   // A region that does not exist here is left to the next step.
   enterMedium(ambient, saved.place, saved.medium);
   ambient.flow = saved.flow;
@@ -106,7 +107,8 @@ void insertLinks(const MultiBodyState& state, std::vector<std::unique_ptr<Ambien
   AmbientTree* tree = registered.trees.find(&body);
   if (!tree) return;
   tree->step.reserve = state.turn_reserve;
-  moveStandIns(*tree);
+  for (const auto& link : tree->links) link->now.gravity = toVector3(world.getGravity());
+  placeLinksNow(*tree);
   tree->step.end = tree->step.start;
   for (const auto& link : tree->links) meetSurfaceAgain(*link, registered.regions);
 }

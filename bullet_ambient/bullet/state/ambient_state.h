@@ -10,15 +10,15 @@
 AMBIENT_BEGIN
 
 /// Saves the fluid of a body or link.
-AmbientState saveAmbient(const AmbientBody& ambient);
+AmbientState saveAmbient(const AmbientBody& ambient, const InverseMass& mass);
 
 /// Saves the fluids of the links of a tree, and the memory of its flight; not its motion.
 void saveFluids(const AmbientTree& tree, MultiBodyState& state);
 
-/// Makes the entry of a body in its fluid from a saved state. `body` has the mass and inertia; the
-/// entry points to it.
+/// Makes the entry of a body or link of this mass in its fluid from a saved state.
 /// @throws std::invalid_argument if the fluid body is missing or a number is not physical.
-AmbientBody makeAmbient(const AmbientState& saved, btRigidBody& body, AmbientBodies& registered);
+AmbientBody makeAmbient(const AmbientState& saved, const InverseMass& mass,
+                        AmbientBodies& registered);
 
 /// Makes the entries of all links of a multibody that are in a fluid, from a saved state. Does not
 /// add them.

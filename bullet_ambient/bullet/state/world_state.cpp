@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/bullet/state/ambient_state.h"
 #include "bullet_ambient/bullet/state/body_state.h"
@@ -54,9 +55,9 @@ std::vector<std::optional<AmbientBody>> makeAmbientBodies(const WorldState& stat
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     result.emplace_back();
     if (!state.bodies[i].ambient) continue;
-    btRigidBody with_mass(1, nullptr, bodies[i]->getCollisionShape());
-    restoreMass(state.bodies[i], with_mass);
-    result.back() = makeAmbient(*state.bodies[i].ambient, with_mass, members);
+    const InverseMass mass{static_cast<double>(state.bodies[i].inverse_mass),
+                           toVector3(state.bodies[i].inverse_inertia)};
+    result.back() = makeAmbient(*state.bodies[i].ambient, mass, members);
     result.back()->body = bodies[i];
   }
   return result;
@@ -101,7 +102,7 @@ WorldState saveState(const btDynamicsWorld& world, const AmbientBodies& members)
   for (const btRigidBody* body : rigidBodiesOf(source)) {
     state.bodies.push_back(fromBullet<BodyState>(*body));
     if (const AmbientBody* ambient = members.find(body)) {
-      state.bodies.back().ambient = saveAmbient(*ambient);
+      state.bodies.back().ambient = saveAmbient(*ambient, inverseMassOf(*body));
     }
   }
   for (btMultiBody* body : multiBodiesOf(source)) {

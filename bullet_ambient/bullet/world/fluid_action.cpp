@@ -7,15 +7,16 @@
 #include <cmath>
 #include <utility>
 
+#include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/bullet/links/tree_links.h"
 #include "bullet_ambient/bullet/links/tree_motion.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/bullet/members/attach_link.h"
 #include "bullet_ambient/bullet/members/flight_coupling.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
-#include "bullet_ambient/bullet/reading/fluid_reading.h"
 #include "bullet_ambient/bullet/rows/row_motion.h"
 #include "bullet_ambient/drawing.h"
+#include "bullet_ambient/immersed/fluid_reading.h"
 #include "bullet_ambient/immersed/fluid_regions.h"
 
 AMBIENT_BEGIN
@@ -93,7 +94,8 @@ class Completion {
   void finish(Outcome kind, const Twist& before_W, AmbientBody& ambient) const {
     keepAwakeWhileMoving(ambient, kind);
     keepAwakeInUnsteadyFluid(ambient);
-    if (ambient.reading) finishBodyReading(ambient, kind, before_W, time_step_);
+    if (ambient.reading)
+      finishBodyReading(ambient, kind, motionOf(*ambient.body), before_W, time_step_);
   }
 
   double time_step_;
@@ -135,12 +137,15 @@ void wakeReloaded(const btCollisionWorld& world, const AmbientBodies& bodies) {
     if (objects[i]->getActivationState() != ISLAND_SLEEPING) continue;
     const AmbientBody* ambient = bodies.find(objects[i]);
     if (!ambient || !ambient->isInFluid() || objects[i]->isStaticOrKinematicObject()) continue;
-    if (ambient->models->inverse_mass.mass > 0 && isModelStale(*ambient)) objects[i]->activate();
+    if (ambient->models->inverse_mass.mass > 0 &&
+        isModelStale(*ambient, inverseMassOf(*ambient->body)))
+      objects[i]->activate();
   }
   forEachTreeIn(world, bodies, [](const AmbientTree& tree) {
     if (!isAsleep(*tree.multi_body)) return;
     for (const auto& link : tree.links)
-      if (isReloaded(*link, *tree.multi_body)) return wake(*tree.multi_body);
+      if (!(link->mass == inverseMassOf(*tree.multi_body, link->link)))
+        return wake(*tree.multi_body);
   });
 }
 
@@ -215,14 +220,14 @@ void FluidAction::debugDraw(btIDebugDraw* drawer) {
   for (int i = 0; i < objects.size(); ++i) {
     const AmbientBody* ambient = bodies_.find(objects[i]);
     if (ambient && ambient->isInFluid() && !objects[i]->isStaticOrKinematicObject()) {
-      drawFluid(*ambient, drawing_, *drawer);
+      drawFluid(*ambient, motionOf(*ambient->body), drawing_, *drawer);
     }
   }
   forEachTreeIn(*world_, bodies_, [&](AmbientTree& tree) {
-    moveStandIns(tree);
+    placeLinksNow(tree);
     for (const auto& link : tree.links)
-      if (link->ambient.isInFluid() && !link->stand_in.isStaticOrKinematicObject())
-        drawFluid(link->ambient, drawing_, *drawer);
+      if (link->ambient.isInFluid() && link->mass.mass > 0)
+        drawFluid(link->ambient, link->now, drawing_, *drawer);
   });
 }
 

@@ -1,7 +1,7 @@
 #include <LinearMath/btIDebugDraw.h>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/bullet/reading/fluid_reading.h"
+#include "bullet_ambient/bullet/core/conversions.h"
 #include "bullet_ambient/drawing.h"
 #include "bullet_ambient/fluid_body/sharpness.h"
 #include "bullet_ambient/force/law/form_law.h"
@@ -9,6 +9,7 @@
 #include "bullet_ambient/force/medium/fluid_region.h"
 #include "bullet_ambient/force/surface/buoyancy.h"
 #include "bullet_ambient/immersed/ambient_body.h"
+#include "bullet_ambient/immersed/fluid_reading.h"
 #include "bullet_ambient/immersed/surface_encounter.h"
 
 AMBIENT_BEGIN
@@ -123,11 +124,13 @@ void drawSurface(const DrawnSurface& surface, const FluidDrawing& what, btIDebug
     }
 }
 
-void drawFluid(const AmbientBody& ambient, const FluidDrawing& what, btIDebugDraw& drawer) {
-  AMBIENT_ASSERT(ambient.isInFluid() && !ambient.body->isStaticOrKinematicObject());
-  const BodyModel model = modelNow(ambient);
-  const RigidState state = readState(*ambient.body);
-  const Surroundings s = readSurroundings(ambient);
+void drawFluid(const AmbientBody& ambient, const MotionView& now, const FluidDrawing& what,
+               btIDebugDraw& drawer) {
+  AMBIENT_ASSERT(ambient.isInFluid());
+  const BodyModel model = modelNow(ambient, now);
+  const RigidState& state = now.state;
+  Surroundings s = surroundingsOf(ambient, now.gravity, {});
+  addFlowAlong(ambient, state.orientation, s);
   const Quaternion to_body = state.orientation.conjugate();
   const Arrows arrows(state, drawer);
   Twist relative = state.twist;

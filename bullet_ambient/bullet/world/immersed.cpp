@@ -6,23 +6,42 @@
 #include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/bullet/links/tree_links.h"
 #include "bullet_ambient/bullet/links/tree_now.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/bullet/members/attach_body.h"
 #include "bullet_ambient/bullet/members/attach_link.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
-#include "bullet_ambient/bullet/reading/fluid_reading.h"
 #include "bullet_ambient/fluid.h"
+#include "bullet_ambient/immersed/fluid_reading.h"
 #include "bullet_ambient/immersed/surface_encounter.h"
 
 AMBIENT_BEGIN
 namespace {
 
-void replaceDef(AmbientBody& ambient, AttachDef def, AmbientBodies& bodies) {
+AmbientLink& linkOf(const Member& member) {
+  for (const auto& link : member.tree->links)
+    if (&link->ambient == member.ambient) return *link;
+  AMBIENT_ASSERT(false);
+  return *member.tree->links.front();
+}
+
+// Returns the present pose of a body or link, and its motion; of a link that at the last
+// placeLinks().
+MotionView presentMotion(const Member& member) {
+  if (!member.tree) return motionOf(*member.ambient->body);
+  AmbientLink& link = linkOf(member);
+  readLinkPose(*member.tree->multi_body, link);
+  return link.now;
+}
+
+void replaceDef(const Member& member, AttachDef def, AmbientBodies& bodies) {
+  AmbientBody& ambient = *member.ambient;
   const auto before = std::exchange(ambient.def, shareDef(std::move(def), bodies.load_tables));
+  const InverseMass mass = member.tree ? linkOf(member).mass : inverseMassOf(*ambient.body);
   try {
-    refresh(ambient, bodies);
+    refresh(ambient, mass, presentMotion(member), bodies);
   } catch (...) {
     ambient.def = before;
     throw;
@@ -38,14 +57,15 @@ bool isOwnAboveSurfaces(const AmbientBody& ambient) {
 }
 
 // Whether the fluid is another one than before.
-bool changeMedium(AmbientBody& ambient, const Medium& medium, AmbientBodies& bodies) {
+bool changeMedium(const Member& member, const Medium& medium, AmbientBodies& bodies) {
+  AmbientBody& ambient = *member.ambient;
   checkMedium(*ambient.def->fluid_body, medium);
   const Medium before = ambient.def->medium;
   AttachDef def = *ambient.def;
   def.medium = medium;
   if (medium.density != before.density || medium.viscosity != before.viscosity ||
       (mayBlow(medium) != mayBlow(before) && isOwnAboveSurfaces(ambient))) {
-    replaceDef(ambient, std::move(def), bodies);
+    replaceDef(member, std::move(def), bodies);
     return true;
   }
   if (medium.velocity == before.velocity && medium.acceleration == before.acceleration)
@@ -58,20 +78,13 @@ bool changeMedium(AmbientBody& ambient, const Medium& medium, AmbientBodies& bod
   return true;
 }
 
-void changeFluidBody(AmbientBody& ambient, std::shared_ptr<const FluidBody> fluid_body,
+void changeFluidBody(const Member& member, std::shared_ptr<const FluidBody> fluid_body,
                      const FrameOffset& fluid_frame, AmbientBodies& bodies) {
   if (!fluid_body) throw std::invalid_argument("setFluidBody: the fluid body is null");
-  AttachDef def = *ambient.def;
+  AttachDef def = *member.ambient->def;
   def.fluid_body = std::move(fluid_body);
   def.fluid_frame = fluid_frame;
-  replaceDef(ambient, std::move(def), bodies);
-}
-
-AmbientLink& linkOf(const Member& member) {
-  for (const auto& link : member.tree->links)
-    if (&link->ambient == member.ambient) return *link;
-  AMBIENT_ASSERT(false);
-  return *member.tree->links.front();
+  replaceDef(member, std::move(def), bodies);
 }
 
 void wakeUp(const Member& member) {
@@ -107,7 +120,7 @@ bool Immersed::isValid() const noexcept { return hold().member.ambient; }
 void Immersed::setMedium(const Medium& medium) const {
   const Held held = require("setMedium");
   held.bodies->requireChangeable("setMedium");
-  if (changeMedium(*held.member.ambient, medium, *held.bodies)) wakeUp(held.member);
+  if (changeMedium(held.member, medium, *held.bodies)) wakeUp(held.member);
 }
 
 void Immersed::setFluidBody(std::shared_ptr<const FluidBody> fluid_body) const {
@@ -118,7 +131,7 @@ void Immersed::setFluidBody(std::shared_ptr<const FluidBody> fluid_body,
                             const FrameOffset& fluid_frame) const {
   const Held held = require("setFluidBody");
   held.bodies->requireChangeable("setFluidBody");
-  changeFluidBody(*held.member.ambient, std::move(fluid_body), fluid_frame, *held.bodies);
+  changeFluidBody(held.member, std::move(fluid_body), fluid_frame, *held.bodies);
   wakeUp(held.member);
 }
 
@@ -135,12 +148,15 @@ std::shared_ptr<const FluidBody> Immersed::fluidBody() const {
 
 RegionId Immersed::region() const { return require("region").member.ambient->place.region; }
 
-Matrix6 Immersed::inertia() const { return modelNow(*require("inertia").member.ambient).inertia; }
+Matrix6 Immersed::inertia() const {
+  const Held held = require("inertia");
+  return modelNow(*held.member.ambient, presentMotion(held.member)).inertia;
+}
 
 double Immersed::kineticEnergy() const {
   const Held held = require("kineticEnergy");
-  if (held.member.tree) moveStandIns(*held.member.tree);
-  return kineticEnergyNow(*held.member.ambient);
+  if (held.member.tree) placeLinksNow(*held.member.tree);
+  return kineticEnergyNow(*held.member.ambient, presentMotion(held.member));
 }
 
 AmbientCounters Immersed::counters() const { return require("counters").member.ambient->counters; }
@@ -152,8 +168,8 @@ void Immersed::readWrench(bool is_read) const {
   if (is_read == (ambient.reading != nullptr)) return;
   ambient.reading = is_read ? std::make_shared<FluidReading>() : nullptr;
   if (!is_read) return;
-  if (held.member.tree) moveStandIns(*held.member.tree);
-  ambient.reading->wrench = wrenchNow(ambient);
+  if (held.member.tree) placeLinksNow(*held.member.tree);
+  ambient.reading->wrench = wrenchNow(ambient, presentMotion(held.member));
 }
 
 FluidWrench Immersed::wrench() const {
@@ -166,11 +182,7 @@ FluidWrench Immersed::wrench() const {
 
 WetState Immersed::wet() const {
   const Held held = require("wet");
-  if (held.member.tree) {
-    AmbientLink& link = linkOf(held.member);
-    link.stand_in.setWorldTransform(linkTransform(*held.member.tree->multi_body, link.link));
-  }
-  return wetStateOf(*held.member.ambient, held.bodies->regions);
+  return wetStateOf(*held.member.ambient, presentMotion(held.member), held.bodies->regions);
 }
 
 void Immersed::applyImpulse(const Wrench& impulse) const {

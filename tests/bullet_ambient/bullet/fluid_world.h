@@ -2,8 +2,8 @@
 
 #include <memory>
 
+#include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/fluid.h"
-#include "bullet_ambient/immersed/ambient_body.h"
 #include "tests/support/bodies/ellipsoid_body.h"
 #include "tests/support/world.h"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "bullet_ambient/immersed/ambient_body.h"
+#include "bullet_ambient/bullet/core/body_motion.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 
 namespace ambient::test {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "bullet_ambient/base/elementary.h"
+#include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/fluid.h"
-#include "bullet_ambient/immersed/ambient_body.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/principal_frame.h"
 #include "tests/support/energy_rise.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bullet_ambient/immersed/ambient_body.h"
+#include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "tests/support/bodies/random_bodies.h"
 

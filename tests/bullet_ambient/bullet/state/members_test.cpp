@@ -7,8 +7,8 @@
 #include <list>
 #include <map>
 
+#include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/bullet/members/flight_coupling.h"
-#include "bullet_ambient/immersed/ambient_body.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/support/bodies/random_bodies.h"
 

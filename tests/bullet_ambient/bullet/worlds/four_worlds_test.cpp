@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bullet_ambient/immersed/ambient_body.h"
+#include "bullet_ambient/bullet/core/body_motion.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/bullet_ambient/bullet/worlds/world_setups.h"
 #include "tests/support/bodies/free_body.h"

@@ -11,9 +11,9 @@
 #include <memory>
 #include <vector>
 
+#include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/bullet/solver/fluid_solver.h"
 #include "bullet_ambient/fluid.h"
-#include "bullet_ambient/immersed/ambient_body.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/reference/elliptic.h"
 #include "tests/support/bodies/free_body.h"

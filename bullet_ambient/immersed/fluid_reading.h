@@ -1,28 +1,9 @@
 #pragma once
 
-#include <BulletDynamics/ConstraintSolver/btSolverBody.h>
-
-#include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/immersed/ambient_body.h"
 #include "bullet_ambient/reading.h"
 
-AMBIENT_BEGIN
-
-// Functions for a rigid body whose wrench is read, in the order of calls in a substep. @pre
-// AmbientBody::reading is set
-
-/// Begins the substep once the solver has met the body. With locked axes the impulse of its rows is
-/// not known.
-void beginBodyReading(AmbientBody& ambient, bool is_locked) noexcept;
-
-/// Reads the impulse of rows from their velocity changes (world axes), after the solver's
-/// iterations.
-void readRows(AmbientBody& ambient, btSolverBody& solver_body, double time_step) noexcept;
-
-/// Computes the wrenches after the action has set the velocity; `before_W`: velocity before the
-/// action.
-void finishBodyReading(AmbientBody& ambient, Outcome kind, const Twist& before_W,
-                       double time_step) noexcept;
+namespace ambient {
 
 /// Data of a body or link whose wrench is read: results, and quantities of the present substep.
 struct FluidReading {
@@ -42,7 +23,8 @@ struct FluidReading {
   Wrench passage_W;            ///< impulse on a link by the change of its added mass [N m s, N s]
 };
 
-/// Begins a substep in a fluid, once the water surface near the body is known.
+/// Begins a substep in a fluid, once the water surface near the body is known. `surroundings`:
+/// without pushByFlow().
 void beginReading(const AmbientBody& ambient, const RigidState& start,
                   const Surroundings& surroundings, FluidReading& reading) noexcept;
 
@@ -58,12 +40,28 @@ struct ReadStep {
 void finishReading(const AmbientBody& ambient, const ReadStep& step,
                    FluidReading& reading) noexcept;
 
+// Functions for a rigid body whose wrench is read, in the order of calls in a substep. @pre
+// AmbientBody::reading is set
+
+/// Begins the substep once the solver has met the body. With locked axes the impulse of its rows is
+/// not known.
+void beginBodyReading(AmbientBody& ambient, const RigidState& start,
+                      const Surroundings& surroundings, bool is_locked) noexcept;
+
+/// Reads the impulse of rows from the velocity change by them, after the solver's iterations.
+void readRows(AmbientBody& ambient, const Twist& change_W, double time_step) noexcept;
+
+/// Computes the wrenches after the action has set the velocity. `end`: state then; `before_W`:
+/// velocity before the action.
+void finishBodyReading(AmbientBody& ambient, Outcome kind, const MotionView& end,
+                       const Twist& before_W, double time_step) noexcept;
+
 /// Returns the parts that the present pose and velocity decide, in the fluid and at the surface
 /// that the body has met last; those of added mass and constraints are 0.
-FluidWrench wrenchNow(const AmbientBody& ambient) noexcept;
+FluidWrench wrenchNow(const AmbientBody& ambient, const MotionView& now) noexcept;
 
 /// Returns the kinetic energy of the dry body and of the fluid that moves along, relative to the
 /// ambient flow [J].
-double kineticEnergyNow(const AmbientBody& ambient) noexcept;
+double kineticEnergyNow(const AmbientBody& ambient, const MotionView& now) noexcept;
 
-AMBIENT_END
+}  // namespace ambient

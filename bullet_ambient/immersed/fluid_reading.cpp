@@ -1,4 +1,4 @@
-#include "bullet_ambient/bullet/reading/fluid_reading.h"
+#include "bullet_ambient/immersed/fluid_reading.h"
 
 #include "bullet_ambient/force/surface/buoyancy.h"
 #include "bullet_ambient/immersed/surface_encounter.h"
@@ -7,7 +7,7 @@
 #include "bullet_ambient/motion/surface/surface_stand.h"
 #include "bullet_ambient/spatial/rotation.h"
 
-AMBIENT_BEGIN
+namespace ambient {
 
 namespace {
 
@@ -32,22 +32,22 @@ RigidState middleOfWay(const RigidState& start, const Twist& moved_W, double h) 
 
 }  // namespace
 
-void beginBodyReading(AmbientBody& ambient, bool is_locked) noexcept {
+void beginBodyReading(AmbientBody& ambient, const RigidState& start,
+                      const Surroundings& surroundings, bool is_locked) noexcept {
   FluidReading& reading = *ambient.reading;
-  beginReading(ambient, readState(*ambient.body), readSurroundings(ambient), reading);
+  beginReading(ambient, start, surroundings, reading);
+  reading.surroundings.applied -= pushByFlow(ambient, start.orientation);
   reading.model = ambient.model();
   reading.knows_impulse = !is_locked;
 }
 
-void readRows(AmbientBody& ambient, btSolverBody& solver_body, double time_step) noexcept {
+void readRows(AmbientBody& ambient, const Twist& change_W, double time_step) noexcept {
   FluidReading& reading = *ambient.reading;
   const RowMotion& rows = ambient.outcome.rows();
   reading.moved_W = rows.velocity_W;
   reading.moved_W.linear += rows.flow_W;
   const Quaternion& q = reading.start.orientation;
-  const Twist change_B =
-      turned(q.conjugate(), {toVector3(solver_body.internalGetDeltaAngularVelocity()),
-                             toVector3(solver_body.internalGetDeltaLinearVelocity())});
+  const Twist change_B = turned(q.conjugate(), change_W);
   if (ambient.surface()) {
     reading.model = *StepModel(ambient, time_step);
     reading.model.loads = nullptr;  // which the StepModel holds
@@ -56,18 +56,17 @@ void readRows(AmbientBody& ambient, btSolverBody& solver_body, double time_step)
   reading.impulse_W = {q * impulse_B.torque, q * impulse_B.force};
 }
 
-void finishBodyReading(AmbientBody& ambient, Outcome kind, const Twist& before_W,
-                       double time_step) noexcept {
+void finishBodyReading(AmbientBody& ambient, Outcome kind, const MotionView& now,
+                       const Twist& before_W, double time_step) noexcept {
   FluidReading& reading = *ambient.reading;
   const bool has_flown = kind == Outcome::kFlown;
-  RigidState end = readState(*ambient.body);
+  RigidState end = now.state;
   Twist end_W = reading.moved_W;
   if (has_flown) {
     end_W = ambient.outcome.flight().left_W;
   } else {
-    const Twist after_W = velocityOf(*ambient.body);
-    end_W.angular += after_W.angular - before_W.angular;
-    end_W.linear += after_W.linear - before_W.linear;
+    end_W.angular += now.twist_W.angular - before_W.angular;
+    end_W.linear += now.twist_W.linear - before_W.linear;
   }
   end.twist = turned(end.orientation.conjugate(), end_W);
   const RigidState middle = has_flown ? middleOfFlight(reading.start, end, time_step)
@@ -85,18 +84,16 @@ Wrench without(Wrench all, const Wrench& part) { return all -= part; }
 
 /// Momentum of the dry body in W about its centre of mass, as an impulse [N m s, N s].
 Wrench dryMomentum(const AmbientBody& ambient, const RigidState& state) {
-  const btRigidBody& body = *ambient.body;
-  const Vector3 moments = toVector3(body.getInvInertiaDiagLocal()).cwiseInverse();
-  return turned(state.orientation.toRotationMatrix(),
-                {moments.cwiseProduct(state.twist.angular),
-                 state.twist.linear / static_cast<double>(body.getInvMass())});
+  const InverseMass& inverse = ambient.models->inverse_mass;
+  return turned(
+      state.orientation.toRotationMatrix(),
+      {inverse.moments().cwiseProduct(state.twist.angular), state.twist.linear / inverse.mass});
 }
 
 Matrix6 addedInertia(const AmbientBody& ambient, const Matrix6& inertia) {
-  const btRigidBody& body = *ambient.body;
-  const Vector3 moments = toVector3(body.getInvInertiaDiagLocal()).cwiseInverse();
+  const InverseMass& inverse = ambient.models->inverse_mass;
   Matrix6 added = inertia;
-  added.diagonal() -= stack(moments, Vector3::Constant(1 / static_cast<double>(body.getInvMass())));
+  added.diagonal() -= stack(inverse.moments(), Vector3::Constant(1 / inverse.mass));
   return added;
 }
 
@@ -221,7 +218,6 @@ void beginReading(const AmbientBody& ambient, const RigidState& start,
   reading = {};
   reading.start = start;
   reading.surroundings = surroundings;
-  reading.surroundings.applied -= pushByFlow(ambient);
   if (ambient.surface()) {
     reading.plane_W = ambient.encounter().plane_W;
     reading.waves = ambient.encounter().waves;
@@ -249,21 +245,22 @@ void finishReading(const AmbientBody& ambient, const ReadStep& step,
   }
 }
 
-double kineticEnergyNow(const AmbientBody& ambient) noexcept {
-  const RigidState now = readState(*ambient.body);
-  const Matrix6 inertia = modelNow(ambient).inertia;
+double kineticEnergyNow(const AmbientBody& ambient, const MotionView& now) noexcept {
+  const Matrix6 inertia = modelNow(ambient, now).inertia;
   const Matrix6 added = addedInertia(ambient, inertia);
-  const Vector6 x = now.twist.vector();
-  const Vector6 relative = relativeTwist(now, readSurroundings(ambient), 0).vector();
+  const Vector6 x = now.state.twist.vector();
+  const Surroundings surroundings = surroundingsOf(ambient, now.gravity, {});
+  const Vector6 relative = relativeTwist(now.state, surroundings, 0).vector();
   return (x.dot((inertia - added) * x) + relative.dot(added * relative)) / 2;
 }
 
-FluidWrench wrenchNow(const AmbientBody& ambient) noexcept {
+FluidWrench wrenchNow(const AmbientBody& ambient, const MotionView& now) noexcept {
   if (!ambient.isInFluid()) return {};
-  const RigidState now = readState(*ambient.body);
+  Surroundings surroundings = surroundingsOf(ambient, now.gravity, {});
+  addFlowAlong(ambient, now.state.orientation, surroundings);
   FluidReading reading;
-  beginReading(ambient, now, readSurroundings(ambient), reading);
-  return MiddleWrenches(ambient, {now, now, ambient.model(), true, 0}, reading).find();
+  beginReading(ambient, now.state, surroundings, reading);
+  return MiddleWrenches(ambient, {now.state, now.state, ambient.model(), true, 0}, reading).find();
 }
 
-AMBIENT_END
+}  // namespace ambient

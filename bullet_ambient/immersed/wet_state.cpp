@@ -1,4 +1,4 @@
-#include "bullet_ambient/bullet/reading/wet_state.h"
+#include "bullet_ambient/immersed/wet_state.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include "bullet_ambient/immersed/pool_rim.h"
 #include "bullet_ambient/immersed/surface_encounter.h"
 
-AMBIENT_BEGIN
+namespace ambient {
 namespace {
 
 /// Share of a triangle's area, by the depths of its corners.
@@ -69,9 +69,8 @@ WetSurface wetSurfaceOf(const FluidBody& shape, const Immersion& immersion) {
   return wet;
 }
 
-WetState wholly(const AmbientBody& ambient, bool is_wet) {
+WetState wholly(const AmbientBody& ambient, const RigidState& pose, bool is_wet) {
   const FluidBody& shape = *ambient.def->fluid_body;
-  const RigidState pose = readState(*ambient.body);
   WetState state;
   state.centre_of_buoyancy = pose.position + pose.orientation * ambient.model().centre_of_volume;
   if (!is_wet) return state;
@@ -82,21 +81,21 @@ WetState wholly(const AmbientBody& ambient, bool is_wet) {
   return state;
 }
 
-WetState cutBy(const SurfacePlane& plane_W, const SurfaceModel& model, const AmbientBody& ambient) {
+WetState cutBy(const SurfacePlane& plane_W, const SurfaceModel& model, const AmbientBody& ambient,
+               const RigidState& pose) {
   const FluidBody& shape = *model.shape;
-  const RigidState pose = readState(*ambient.body);
   const SurfacePlane plane_B =
       seenFrom(plane_W, pose.orientation.toRotationMatrix(), pose.position);
   const Immersion immersion = immersionOf(model, plane_B);
   if (immersion.isDry() || (plane_B.sides_F && !(immersion.wet.volume > 0)))
-    return wholly(ambient, false);
+    return wholly(ambient, pose, false);
   WetState state;
   state.volume = immersion.wet.volume;
   state.share = wetShare(immersion, shape.volume);
   const WetSurface surface = wetSurfaceOf(shape, immersion);
   state.draught = surface.draught;
   state.area = shape.area * surface.share;
-  state.centre_of_buoyancy = wholly(ambient, false).centre_of_buoyancy;
+  state.centre_of_buoyancy = wholly(ambient, pose, false).centre_of_buoyancy;
   if (state.volume > 0)
     state.centre_of_buoyancy =
         pose.position +
@@ -114,38 +113,42 @@ bool isWetIn(const Medium& medium, const AmbientBody& ambient) {
          });
 }
 
-WetState inRegion(const AmbientBody& ambient, const RegionsAround& around,
+WetState inRegion(const AmbientBody& ambient, const MotionView& now, const RegionsAround& around,
                   const FluidRegions& regions) {
   const FluidRegions::Entry& entry = *around.entry;
-  if (!entry.region.surface) return wholly(ambient, isWetIn(entry.region.below, ambient));
-  const Vector3 position =
-      pointIn(entry.region, toVector3(ambient.body->getWorldTransform().getOrigin()));
-  const PoolSides sides = around.is_alone ? PoolSides{} : findSides(ambient, regions, entry, 0);
+  if (!entry.region.surface)
+    return wholly(ambient, now.state, isWetIn(entry.region.below, ambient));
+  const Vector3 position = pointIn(entry.region, now.centre_W());
+  const PoolSides sides =
+      around.is_alone ? PoolSides{} : findSides(ambient, now, regions, entry, 0);
   RegionCall call(regions);
   RegionSample sample = sampleRegion(entry.region, position, regions.time, ambient.def->medium);
   const int media = ambient.models->findSurface(SurfaceKind(entry.region));
-  const Vector3 gravity = toVector3(ambient.body->getGravity());
+  const Vector3& gravity = now.gravity;
   if (needsStations(ambient, around)) {
-    const StationSamples stations(ambient, regions, around, sample);
+    const StationSamples stations(ambient, now, regions, around, sample);
     stations.addMeans(&RegionSample::below, sample);
     stations.fitSurface(gravity, sample);
   }
-  if (media < 0 || !hasSurface(sample, gravity)) return wholly(ambient, !sample.isAbove());
+  if (media < 0 || !hasSurface(sample, gravity))
+    return wholly(ambient, now.state, !sample.isAbove());
   SurfacePlane plane_W = planeNear(position, sample, gravity);
   if (sides.count > 0) plane_W.sides_F = &sides;
-  return cutBy(plane_W, ambient.models->surfaces[static_cast<std::size_t>(media)].model, ambient);
+  return cutBy(plane_W, ambient.models->surfaces[static_cast<std::size_t>(media)].model, ambient,
+               now.state);
 }
 
 }  // namespace
 
-WetState wetStateOf(const AmbientBody& ambient, const FluidRegions& regions) {
+WetState wetStateOf(const AmbientBody& ambient, const MotionView& now,
+                    const FluidRegions& regions) {
   long long asked = 0;
   RegionsAround around;
-  if (ambient.def->follow_regions) around = findRegions(ambient, regions, 0, asked);
-  if (!around.entry) return wholly(ambient, isWetIn(ambient.def->medium, ambient));
-  WetState state = inRegion(ambient, around, regions);
+  if (ambient.def->follow_regions) around = findRegions(ambient, now, regions, 0, asked);
+  if (!around.entry) return wholly(ambient, now.state, isWetIn(ambient.def->medium, ambient));
+  WetState state = inRegion(ambient, now, around, regions);
   state.region = around.entry->id;
   return state;
 }
 
-AMBIENT_END
+}  // namespace ambient

@@ -1,13 +1,13 @@
 #pragma once
 
-#include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/immersed/region_id.h"
 #include "bullet_ambient/spatial/vector_types.h"
 
-AMBIENT_BEGIN
+namespace ambient {
 
 struct AmbientBody;
 class FluidRegions;
+struct MotionView;
 
 /// Wet part of a body or link: the part in its fluid; near a water surface the part in the fluid
 /// below.
@@ -23,6 +23,6 @@ struct WetState {
 };
 
 /// Computes the wet part at the present pose, from the region there.
-WetState wetStateOf(const AmbientBody& ambient, const FluidRegions& regions);
+WetState wetStateOf(const AmbientBody& ambient, const MotionView& now, const FluidRegions& regions);
 
-AMBIENT_END
+}  // namespace ambient
