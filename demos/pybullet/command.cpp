@@ -5,7 +5,7 @@
 
 #include "demos/scene/scene_parts.h"
 #include "demos/scene/scene_water.h"
-#include "preprocess/shape/json_text.h"
+#include "preprocess/shape/json_schema.h"
 
 namespace ambient::pybullet {
 namespace {

@@ -18,7 +18,7 @@
 #include "bullet_ambient/spatial/rotation.h"
 #include "demos/pybullet/server_world.h"
 #include "demos/scene/scene_parts.h"
-#include "preprocess/polar/frontal_area.h"
+#include "preprocess/polar/polar.h"
 
 namespace ambient::pybullet {
 namespace {

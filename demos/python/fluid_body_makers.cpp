@@ -24,7 +24,7 @@
 #include "preprocess/builder/shape_builder.h"
 #include "preprocess/mesh/check/mesh_checks.h"
 #include "preprocess/mesh/wrap/surface_wrap.h"
-#include "preprocess/shape/json_text.h"
+#include "preprocess/shape/json_schema.h"
 #include "preprocess/shape/shape_mesh.h"
 #include "preprocess/shape/shape_reader.h"
 

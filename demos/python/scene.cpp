@@ -8,7 +8,7 @@
 #include "demos/scene/scene_lookup.h"
 #include "demos/scene/scene_reader.h"
 #include "preprocess/builder/fluid_body_builder.h"
-#include "preprocess/shape/json_text.h"
+#include "preprocess/shape/json_schema.h"
 #include "preprocess/shape/shape_mesh.h"
 
 namespace ambient {

@@ -10,7 +10,7 @@
 #include "demos/scene/scene_parts.h"
 #include "demos/scene/scene_water.h"
 #include "preprocess/mesh/input_error.h"
-#include "preprocess/shape/json_text.h"
+#include "preprocess/shape/json_schema.h"
 #include "preprocess/shape/shape_reader.h"
 
 namespace ambient {

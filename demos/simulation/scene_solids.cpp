@@ -3,7 +3,7 @@
 #include "demos/simulation/scene_body_cache.h"
 #include "preprocess/collision_shape/collision_shape_body.h"
 #include "preprocess/collision_shape/form_body.h"
-#include "preprocess/shape/shape_facts.h"
+#include "preprocess/shape/shape_mesh.h"
 
 namespace ambient {
 

@@ -8,8 +8,8 @@
 #include "bullet_ambient/bullet/core/conversions.h"
 #include "bullet_ambient/spatial/principal_frame.h"
 #include "preprocess/builder/fluid_body_builder.h"
-#include "preprocess/robot/primitive_shape.h"
-#include "preprocess/shape/shape_facts.h"
+#include "preprocess/robot/link_shape.h"
+#include "preprocess/shape/shape_mesh.h"
 
 namespace ambient {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "preprocess/added_mass_tables/chebyshev_series.h"
+#include "preprocess/added_mass_tables/table_places.h"
 
 namespace ambient {
 

@@ -1,9 +1,32 @@
 #pragma once
 
 #include "bullet_ambient/spatial/vector_types.h"
-#include "preprocess/added_mass_tables/revolution_inertia.h"
 
 namespace ambient {
+
+/// Chebyshev series in two variables: sum over i, j of c_ij T_i(x) T_j(y), on [-1, 1]^2.
+struct ChebyshevSeries {
+  int rows = 0, columns = 0;             ///< i below rows, j below columns
+  const double* coefficients = nullptr;  ///< row after row; lives as long as the program
+
+  double operator()(double x, double y) const;
+};
+
+/// Added mass per unit density of a body of revolution about z, about the origin. The coupling is
+/// K[w_y, v_x] = -K[w_x, v_y]; all that is not listed is 0 or follows by symmetry.
+struct RevolutionInertia {
+  double v_z = 0, v_x = 0, w_y = 0, coupling = 0;
+
+  Matrix6 matrix() const {
+    Matrix6 K = Matrix6::Zero();
+    K(0, 0) = K(1, 1) = w_y;
+    K(3, 3) = K(4, 4) = v_x;
+    K(5, 5) = v_z;
+    K(1, 3) = K(3, 1) = coupling;
+    K(0, 4) = K(4, 0) = -coupling;
+    return K;
+  }
+};
 
 /// Largest ratio of longest to shortest extent in the tables; for a capsule: cylindrical part over
 /// diameter.

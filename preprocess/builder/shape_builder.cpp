@@ -7,13 +7,12 @@
 
 #include "bullet_ambient/base/fnv1a.h"
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
-#include "preprocess/mesh/defects/mesh_orientation.h"
+#include "preprocess/mesh/defects/topology_defects.h"
+#include "preprocess/mesh/geometry.h"
 #include "preprocess/mesh/input_error.h"
-#include "preprocess/mesh/triangle_quality.h"
 #include "preprocess/potential_flow/results/ellipsoid_added_mass.h"
 #include "preprocess/potential_flow/surface/flat_merging.h"
-#include "preprocess/shape/json_text.h"
-#include "preprocess/shape/shape_facts.h"
+#include "preprocess/shape/json_schema.h"
 #include "preprocess/shape/shape_mesh.h"
 
 namespace ambient {

@@ -12,7 +12,7 @@
 
 #include "preprocess/bullet_world/file_structure.h"
 #include "preprocess/mesh/input_error.h"
-#include "preprocess/shape/json_text.h"
+#include "preprocess/shape/json_schema.h"
 
 AMBIENT_BEGIN
 namespace {

@@ -5,7 +5,7 @@
 
 #include "preprocess/builder/body_maker.h"
 #include "preprocess/builder/fluid_body_builder.h"
-#include "preprocess/collision_shape/solids/solid_union.h"
+#include "preprocess/collision_shape/solids.h"
 
 namespace ambient {
 

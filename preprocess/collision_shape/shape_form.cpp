@@ -6,7 +6,7 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/spatial/vector_types.h"
 #include "preprocess/mesh/input_error.h"
-#include "preprocess/mesh/usual_size.h"
+#include "preprocess/mesh/mass_properties.h"
 
 namespace ambient {
 namespace {

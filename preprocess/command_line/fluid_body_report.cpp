@@ -8,7 +8,7 @@
 #include "bullet_ambient/base/fnv1a.h"
 #include "bullet_ambient/base/plain_text.h"
 #include "preprocess/command_line/json_numbers.h"
-#include "preprocess/mesh/usual_size.h"
+#include "preprocess/mesh/mass_properties.h"
 
 namespace ambient {
 namespace {

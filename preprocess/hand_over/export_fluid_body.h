@@ -4,7 +4,7 @@
 #include <string>
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
-#include "preprocess/hand_over/export_settings.h"
+#include "preprocess/hand_over/handed_body.h"
 
 namespace ambient {
 

@@ -1,6 +1,7 @@
 #include "preprocess/hand_over/handed_body.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <tuple>
 
@@ -10,6 +11,34 @@
 #include "preprocess/polar/polar.h"
 
 namespace ambient {
+
+std::string numberText(double number) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, number + 0.0).ptr};  // no -0
+}
+
+std::string roundedText(double number, int digits) {
+  char text[32];
+  return {text,
+          std::to_chars(text, text + sizeof text, number + 0.0, std::chars_format::general, digits)
+              .ptr};
+}
+
+std::string fixedText(double number, int digits) {
+  char text[400];
+  const std::string signed_text(
+      text, std::to_chars(text, text + sizeof text, number, std::chars_format::fixed, digits).ptr);
+  const bool is_zero = signed_text.find_first_not_of("-0.") == std::string::npos;
+  return is_zero && signed_text[0] == '-' ? signed_text.substr(1) : signed_text;
+}
+
+Matrix6 linearFirst(const Matrix6& rotation_first) {
+  Matrix6 K;
+  K << rotation_first.bottomRightCorner<3, 3>(), rotation_first.bottomLeftCorner<3, 3>(),
+      rotation_first.topRightCorner<3, 3>(), rotation_first.topLeftCorner<3, 3>();
+  return K;
+}
+
 namespace {
 
 void requirePositive(const FluidBody& body, const char* what, double value) {
@@ -135,6 +164,165 @@ HandedBody handedBody(const std::shared_ptr<const FluidBody>& shape,
   checkFinite(body);
   AMBIENT_ASSERT(isSymmetric(body.added_mass, 1e-9) && isSymmetric(body.inertia, 1e-9));
   return body;
+}
+
+namespace {
+
+std::string element(const std::string& name, double value) {
+  return "          <" + name + ">" + numberText(value) + "</" + name + ">\n";
+}
+
+// The upper half of a symmetric matrix, an element per entry. Their names are those of the rows and
+// columns after a prefix.
+std::string elements(const char* prefix, const char* letters, const Matrix6& matrix, int size) {
+  std::string text;
+  for (int i = 0; i < size; ++i)
+    for (int j = i; j < size; ++j)
+      text += element(std::string(prefix) + letters[i] + letters[j], matrix(i, j));
+  return text;
+}
+
+}  // namespace
+
+ExportedBody makeSdf(const HandedBody& body) {
+  Matrix6 inertia = Matrix6::Zero();
+  inertia.topLeftCorner<3, 3>() = body.inertia;
+  return {
+      "<?xml version=\"1.0\"?>\n"
+      "<sdf version=\"1.10\">\n"
+      "  <model name=\"" +
+          body.name +
+          "\">\n"
+          "    <link name=\"" +
+          body.name +
+          "\">\n"
+          "      <inertial>\n"
+          "        <pose>" +
+          rowText(body.weight.centre) +
+          " 0 0 0</pose>\n"
+          "        <mass>" +
+          numberText(body.weight.mass) +
+          "</mass>\n"
+          "        <inertia>\n" +
+          elements("i", "xyz", inertia, 3) +
+          "        </inertia>\n"
+          "        <fluid_added_mass>\n" +
+          elements("", "xyzpqr", linearFirst(body.added_mass), 6) +
+          "        </fluid_added_mass>\n"
+          "      </inertial>\n"
+          "    </link>\n"
+          "  </model>\n"
+          "</sdf>\n",
+      ""};
+}
+
+namespace {
+
+// SNAME's body axes in F: forward, to starboard, down.
+Matrix3 bodyAxes(const HandedBody& body) {
+  const Matrix3 axes = body.axes();
+  Matrix3 sname;
+  sname << axes.col(0), -axes.col(1), -axes.col(2);
+  return sname;
+}
+
+Matrix6 inBodyAxes(const Matrix6& matrix_F, const Matrix3& axes) {
+  return linearFirst(rotateAxes(matrix_F, axes.transpose()));
+}
+
+// Loads of the fluid in a steady motion, and minus their derivative by its velocities. In F,
+// rotation first.
+struct LinearDrag {
+  Vector6 load;
+  Matrix6 damping;
+};
+
+LinearDrag linearDrag(const HandedBody& body) {
+  constexpr double kStep = 1e-4;  // of the speed
+  const double speed = *body.settings.speed, size = std::sqrt(body.shape->area);
+  const BodyLoads loads(body.shape, body.settings.medium, {});
+  Vector6 motion = stack(Vector3::Zero(), speed * body.settings.forward);
+  LinearDrag drag{loads.at(Twist::fromVector(motion)).total().vector(), Matrix6::Zero()};
+  for (int k = 0; k < 6; ++k) {
+    const double step = kStep * (k < 3 ? speed / size : speed);
+    const auto loadAt = [&](double change) {
+      const Vector6 moved = motion + change * Vector6::Unit(k);
+      return loads.at(Twist::fromVector(moved)).total().vector();
+    };
+    drag.damping.col(k) = (loadAt(-step) - loadAt(step)) / (2 * step);
+  }
+  return drag;
+}
+
+/// Entries "key": value of one JSON object. Keys and texts have no letters to be escaped.
+class JsonObject {
+ public:
+  void text(const char* key, const std::string& value) { add(key, "\"" + value + "\""); }
+  void number(const char* key, double value) { add(key, numberText(value)); }
+  template <class Vector>
+  void row(const char* key, const Vector& value) {
+    add(key, "[" + rowText(value, ", ") + "]");
+  }
+  template <class Matrix>
+  void matrix(const char* key, const Matrix& value) {
+    std::string rows;
+    for (Eigen::Index i = 0; i < value.rows(); ++i)
+      rows += (i > 0 ? ",\n    [" : "\n    [") + rowText(value.row(i), ", ") + "]";
+    add(key, "[" + rows + "\n  ]");
+  }
+  std::string finished() const { return "{\n" + entries_ + "\n}\n"; }
+
+ private:
+  void add(const std::string& key, const std::string& value) {
+    entries_ += (entries_.empty() ? "  \"" : ",\n  \"") + key + "\": " + value;
+  }
+  std::string entries_;
+};
+
+void addHydrostatics(JsonObject& json, const HandedBody& body, const Matrix3& axes) {
+  if (body.settings.draught) json.number("draught", *body.settings.draught);
+  json.number("displaced_volume", body.wet.volume);
+  if (body.wet.volume > 0)
+    json.row("centre_of_buoyancy", Vector3(axes.transpose() * body.middle()));
+  json.number("waterplane_area", body.wet.waterplane.area);
+  json.matrix(
+      "G",
+      inBodyAxes(restoringStiffness(body.wet, body.plane, body.weight, Vector3::Zero()), axes));
+}
+
+void addDrag(JsonObject& json, const HandedBody& body, const Matrix3& axes) {
+  const LinearDrag drag = linearDrag(body);
+  const double speed = *body.settings.speed;
+  // Loads of a sphere are 0 beyond that.
+  const bool has_pressure = std::isfinite(body.settings.medium.density * speed * speed);
+  if (!has_pressure || !drag.load.allFinite() || !drag.damping.allFinite())
+    reject(*body.shape, "speed [m/s]", speed, "small enough for a finite drag");
+  Vector6 load;
+  load << axes.transpose() * drag.load.tail<3>(), axes.transpose() * drag.load.head<3>();
+  json.number("speed", speed);
+  json.matrix("D", inBodyAxes(drag.damping, axes));
+  json.row("tau", load);
+}
+
+}  // namespace
+
+ExportedBody makeFossen(const HandedBody& body) {
+  const Matrix3 axes = bodyAxes(body);
+  JsonObject json;
+  json.text("name", body.name);
+  json.text("frame",
+            "body axes of SNAME: x forward, y to starboard, z down; origin: that of the .ambient "
+            "file");
+  json.text("order", "u v w p q r");
+  json.number("density", body.settings.medium.density);
+  json.number("gravity", body.settings.gravity);
+  json.number("mass", body.weight.mass);
+  json.row("centre_of_gravity", Vector3(axes.transpose() * body.weight.centre));
+  json.matrix("M_RB", inBodyAxes(body.ownInertia(), axes));
+  json.matrix("M_A", inBodyAxes(body.added_mass, axes));
+  addHydrostatics(json, body, axes);
+  if (body.settings.speed) addDrag(json, body, axes);
+  return {json.finished(), ""};
 }
 
 }  // namespace ambient

@@ -1,14 +1,74 @@
 #pragma once
 
+#include <array>
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
+#include "bullet_ambient/force/medium/medium.h"
 #include "bullet_ambient/force/surface/hydrostatics.h"
-#include "preprocess/floating/floating_energy.h"
-#include "preprocess/hand_over/export_settings.h"
+#include "bullet_ambient/spatial/vector_types.h"
+#include "preprocess/floating/floating_body.h"
 
 namespace ambient {
+
+/// The shortest text that reads back as the same bits; with a point in every locale.
+std::string numberText(double number);
+
+/// A number rounded to `digits`, for people.
+std::string roundedText(double number, int digits = 4);
+
+/// A number with `digits` after the point, for people; never -0.
+std::string fixedText(double number, int digits);
+
+/// Numbers with a separator between them.
+template <class Vector>
+std::string rowText(const Vector& row, const char* separator = " ") {
+  std::string text;
+  for (Eigen::Index i = 0; i < row.size(); ++i)
+    text += (i > 0 ? separator : "") + numberText(row[i]);
+  return text;
+}
+
+/// The entries of a 6x6 matrix in the order of other programs: translation before rotation.
+Matrix6 linearFirst(const Matrix6& rotation_first);
+
+/// File formats of other programs for fluid bodies.
+enum class ExportFormat { kSdf, kMjcf, kFossen };
+
+/// Names of the formats in commands.
+constexpr std::array<std::pair<ExportFormat, const char*>, 3> kExportFormatNames{
+    {{ExportFormat::kSdf, "sdf"},
+     {ExportFormat::kMjcf, "mjcf"},
+     {ExportFormat::kFossen, "fossen"}}};
+
+/// Body, fluid and place for which a fluid body is handed over. Vectors are in F.
+struct ExportSettings {
+  Medium medium = water();  ///< density and viscosity count
+  double gravity = 9.81;    ///< [m/s^2]
+  /// Mass [kg]; default: that of the displaced fluid.
+  std::optional<double> mass;
+  /// Centre of mass [m]; default: that of a uniform mass in the volume, or on the area of a sheet.
+  std::optional<Vector3> centre_of_mass;
+  Vector3 forward{1, 0, 0}, up{0, 0, 1};  ///< unit, perpendicular
+  /// Depth of the lowest point along `up` below the surface [m]; default: no surface near.
+  std::optional<double> draught;
+  /// Speed along `forward` [m/s] for the linearised drag of Fossen's model; default: no drag.
+  std::optional<double> speed;
+};
+
+/// A fluid body in the file format of another program.
+struct ExportedBody {
+  std::string bytes;   ///< content of the file, text
+  std::string report;  ///< lines for people on what the format leaves out; may be empty
+
+  /// Writes the file completely or not at all.
+  /// @throws std::runtime_error in one line that names the file, if it cannot be written.
+  void write(const std::filesystem::path& file) const;
+};
 
 /// A fluid body with mass, in one fluid at one place. Vectors in F; matrices about F's origin,
 /// rotation first.

@@ -4,9 +4,8 @@
 #include "bullet_ambient/spatial/cholesky.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
-#include "preprocess/hand_over/ellipsoid_drag.h"
+#include "preprocess/hand_over/ellipsoid_fit.h"
 #include "preprocess/hand_over/handed_body.h"
-#include "preprocess/hand_over/number_text.h"
 #include "preprocess/potential_flow/results/ellipsoid_added_mass.h"
 
 namespace ambient {

@@ -1,6 +1,13 @@
 #include "preprocess/mesh/geometry.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/base/elementary.h"
+#include "preprocess/mesh/triangle_mesh.h"
 
 namespace ambient {
 
@@ -64,6 +71,177 @@ Eigen::AlignedBox3d boundsOf(const TriangleMesh& mesh, Index t) {
 
 bool areNear(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b, double gap) {
   return ((a.min() - b.max()).array() <= gap).all() && ((b.min() - a.max()).array() <= gap).all();
+}
+
+namespace {
+
+using Points = std::vector<Eigen::Vector2d>;
+
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+// Orthogonal projection along the area vector (Newell), so that the polygon turns to the left.
+Points projected(const std::vector<Eigen::Vector3d>& corners) {
+  Eigen::Vector3d area = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Eigen::Vector3d a = corners[i] - corners[0];
+    area += a.cross(corners[(i + 1) % corners.size()] - corners[0]);
+  }
+  const Eigen::Vector3d normal = area.stableNormalized();
+  const Eigen::Vector3d u = normal.unitOrthogonal(), v = normal.cross(u);
+  Points points;
+  for (const Eigen::Vector3d& corner : corners) {
+    points.push_back({u.dot(corner - corners[0]), v.dot(corner - corners[0])});
+  }
+  return points;
+}
+
+/// The remaining polygon while its ears are cut off.
+class EarClipping {
+ public:
+  explicit EarClipping(Points points) : points_(std::move(points)), left_(points_.size()) {
+    std::iota(left_.begin(), left_.end(), 0);
+  }
+
+  std::vector<Eigen::Vector3i> triangles() {
+    std::vector<Eigen::Vector3i> result;
+    while (left_.size() > 3) {
+      const std::size_t ear = bestEar();
+      result.push_back(triangleAt(ear));
+      left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(ear));
+    }
+    result.push_back({left_[0], left_[1], left_[2]});
+    return result;
+  }
+
+ private:
+  Eigen::Vector3i triangleAt(std::size_t i) const {
+    const std::size_t n = left_.size();
+    return {left_[(i + n - 1) % n], left_[i], left_[(i + 1) % n]};
+  }
+
+  // Twice the area over the square of the longest side: 0.87 for the best shape, negative at a
+  // reflex corner.
+  double shape(const Eigen::Vector3i& t) const {
+    const Eigen::Vector2d a = points_[t[0]], b = points_[t[1]], c = points_[t[2]];
+    const double longest =
+        std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+    return longest > 0 ? cross(b - a, c - a) / longest : 0;
+  }
+
+  bool contains(const Eigen::Vector3i& t, const Eigen::Vector2d& p) const {
+    const Eigen::Vector2d a = points_[t[0]], b = points_[t[1]], c = points_[t[2]];
+    if (p == a || p == b || p == c) return false;
+    return cross(b - a, p - a) >= 0 && cross(c - b, p - b) >= 0 && cross(a - c, p - c) >= 0;
+  }
+
+  bool isEmpty(const Eigen::Vector3i& t) const {
+    return std::none_of(left_.begin(), left_.end(), [&](int i) {
+      return i != t[0] && i != t[1] && i != t[2] && contains(t, points_[i]);
+    });
+  }
+
+  std::size_t bestEar() const {
+    std::size_t best = 0, best_regardless = 0;
+    double best_shape = 0, best_shape_regardless = -2;
+    for (std::size_t i = 0; i < left_.size(); ++i) {
+      const Eigen::Vector3i triangle = triangleAt(i);
+      const double value = shape(triangle);
+      if (value > best_shape_regardless) {
+        best_shape_regardless = value;
+        best_regardless = i;
+      }
+      if (value > best_shape && isEmpty(triangle)) {
+        best_shape = value;
+        best = i;
+      }
+    }
+    return best_shape > 0 ? best : best_regardless;
+  }
+
+  Points points_;
+  std::vector<int> left_;
+};
+
+}  // namespace
+
+std::vector<Eigen::Vector3i> dividePolygon(const std::vector<Eigen::Vector3d>& corners) {
+  AMBIENT_ASSERT(corners.size() >= 3);
+  if (corners.size() == 3) return {{0, 1, 2}};
+  return EarClipping(projected(corners)).triangles();
+}
+
+namespace {
+
+using Eigen::Index;
+using Eigen::Vector3d;
+
+TriangleQuality qualityOf(const TriangleMesh& mesh, Index t) {
+  std::array<double, 3> edges{};
+  for (int k = 0; k < 3; ++k) edges[k] = (mesh.corner(t, (k + 1) % 3) - mesh.corner(t, k)).norm();
+  std::sort(edges.begin(), edges.end());
+  const double twice_area = mesh.twiceArea(t).norm();
+  TriangleQuality quality;
+  quality.triangle = static_cast<int>(t);
+  quality.aspect = edges[2] * edges[2] / twice_area;
+  quality.smallest_angle = portable::asin(std::min(1.0, twice_area / (edges[1] * edges[2])));
+  quality.barycentre = mesh.barycentre(t);
+  return quality;
+}
+
+/// Distance along a ray to a triangle, negative if it misses. Moeller and Trumbore 1997.
+double distanceAlong(const Vector3d& origin, const Vector3d& direction, const TriangleMesh& mesh,
+                     Index t) {
+  const Vector3d a = mesh.corner(t, 0);
+  const Vector3d ab = mesh.corner(t, 1) - a, ac = mesh.corner(t, 2) - a;
+  const Vector3d p = direction.cross(ac);
+  const double determinant = ab.dot(p);
+  if (determinant == 0) return -1;
+  const Vector3d from_a = origin - a;
+  const double u = from_a.dot(p) / determinant;
+  const Vector3d q = from_a.cross(ab);
+  const double v = direction.dot(q) / determinant;
+  // Rays through an edge shall not slip between its triangles.
+  constexpr double kRounding = 1e-9;
+  if (u < -kRounding || v < -kRounding || u + v > 1 + kRounding) return -1;
+  return ac.dot(q) / determinant;
+}
+
+double thicknessAt(const TriangleMesh& mesh, Index t) {
+  const Vector3d origin = mesh.barycentre(t), inwards = -mesh.twiceArea(t).normalized();
+  double nearest = -1;
+  for (Index s = 0; s < mesh.triangleCount(); ++s) {
+    if (s == t || mesh.twiceArea(s).dot(inwards) <= 0) continue;
+    const double distance = distanceAlong(origin, inwards, mesh, s);
+    if (distance > 0 && (nearest < 0 || distance < nearest)) nearest = distance;
+  }
+  return nearest;
+}
+
+}  // namespace
+
+std::vector<TriangleQuality> findWorstTriangles(const TriangleMesh& mesh, int count) {
+  std::vector<TriangleQuality> all;
+  for (Index t = 0; t < mesh.triangleCount(); ++t) all.push_back(qualityOf(mesh, t));
+  std::stable_sort(all.begin(), all.end(), [](const TriangleQuality& a, const TriangleQuality& b) {
+    return a.aspect > b.aspect;
+  });
+  all.resize(std::min(all.size(), static_cast<std::size_t>(count)));
+  return all;
+}
+
+std::optional<Thickness> findThinnestPart(const TriangleMesh& mesh) {
+  AMBIENT_ASSERT(isClosed(computeMeshEdges(mesh)));
+  constexpr Index kMostRays = 2000;
+  const Index step = std::max<Index>(1, mesh.triangleCount() / kMostRays);
+  std::optional<Thickness> thinnest;
+  for (Index t = 0; t < mesh.triangleCount(); t += step) {
+    const double thickness = thicknessAt(mesh, t);
+    if (thickness < 0 || (thinnest && thinnest->thickness <= thickness)) continue;
+    thinnest = Thickness{thickness, static_cast<int>(t), mesh.barycentre(t)};
+  }
+  return thinnest;
 }
 
 }  // namespace ambient

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "preprocess/mesh/triangle_mesh.h"
 
 namespace ambient {
@@ -43,5 +46,35 @@ Eigen::AlignedBox3d boundsOf(const TriangleMesh& mesh, Eigen::Index triangle);
 
 /// Whether two boxes overlap, or are no farther apart than a gap along each axis [m].
 bool areNear(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b, double gap);
+
+/// Divides a simple polygon, convex or not, into n - 2 triangles without new vertices: index
+/// triples into `corners` [m], with the orientation of the polygon. The ears of best shape are cut
+/// off first, seen along the polygon's area vector. A polygon that crosses itself yields triangles
+/// that overlap. Cost O(n^3), n being small.
+/// @pre at least three corners, finite.
+std::vector<Eigen::Vector3i> dividePolygon(const std::vector<Eigen::Vector3d>& corners);
+
+/// Deviation of a triangle from an equilateral one.
+struct TriangleQuality {
+  int triangle = 0;
+  double aspect = 0;          ///< longest edge over the height on it; 1.15 at best
+  double smallest_angle = 0;  ///< [rad]
+  Eigen::Vector3d barycentre = Eigen::Vector3d::Zero();  ///< [m]
+};
+
+/// Finds the triangles of largest aspect, worst first. Cost O(T log T).
+std::vector<TriangleQuality> findWorstTriangles(const TriangleMesh& mesh, int count);
+
+/// The thinnest place of a body.
+struct Thickness {
+  double thickness = 0;  ///< distance from a barycentre straight inwards to the other side [m]
+  int triangle = 0;
+  Eigen::Vector3d barycentre = Eigen::Vector3d::Zero();  ///< [m]
+};
+
+/// Finds the least thickness over the barycentres of at most some 2000 triangles, evenly chosen;
+/// none if no ray meets another side. Cost O(T) per ray.
+/// @pre closed and outward oriented.
+std::optional<Thickness> findThinnestPart(const TriangleMesh& mesh);
 
 }  // namespace ambient

@@ -2,6 +2,9 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
+#include <utility>
+#include <vector>
 
 namespace ambient {
 
@@ -33,5 +36,117 @@ struct TriangleMesh {
     return vertices.rowwise().maxCoeff() - vertices.rowwise().minCoeff();
   }
 };
+
+/// One side of a triangle.
+struct HalfEdge {
+  int low = 0, high = 0;  ///< vertices of the edge, low < high
+  int triangle = 0;
+  int side = 0;          ///< from corner `side` to corner (side + 1) % 3
+  bool forward = false;  ///< true: runs from low to high
+};
+
+/// Half edges of one edge: [first, last) of MeshEdges::half_edges.
+struct EdgeGroup {
+  std::size_t first = 0, last = 0;
+
+  std::size_t size() const { return last - first; }
+};
+
+/// All half edges of a mesh, sorted by edge.
+struct MeshEdges {
+  std::vector<HalfEdge> half_edges;
+  std::vector<EdgeGroup> edges;
+};
+
+/// Lists the edges of a mesh. Cost O(T log T).
+MeshEdges computeMeshEdges(const TriangleMesh& mesh);
+
+using EdgePair = std::pair<HalfEdge, HalfEdge>;
+
+/// The half edges of all edges that have exactly two triangles, in the order of `edges`.
+std::vector<EdgePair> edgePairs(const MeshEdges& edges);
+
+/// Corners of a triangle in ascending order.
+struct SortedTriangle {
+  std::array<int, 3> corners{};
+  int triangle = 0;
+};
+
+/// Lists all triangles sorted by their corners, so that triangles on the same corners are
+/// neighbours. Cost O(T log T).
+std::vector<SortedTriangle> sortedByCorners(const TriangleMesh& mesh);
+
+/// True if every edge has one or two triangles.
+bool isManifold(const MeshEdges& edges);
+/// True if every edge has two triangles, which run along it in opposite directions.
+bool isClosed(const MeshEdges& edges);
+
+/// Disjoint sets over 0 .. n - 1.
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t count);
+
+  int find(int element);
+  void join(int a, int b);
+
+ private:
+  std::vector<int> parent_;
+};
+
+/// Joins the corners of two triangles that meet at an edge, at both of its ends. Corner k of
+/// triangle t has the number 3 t + k.
+void joinCorners(DisjointSets& corners, const TriangleMesh& mesh, const EdgePair& edge);
+
+/// Triangles that hang together through edges of exactly two triangles.
+struct MeshComponents {
+  std::vector<int> component_of;  ///< per triangle, numbered by first appearance
+  int count = 0;
+};
+
+MeshComponents computeMeshComponents(const TriangleMesh& mesh, const MeshEdges& edges);
+
+/// n + 1 points from -half_length to +half_length [m], denser towards both ends (cosine spacing),
+/// symmetric bit for bit.
+std::vector<double> cosineSpacing(double half_length, int n);
+
+/// Two triangles per cell of a grid of (rows + 1) x (columns + 1) vertices, `vertex(row, column)`.
+/// Diagonals run from the middle of the grid towards its corners (union jack), so that no corner is
+/// cut off and the pattern is symmetric for even numbers. Counter-clockwise if columns run to the
+/// right and rows upwards.
+template <class VertexAt>
+void appendGridTriangles(int rows, int columns, VertexAt vertex,
+                         std::vector<Eigen::Vector3i>& triangles) {
+  for (int i = 0; i < rows; ++i) {
+    for (int j = 0; j < columns; ++j) {
+      const int a = vertex(i, j), b = vertex(i, j + 1);
+      const int c = vertex(i + 1, j + 1), d = vertex(i + 1, j);
+      if ((2 * i < rows) == (2 * j < columns)) {
+        triangles.push_back({a, b, c});
+        triangles.push_back({a, c, d});
+      } else {
+        triangles.push_back({a, b, d});
+        triangles.push_back({b, c, d});
+      }
+    }
+  }
+}
+
+/// Makes a mesh of vertices and triangles.
+TriangleMesh makeTriangleMesh(const std::vector<Eigen::Vector3d>& vertices,
+                              const std::vector<Eigen::Vector3i>& triangles);
+
+/// Makes a mesh of triangles and the vertices that they use, numbered in the order of first use.
+/// @param vertices one per column
+TriangleMesh withUsedVertices(const Eigen::Matrix3Xd& vertices,
+                              const std::vector<Eigen::Vector3i>& triangles);
+
+/// Joins parts to one mesh, one after the other; welds nothing.
+TriangleMesh joinMeshes(const std::vector<TriangleMesh>& parts);
+
+/// Joins vertices closer than `tolerance` [m], also along chains, at the place of the first of
+/// them, and removes triangles that lose a corner. Order is kept. Cost O(V log V + T)
+/// plus the pairs that are close along one direction.
+/// @pre coordinates are finite, tolerance >= 0; 0 joins equal vertices only.
+TriangleMesh weldVertices(const TriangleMesh& mesh, double tolerance);
 
 }  // namespace ambient

@@ -18,9 +18,7 @@
 #include <vector>
 
 #include "preprocess/mesh/import/scene_triangles.h"
-#include "preprocess/mesh_reader/assimp_reader.h"
-#include "preprocess/mesh_reader/geometry_text.h"
-#include "preprocess/mesh_reader/off_reader.h"
+#include "preprocess/mesh_reader/readers.h"
 
 namespace ambient {
 namespace {

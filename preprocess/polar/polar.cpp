@@ -1,14 +1,112 @@
 #include "preprocess/polar/polar.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/elementary.h"
+#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/spatial/inertia.h"
-#include "preprocess/polar/frontal_area.h"
 
 namespace ambient {
+
+namespace {
+
+using Point = Eigen::Vector2d;
+using Corners = std::array<Point, 3>;
+using Interval = std::pair<double, double>;  // begin and end along x
+
+/// Projects the triangles of a surface along an axis.
+std::vector<Corners> projected(const Surface& surface, const Vector3& axis) {
+  int aside = 0;
+  axis.cwiseAbs().minCoeff(&aside);
+  const Vector3 x = axis.cross(Vector3(Vector3::Unit(aside))).normalized();
+  const Vector3 y = axis.cross(x).normalized();
+  std::vector<Corners> triangles(surface.triangles.size() / 3);
+  for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
+    const double* vertex = &surface.vertices[3 * static_cast<std::size_t>(surface.triangles[i])];
+    const Vector3 corner(vertex[0], vertex[1], vertex[2]);
+    triangles[i / 3][i % 3] = {x.dot(corner), y.dot(corner)};
+  }
+  return triangles;
+}
+
+/// The part of a line at a height y that lies in a triangle; empty: begin > end.
+Interval cut(const Corners& corners, double y) {
+  Interval inside(1, 0);
+  bool is_cut = false;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Point &a = corners[k], &b = corners[(k + 1) % 3];
+    if ((a.y() < y) == (b.y() < y)) continue;
+    const double x = a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
+    inside = is_cut ? Interval(std::minmax(inside.first, x)) : Interval(x, x);
+    is_cut = true;
+  }
+  return inside;
+}
+
+double lengthOfUnion(std::vector<Interval>& intervals) {
+  std::sort(intervals.begin(), intervals.end());
+  double sum = 0, covered = -HUGE_VAL;
+  for (const auto& [begin, end] : intervals) {
+    sum += std::max(0.0, end - std::max(begin, covered));
+    covered = std::max(covered, end);
+  }
+  return sum;
+}
+
+double silhouette(const std::vector<Corners>& triangles) {
+  constexpr int kLines = 8192;
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (const Corners& corners : triangles)
+    for (const Point& corner : corners) {
+      low = std::min(low, corner.y());
+      high = std::max(high, corner.y());
+    }
+  const double height = (high - low) / kLines;  // of the strip of a line
+  if (!(height > 0)) return 0;
+  std::vector<std::vector<Interval>> lines(kLines);
+  for (const Corners& corners : triangles) {
+    const auto [first, last] = std::minmax({corners[0].y(), corners[1].y(), corners[2].y()});
+    const int end = std::min(kLines, static_cast<int>((last - low) / height) + 1);
+    for (int i = static_cast<int>((first - low) / height); i < end; ++i) {
+      const Interval inside = cut(corners, low + (i + 0.5) * height);
+      if (inside.first < inside.second) lines[static_cast<std::size_t>(i)].push_back(inside);
+    }
+  }
+  double length = 0;
+  for (std::vector<Interval>& line : lines) length += lengthOfUnion(line);
+  return length * height;
+}
+
+/// Half the projected area of all faces, [m^2]: the frontal area of a convex body.
+double halfOfFaces(const FaceTable& faces, const Vector3& axis) {
+  double sum = 0;
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    sum += faces.area[i] * std::abs(faces.normal(i).dot(axis));
+  return sum / 2;
+}
+
+}  // namespace
+
+double frontalArea(const FluidBody& body, const Vector3& axis) {
+  if (body.sphere_radius > 0) return kPi * body.sphere_radius * body.sphere_radius;
+  if (body.surface.triangles.empty()) return halfOfFaces(body.faces, axis);
+  return silhouette(projected(body.surface, axis));
+}
+
+void setMeasuredDrag(const Vector3& coefficients, FluidBody& body) {
+  for (int k = 0; k < 3; ++k) {
+    const double half = halfOfFaces(body.faces, Vector3::Unit(k));
+    const double share = half > 0 ? frontalArea(body, Vector3::Unit(k)) / half : 1;
+    body.drag[k] = std::min(kLargestDrag, share * coefficients[k]);
+  }
+}
+
 namespace {
 
 double extentAlong(const Vector3& axis, const FluidBody& body) {

@@ -5,9 +5,18 @@
 #include <string>
 #include <utility>
 
+#include "bullet_ambient/fluid_body/fluid_body.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
 
 namespace ambient {
+
+/// Computes the area of the body's silhouette along an axis [m^2]: what stands in the way of the
+/// flow, once where parts stand behind each other. Exact to 1e-3. Cost: some ms.
+double frontalArea(const FluidBody& body, const Vector3& axis);
+
+/// Sets body.drag from drag coefficients that were measured along the axes of F, on the frontal
+/// areas.
+void setMeasuredDrag(const Vector3& coefficients, FluidBody& body);
 
 /// Surface loads on a fluid body, as in a world by default, but in double precision. Twists and
 /// wrenches in F.

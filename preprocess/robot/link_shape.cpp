@@ -7,9 +7,9 @@
 #include "bullet_ambient/spatial/principal_frame.h"
 #include "preprocess/mesh/import/mesh_import.h"
 #include "preprocess/mesh/input_error.h"
-#include "preprocess/robot/primitive_shape.h"
 
 AMBIENT_BEGIN
+
 namespace {
 
 /// Bullet's shape of a part, in its own frame.

@@ -1,14 +1,59 @@
 #pragma once
 
+#include <BulletCollision/CollisionShapes/btBoxShape.h>
+#include <BulletCollision/CollisionShapes/btCapsuleShape.h>
 #include <BulletCollision/CollisionShapes/btCompoundShape.h>
+#include <BulletCollision/CollisionShapes/btConeShape.h>
+#include <BulletCollision/CollisionShapes/btCylinderShape.h>
+#include <BulletCollision/CollisionShapes/btSphereShape.h>
 
+#include <algorithm>
 #include <memory>
+#include <utility>
 #include <vector>
 
+#include "bullet_ambient/bullet/core/conversions.h"
 #include "bullet_ambient/bullet/core/precision_check.h"
 #include "preprocess/robot/robot_model.h"
+#include "preprocess/shape/shapes.h"
 
 AMBIENT_BEGIN
+
+/// Visitor that makes Bullet's convex primitive of a simple shape, in the shape's frame. Derive
+/// from it to handle other shapes.
+struct PrimitiveMaker {
+  using Made = std::unique_ptr<btConvexInternalShape>;
+
+  Made operator()(const Sphere& s) const {
+    return std::make_unique<btSphereShape>(static_cast<btScalar>(s.radius));
+  }
+  Made operator()(const Box& s) const {
+    return withMargin(std::make_unique<btBoxShape>(toBullet(s.half_sizes)),
+                      s.half_sizes.minCoeff());
+  }
+  Made operator()(const Cylinder& s) const {
+    const Vector3 half_sizes(s.radius, s.radius, s.height / 2);
+    return withMargin(std::make_unique<btCylinderShapeZ>(toBullet(half_sizes)),
+                      half_sizes.minCoeff());
+  }
+  Made operator()(const Capsule& s) const {
+    return std::make_unique<btCapsuleShapeZ>(static_cast<btScalar>(s.radius),
+                                             static_cast<btScalar>(s.height));
+  }
+  Made operator()(const Cone& s) const {
+    return withMargin(std::make_unique<btConeShapeZ>(static_cast<btScalar>(s.radius),
+                                                     static_cast<btScalar>(s.height)),
+                      std::min(s.radius, s.height / 2));
+  }
+
+  /// Returns a margin of a hundredth of a size [m]. A margin shrinks the core of all shapes but
+  /// spheres and capsules; Bullet's default of 4 cm is larger than many bodies.
+  static btScalar margin(double size) { return static_cast<btScalar>(0.01 * size); }
+  static Made withMargin(Made shape, double size) {
+    shape->setMargin(margin(size));
+    return shape;
+  }
+};
 
 /// Collision shapes of a link. Bullet's body frame B has its origin in the link's centre of mass
 /// and its axes along the principal axes of inertia.

@@ -12,7 +12,7 @@
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/plain_text.h"
 #include "preprocess/mesh/input_error.h"
-#include "preprocess/shape/json_text.h"
+#include "preprocess/shape/json_schema.h"
 
 namespace ambient {
 namespace {

@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <string>
 
-#include "preprocess/robot/file_reference.h"
 #include "preprocess/robot/robot_model.h"
 
 namespace ambient {

@@ -6,7 +6,6 @@
 
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/shape/json_schema.h"
-#include "preprocess/shape/json_text.h"
 
 namespace ambient {
 namespace {

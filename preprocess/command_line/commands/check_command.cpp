@@ -19,11 +19,10 @@
 #include "preprocess/command_line/option_values.h"
 #include "preprocess/command_line/output_place.h"
 #include "preprocess/mesh/check/mesh_checks.h"
+#include "preprocess/mesh/geometry.h"
 #include "preprocess/mesh/import/mesh_import.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mass_properties.h"
-#include "preprocess/mesh/triangle_quality.h"
-#include "preprocess/mesh/usual_size.h"
 #include "preprocess/potential_flow/results/flow_estimate.h"
 #include "preprocess/shape/shape_mesh.h"
 

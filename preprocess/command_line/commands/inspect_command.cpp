@@ -12,7 +12,7 @@
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/fluid_body_report.h"
 #include "preprocess/command_line/json_numbers.h"
-#include "preprocess/floating/floating_attitudes.h"
+#include "preprocess/floating/floating_body.h"
 
 namespace ambient {
 namespace {

@@ -10,7 +10,7 @@
 #include "preprocess/command_line/json_numbers.h"
 #include "preprocess/command_line/option_values.h"
 #include "preprocess/mesh/input_error.h"
-#include "preprocess/mesh/usual_size.h"
+#include "preprocess/mesh/mass_properties.h"
 
 namespace ambient {
 namespace {

@@ -6,12 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include "preprocess/mesh/defects/mesh_orientation.h"
+#include "preprocess/mesh/checked_mesh.h"
 #include "preprocess/mesh/defects/surface_check.h"
 #include "preprocess/mesh/defects/surface_crossing.h"
 #include "preprocess/mesh/defects/topology_defects.h"
-#include "preprocess/mesh/mesh_defect.h"
-#include "preprocess/mesh/mesh_topology.h"
+#include "preprocess/mesh/triangle_mesh.h"
 #include "preprocess/mesh/union/mesh_union.h"
 
 namespace ambient {

@@ -10,16 +10,13 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
-#include "preprocess/mesh/defects/mesh_orientation.h"
+#include "preprocess/mesh/checked_mesh.h"
 #include "preprocess/mesh/defects/surface_crossing.h"
 #include "preprocess/mesh/defects/topology_defects.h"
-#include "preprocess/mesh/defects/winding_number.h"
 #include "preprocess/mesh/geometry.h"
-#include "preprocess/mesh/graded_grid.h"
+#include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/mend/mesh_mending.h"
-#include "preprocess/mesh/mesh_defect.h"
-#include "preprocess/mesh/mesh_topology.h"
-#include "preprocess/mesh/usual_size.h"
+#include "preprocess/mesh/triangle_mesh.h"
 
 namespace ambient {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "preprocess/mesh/import/scene_triangles.h"
 #include "preprocess/mesh/input_error.h"
-#include "preprocess/mesh/weld_vertices.h"
+#include "preprocess/mesh/triangle_mesh.h"
 
 namespace ambient {
 namespace {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "preprocess/mesh/geometry.h"
-#include "preprocess/mesh/graded_grid.h"
 #include "preprocess/mesh/input_error.h"
+#include "preprocess/mesh/triangle_mesh.h"
 
 namespace ambient {
 namespace {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 
 #include "preprocess/mesh/triangle_mesh.h"
 
@@ -42,5 +43,19 @@ TriangleMesh makeConeMesh(double radius, double height, int faces);
 /// faces.
 TriangleMesh makeRectangularSheetMesh(double size_x, double size_y, int faces);
 TriangleMesh makeEllipticSheetMesh(double semi_axis_x, double semi_axis_y, int faces);
+
+/// Refuses a size that is not positive and finite.
+/// @throws std::runtime_error naming the shape, the size and its value.
+void requirePositiveSize(const std::string& shape, const std::string& what, double value);
+
+/// Refuses a number of faces below the least one the shape can be made of, or above 1 000 000.
+/// @throws std::runtime_error naming the shape, the number and the limit.
+void requireFaces(const std::string& shape, int faces, int least);
+
+/// Least number of triangles of makeCylinderMesh(), makeCapsuleMesh() and makeConeMesh(); larger
+/// for slender shapes.
+int leastCylinderFaces(double radius, double height);
+int leastCapsuleFaces(double radius, double height);
+int leastConeFaces(double radius, double height);
 
 }  // namespace ambient

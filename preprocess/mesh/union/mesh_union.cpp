@@ -13,19 +13,14 @@
 
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/spatial/rotation.h"
-#include "preprocess/mesh/defects/mesh_orientation.h"
 #include "preprocess/mesh/defects/surface_check.h"
-#include "preprocess/mesh/graded_grid.h"
-#include "preprocess/mesh/join_meshes.h"
+#include "preprocess/mesh/defects/topology_defects.h"
+#include "preprocess/mesh/geometry.h"
 #include "preprocess/mesh/mass_properties.h"
-#include "preprocess/mesh/mend/crack_mending.h"
 #include "preprocess/mesh/mend/mesh_mending.h"
-#include "preprocess/mesh/mesh_topology.h"
-#include "preprocess/mesh/polygon_triangles.h"
 #include "preprocess/mesh/triangle_mesh.h"
 #include "preprocess/mesh/union/solid_contact.h"
 #include "preprocess/mesh/union/solid_tree.h"
-#include "preprocess/mesh/weld_vertices.h"
 
 namespace ambient {
 namespace {

@@ -4,7 +4,6 @@
 
 #include "bullet_ambient/base/pi.h"
 #include "preprocess/mesh/defects/surface_crossing.h"
-#include "preprocess/mesh/defects/winding_number.h"
 #include "preprocess/mesh/geometry.h"
 
 namespace ambient {

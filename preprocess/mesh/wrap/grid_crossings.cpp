@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "preprocess/mesh/mesh_topology.h"
+#include "preprocess/mesh/triangle_mesh.h"
 
 namespace ambient {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/mesh/geometry.h"
-#include "preprocess/mesh/graded_grid.h"
+#include "preprocess/mesh/triangle_mesh.h"
 
 namespace ambient {
 namespace {

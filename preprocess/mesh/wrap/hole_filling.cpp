@@ -8,8 +8,7 @@
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
 #include "preprocess/mesh/geometry.h"
-#include "preprocess/mesh/mesh_topology.h"
-#include "preprocess/mesh/polygon_triangles.h"
+#include "preprocess/mesh/triangle_mesh.h"
 
 namespace ambient {
 namespace {

@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "preprocess/mesh/graded_grid.h"
-#include "preprocess/mesh/mesh_topology.h"
+#include "preprocess/mesh/triangle_mesh.h"
 
 namespace ambient {
 namespace {

@@ -6,15 +6,14 @@
 #include <utility>
 
 #include "bullet_ambient/base/elementary.h"
+#include "preprocess/mesh/defects/surface_crossing.h"
 #include "preprocess/mesh/defects/topology_defects.h"
-#include "preprocess/mesh/defects/winding_number.h"
 #include "preprocess/mesh/geometry.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/mend/mesh_mending.h"
-#include "preprocess/mesh/mesh_topology.h"
 #include "preprocess/mesh/shapes/convex_hull.h"
-#include "preprocess/mesh/usual_size.h"
+#include "preprocess/mesh/triangle_mesh.h"
 #include "preprocess/mesh/wrap/grid_surface.h"
 #include "preprocess/mesh/wrap/hole_filling.h"
 #include "preprocess/mesh/wrap/mesh_coarsening.h"

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "preprocess/potential_flow/operators/near_moments.h"
+#include "preprocess/potential_flow/operators/solid_harmonics.h"
 
 namespace ambient {
 
@@ -39,6 +40,13 @@ class FarMoments {
 /// integral replaces the 1/2 of the jump relation, so thin bodies lose no digits.
 /// Cost: O(panels^2) time.
 PanelMoments computeExteriorMoments(const PanelSurface& surface, const NearPanels& near,
+                                    const Eigen::Matrix<double, Eigen::Dynamic, 6>& jump,
+                                    int threads);
+
+/// The moments of computeExteriorMoments() for the panels of a tree: pair by pair between near
+/// leaves, through expansions of dipoles between far clusters; docs/theory.md eq. (35). The same
+/// bits for every number of threads.
+PanelMoments computeExteriorMoments(const PanelTree& tree, const ClusterPairs& pairs, int degree,
                                     const Eigen::Matrix<double, Eigen::Dynamic, 6>& jump,
                                     int threads);
 

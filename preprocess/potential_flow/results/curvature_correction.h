@@ -1,8 +1,8 @@
 #pragma once
 
 #include "bullet_ambient/spatial/vector_types.h"
-#include "preprocess/potential_flow/surface/edge_cuts.h"
 #include "preprocess/potential_flow/surface/face_bulges.h"
+#include "preprocess/potential_flow/surface/surface_refinement.h"
 
 namespace ambient {
 

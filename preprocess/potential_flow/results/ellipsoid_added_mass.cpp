@@ -8,6 +8,7 @@
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
+#include "preprocess/mesh/geometry.h"
 #include "preprocess/mesh/mass_properties.h"
 
 namespace ambient {
@@ -56,8 +57,9 @@ Vector6 ellipsoidAddedMass(const Vector3& semi_axes) {
 
 namespace {
 
-PanelInertia ellipsoidPanel(const std::array<Vector3, 3>& corner, const Vector3& translation,
+PanelInertia ellipsoidPanel(const TriangleCorners& corners, const Vector3& translation,
                             const Vector3& rotation) {
+  const std::array<Vector3, 3> corner{corners.col(0), corners.col(1), corners.col(2)};
   const Vector3 twice_area = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
   PanelInertia panel;
   panel.normal = twice_area.normalized();
@@ -74,10 +76,6 @@ PanelInertia ellipsoidPanel(const std::array<Vector3, 3>& corner, const Vector3&
     panel.spread += products / 3;
   }
   return panel;
-}
-
-std::array<Vector3, 3> cornersOf(const TriangleMesh& mesh, Eigen::Index t) {
-  return {mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)};
 }
 
 }  // namespace
@@ -102,8 +100,9 @@ std::vector<PanelInertia> simplePanels(const TriangleMesh& mesh, const Vector6& 
   std::vector<PanelInertia> panels;
   Vector6 sum = Vector6::Zero();
   for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) {
-    const std::array<Vector3, 3> corners = cornersOf(mesh, t);
-    const Vector3 n = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
+    const TriangleCorners corners = cornersOf(mesh, t);
+    const Vector3 n =
+        (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0)).normalized();
     const Vector3 n2 = n.cwiseAbs2();
     const Vector3 rotation(n2.y() - n2.z(), n2.z() - n2.x(), n2.x() - n2.y());
     panels.push_back(ellipsoidPanel(corners, -Vector3::Ones(), rotation));

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "preprocess/potential_flow/solvers/matrix_block.h"
+#include "preprocess/potential_flow/solvers/flow_solver.h"
 
 namespace ambient {
 

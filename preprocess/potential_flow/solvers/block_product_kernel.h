@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include "preprocess/potential_flow/solvers/matrix_block.h"
+#include "preprocess/potential_flow/solvers/flow_solver.h"
 
 namespace ambient {
 

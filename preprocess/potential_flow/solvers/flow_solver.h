@@ -1,9 +1,33 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <cstddef>
+
 #include "preprocess/potential_flow/operators/far_moments.h"
 #include "preprocess/potential_flow/operators/hypersingular.h"
 
 namespace ambient {
+
+/// Returns the memory limit [bytes]: the setting, or the available memory if the setting is 0.
+double memoryLimit(double setting);
+
+/// @throws std::runtime_error in one line with both numbers if `bytes` is above `limit`.
+void requireMemory(Eigen::Index panels, double bytes, double limit);
+
+/// Reports that memory was not available. @throws std::runtime_error in one line, with the needed
+/// `bytes` if above 0.
+[[noreturn]] void raiseOutOfMemory(Eigen::Index panels, double bytes);
+
+/// A dense block of a matrix in memory.
+struct MatrixBlock {
+  const float* first;
+  std::ptrdiff_t rows, columns;
+  std::ptrdiff_t row_stride,
+      column_stride;  ///< distance in memory from one row, or column, to the next
+};
+
+/// Number of fields in a group; fields are stored side by side in whole groups.
+constexpr int kFieldGroup = 8;
 
 /// Jump of the potential across the surface, and data on its solution.
 struct Jump {

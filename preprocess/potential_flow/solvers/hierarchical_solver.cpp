@@ -9,9 +9,9 @@
 #include "bullet_ambient/base/pi.h"
 #include "preprocess/base/large_products.h"
 #include "preprocess/base/parallel_for.h"
+#include "preprocess/potential_flow/operators/far_moments.h"
 #include "preprocess/potential_flow/operators/hypersingular.h"
-#include "preprocess/potential_flow/operators/tree_double_layer.h"
-#include "preprocess/potential_flow/solvers/memory_limit.h"
+#include "preprocess/potential_flow/solvers/flow_solver.h"
 #include "preprocess/potential_flow/solvers/pair_integrals.h"
 
 namespace ambient {

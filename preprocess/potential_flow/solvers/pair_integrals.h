@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "preprocess/potential_flow/operators/cluster_expansions.h"
+#include "preprocess/potential_flow/operators/solid_harmonics.h"
 
 namespace ambient {
 

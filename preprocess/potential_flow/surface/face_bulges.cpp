@@ -5,8 +5,8 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/elementary.h"
-#include "preprocess/mesh/mesh_topology.h"
-#include "preprocess/potential_flow/surface/edge_cuts.h"
+#include "preprocess/mesh/triangle_mesh.h"
+#include "preprocess/potential_flow/surface/surface_refinement.h"
 
 namespace ambient {
 namespace {

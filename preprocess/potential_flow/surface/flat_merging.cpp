@@ -10,10 +10,10 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
+#include "preprocess/mesh/geometry.h"
 #include "preprocess/mesh/triangle_mesh.h"
-#include "preprocess/mesh/triangle_quality.h"
-#include "preprocess/potential_flow/surface/edge_cuts.h"
 #include "preprocess/potential_flow/surface/face_bulges.h"
+#include "preprocess/potential_flow/surface/surface_refinement.h"
 
 namespace ambient {
 namespace {

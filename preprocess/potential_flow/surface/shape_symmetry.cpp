@@ -8,8 +8,8 @@
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/mesh/mass_properties.h"
-#include "preprocess/mesh/mesh_topology.h"
-#include "preprocess/potential_flow/surface/edge_cuts.h"
+#include "preprocess/mesh/triangle_mesh.h"
+#include "preprocess/potential_flow/surface/surface_refinement.h"
 
 namespace ambient {
 namespace {

@@ -1,6 +1,6 @@
 #include <nlohmann/json.hpp>
 
-#include "preprocess/shape/json_text.h"
+#include "preprocess/shape/json_schema.h"
 #include "preprocess/shape/shape_mesh.h"
 #include "preprocess/shape/shape_reader.h"
 #include "tests/fuzz/targets/fuzz_file.h"

@@ -11,7 +11,6 @@
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/spatial/inertia.h"
-#include "preprocess/added_mass_tables/chebyshev_series.h"
 #include "preprocess/added_mass_tables/table_places.h"
 #include "tests/reference/body_added_mass.h"
 #include "tests/reference/sheet_added_mass.h"

@@ -14,9 +14,9 @@
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "preprocess/base/fluid_body_writer.h"
 #include "preprocess/builder/fluid_body_builder.h"
-#include "preprocess/mesh/join_meshes.h"
 #include "preprocess/mesh/shapes/primitives.h"
-#include "preprocess/polar/frontal_area.h"
+#include "preprocess/mesh/triangle_mesh.h"
+#include "preprocess/polar/polar.h"
 
 namespace ambient {
 namespace {

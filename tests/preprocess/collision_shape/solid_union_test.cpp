@@ -1,5 +1,3 @@
-#include "preprocess/collision_shape/solids/solid_union.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -11,12 +9,13 @@
 #include <vector>
 
 #include "bullet_ambient/base/pi.h"
+#include "preprocess/collision_shape/solids.h"
 #include "preprocess/mesh/defects/topology_defects.h"
 #include "preprocess/mesh/mass_properties.h"
-#include "preprocess/mesh/mend/crack_mending.h"
-#include "preprocess/mesh/mesh_topology.h"
+#include "preprocess/mesh/mend/mesh_mending.h"
 #include "preprocess/mesh/shapes/convex_hull.h"
 #include "preprocess/mesh/shapes/primitives.h"
+#include "preprocess/mesh/triangle_mesh.h"
 #include "preprocess/mesh/union/mesh_union.h"
 #include "preprocess/mesh/union/solid_tree.h"
 #include "preprocess/potential_flow/results/potential_flow.h"

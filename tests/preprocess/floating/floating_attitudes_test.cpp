@@ -1,5 +1,3 @@
-#include "preprocess/floating/floating_attitudes.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -11,7 +9,7 @@
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/fluid_body/packed/packed_hull.h"
 #include "bullet_ambient/spatial/inertia.h"
-#include "preprocess/floating/floating_energy.h"
+#include "preprocess/floating/floating_body.h"
 #include "tests/support/bodies/hull_bodies.h"
 #include "tests/support/refusal_of.h"
 

@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 
 #include "preprocess/hand_over.h"
-#include "preprocess/hand_over/ellipsoid_drag.h"
 #include "preprocess/hand_over/ellipsoid_fit.h"
 #include "tests/preprocess/hand_over/handed_bodies.h"
 #include "tests/support/bodies/hull_bodies.h"

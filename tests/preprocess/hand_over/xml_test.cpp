@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "preprocess/hand_over.h"
-#include "preprocess/hand_over/number_text.h"
+#include "preprocess/hand_over/handed_body.h"
 #include "tests/preprocess/hand_over/handed_bodies.h"
 
 namespace ambient::test {

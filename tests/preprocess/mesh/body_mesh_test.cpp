@@ -5,9 +5,8 @@
 #include <string>
 
 #include "preprocess/mesh/mass_properties.h"
-#include "preprocess/mesh/mesh_topology.h"
 #include "preprocess/mesh/shapes/primitives.h"
-#include "preprocess/mesh/weld_vertices.h"
+#include "preprocess/mesh/triangle_mesh.h"
 #include "preprocess/mesh/wrap/surface_wrap.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 

@@ -5,8 +5,8 @@
 #include <random>
 
 #include "preprocess/mesh/mass_properties.h"
-#include "preprocess/mesh/mesh_topology.h"
 #include "preprocess/mesh/shapes/primitives.h"
+#include "preprocess/mesh/triangle_mesh.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 
 namespace ambient {

@@ -9,9 +9,8 @@
 #include "bullet_ambient/base/pi.h"
 #include "preprocess/mesh/defects/surface_check.h"
 #include "preprocess/mesh/mass_properties.h"
-#include "preprocess/mesh/mesh_topology.h"
 #include "preprocess/mesh/shapes/primitives.h"
-#include "preprocess/mesh/weld_vertices.h"
+#include "preprocess/mesh/triangle_mesh.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 
 namespace ambient {

@@ -5,7 +5,7 @@
 #include <csignal>
 #include <limits>
 
-#include "preprocess/mesh/import/child_process.h"
+#include "preprocess/mesh/import/scene_triangles.h"
 #include "preprocess/mesh/shapes/primitives.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 #include "tests/preprocess/mesh/mesh_import_fixture.h"

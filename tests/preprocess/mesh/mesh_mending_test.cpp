@@ -6,7 +6,7 @@
 #include "preprocess/mesh/check/mesh_checks.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/shapes/primitives.h"
-#include "preprocess/mesh/weld_vertices.h"
+#include "preprocess/mesh/triangle_mesh.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 
 namespace ambient {

@@ -1,13 +1,11 @@
-#include "preprocess/mesh/polygon_triangles.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <random>
 
+#include "preprocess/mesh/geometry.h"
 #include "preprocess/mesh/shapes/primitives.h"
-#include "preprocess/mesh/triangle_quality.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 
 namespace ambient {

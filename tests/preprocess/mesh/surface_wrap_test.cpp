@@ -3,10 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "bullet_ambient/base/pi.h"
-#include "preprocess/mesh/join_meshes.h"
 #include "preprocess/mesh/mass_properties.h"
-#include "preprocess/mesh/mesh_topology.h"
 #include "preprocess/mesh/shapes/primitives.h"
+#include "preprocess/mesh/triangle_mesh.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 
 namespace ambient {

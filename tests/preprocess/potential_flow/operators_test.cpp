@@ -7,7 +7,7 @@
 #include "preprocess/mesh/shapes/primitives.h"
 #include "preprocess/potential_flow/operators/far_moments.h"
 #include "preprocess/potential_flow/operators/hypersingular.h"
-#include "preprocess/potential_flow/results/vertex_projection.h"
+#include "preprocess/potential_flow/results/potential_flow.h"
 #include "preprocess/potential_flow/solvers/block_product.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 #include "tests/reference/triangle_potentials.h"

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "preprocess/mesh/shapes/primitives.h"
+#include "preprocess/potential_flow/operators/far_moments.h"
 #include "preprocess/potential_flow/operators/solid_harmonics.h"
-#include "preprocess/potential_flow/operators/tree_double_layer.h"
 #include "preprocess/potential_flow/solvers/pair_integrals.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "preprocess/robot/file_reference.h"
+#include "preprocess/robot/robot_model.h"
 #include "tests/preprocess/robot/urdf_text_of.h"
 #include "tests/support/comma_locale.h"
 #include "tests/support/refusal_of.h"

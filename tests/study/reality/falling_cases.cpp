@@ -12,7 +12,7 @@
 #include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/mesh/shapes/primitives.h"
 #include "preprocess/potential_flow/results/ellipsoid_added_mass.h"
-#include "preprocess/shape/json_text.h"
+#include "preprocess/shape/json_schema.h"
 #include "preprocess/shape/shape_reader.h"
 
 namespace ambient {

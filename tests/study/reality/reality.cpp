@@ -9,7 +9,7 @@
 
 #include "demos/simulation/output/output_folder.h"
 #include "preprocess/base/output_file.h"
-#include "preprocess/shape/json_text.h"
+#include "preprocess/shape/json_schema.h"
 #include "tests/study/reality/falling_run.h"
 #include "tests/study/reality/measured_coefficient.h"
 #include "tests/study/reality/measured_shapes.h"

@@ -11,7 +11,7 @@
 #include <sstream>
 #include <utility>
 
-#include "preprocess/shape/json_text.h"
+#include "preprocess/shape/json_schema.h"
 #include "tests/study/reality/falling_run.h"
 #include "tests/study/reality/measured_coefficient.h"
 #include "tests/study/reality/measured_shapes.h"

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "preprocess/mesh/check/mesh_checks.h"
+#include "preprocess/mesh/geometry.h"
 #include "preprocess/mesh/shapes/primitives.h"
-#include "preprocess/mesh/triangle_quality.h"
 #include "preprocess/potential_flow/results/refined_flow.h"
 #include "preprocess/potential_flow/surface/surface_refinement.h"
 #include "tests/preprocess/potential_flow/flow_fixtures.h"

@@ -8,7 +8,6 @@
 #include "preprocess/mesh/check/mesh_checks.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/shapes/primitives.h"
-#include "preprocess/waterline/wet_mesh.h"
 #include "tests/preprocess/potential_flow/study/image_flow/surface_cases.h"
 #include "tests/reference/body_added_mass.h"
 #include "tests/reference/ellipsoid_added_mass.h"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "preprocess/builder/fluid_body_builder.h"
-#include "preprocess/mesh/graded_grid.h"
+#include "preprocess/mesh/triangle_mesh.h"
 
 namespace ambient::study {
 namespace {

@@ -1,4 +1,4 @@
-#include "preprocess/potential_flow/solvers/memory_limit.h"
+#include "preprocess/potential_flow/solvers/flow_solver.h"
 
 #include <unistd.h>
 

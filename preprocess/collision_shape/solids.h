@@ -1,0 +1,100 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bullet_ambient/spatial/vector_types.h"
+#include "preprocess/mesh/triangle_mesh.h"
+#include "preprocess/shape/shape_mesh.h"
+
+namespace ambient {
+
+/// A closed part of a collision shape, in the shape's frame, with the volume of the smooth body.
+struct Solid {
+  TriangleMesh mesh;  ///< triangles for the loads
+  TriangleMesh
+      flow;  ///< finer triangles of the same body for the flow alone; empty: `mesh` is used
+  TriangleMesh coarse_flow;  ///< coarser triangles for the flow: from these to `flow`, the error
+                             ///< shrinks as 1 / flow_ratio
+  double flow_ratio =
+      0;  ///< ratio of the numbers of triangles, to extrapolate the result; 0: no extrapolation
+  TriangleMesh cavities;  ///< closed surfaces inside the body; they only matter to the uniform mass
+  /// Added mass from a closed form or a table, about the shape's origin, per unit density; none:
+  /// neither exists.
+  std::optional<Matrix6> added_mass;
+  bool is_polyhedron = false;         ///< its flat sides are the body's, and no approximation
+  double sphere_radius = 0;           ///< radius of a sphere [m]; 0: any other shape
+  std::string name;                   ///< name of the part: "crane: child 1: child 0 (Box)"
+  std::vector<std::string> warnings;  ///< what a user should know about it, one line each
+};
+
+/// Largest number of triangles of many solids together, over the number aimed at, as far as their
+/// kinds allow.
+constexpr int kMostOfMany = 6;
+
+/// Resolution of the triangles of solids.
+struct SolidResolution {
+  int faces = 0;        ///< number of triangles for the loads, of all solids together
+  int least_faces = 0;  ///< least number per solid, unless that makes more than kMostOfMany allows
+  int flow_faces = 0;   ///< number of triangles for the flow, of all solids together
+  bool tables = true;   ///< of the added mass, as far as they reach
+  bool strict = false;  ///< refuse triangles that are not a closed body
+  double unit = 1;      ///< a length of 1 in metres, for warnings
+};
+
+/// Returns the added mass of a part about its own origin, in its axes, per unit density; none if
+/// the tables of simple shapes do not have it.
+std::optional<Matrix6> tabulatedAddedMass(const Shape& shape);
+
+/// Makes the solids of the parts of a shape, in the frame of the shape. The number of faces is
+/// divided among them.
+/// @throws std::runtime_error in one line that begins with the part's name, for one that cannot be
+/// a body in a fluid.
+std::vector<Solid> makeSolids(const std::vector<PlacedShape>& parts,
+                              const SolidResolution& resolution);
+
+/// Divides the triangles of a mesh, leaving its surface as it is. Edges get at most 2.5 times as
+/// long as those of `faces` equilateral triangles of the same area; longer, if narrow strips would
+/// make more than twice as many triangles.
+TriangleMesh evenlyDivided(const TriangleMesh& mesh, int faces);
+
+/// Replacement for children of a compound that touch or overlap and cannot be united.
+enum class CompoundFallback {
+  kHull,    ///< their convex hull: a real flow, but more volume
+  kSum,     ///< the sum of the added masses of each alone: right volume if they only touch, no
+            ///< interaction
+  kRefuse,  ///< nothing: an exception
+};
+
+struct UnionSettings {
+  int faces = 0;  ///< triangles aimed at
+  CompoundFallback fallback = CompoundFallback::kHull;
+};
+
+/// Solids with gaps between them, made of the solids of one shape.
+struct SeparateSolids {
+  std::vector<Solid> solids;
+  bool has_unions = false;  ///< true: some of them are unions
+  bool is_sum = false;  ///< true: CompoundFallback::kSum was needed; some of them touch or overlap
+};
+
+/// Returns true if all of them are polyhedra.
+bool arePolyhedra(const std::vector<Solid>& solids);
+
+/// Unites solids that touch or overlap, or leave gaps too narrow for the flow (kLeastGap). Each
+/// keeps what of its surface lies outside the others; where that leaves no closed surface, as when
+/// they touch in an edge, they are blown up about their centres by 0.03 %, then by 0.12 %. Cost
+/// O(T P) for triangles T of one and planes P of the other.
+/// @throws std::runtime_error in one line that begins with `name` and names two of them, if they
+/// cannot be united and the settings say so.
+SeparateSolids uniteSolids(const std::vector<Solid>& solids, const UnionSettings& settings,
+                           const std::string& name);
+
+/// Applies the settings' fallback to solids that touch or overlap, and warns. For solids that could
+/// be united, but around whose union the flow could not be solved; `reason` says why.
+/// @throws std::runtime_error as uniteSolids().
+SeparateSolids replaceUnions(const std::vector<Solid>& solids, const UnionSettings& settings,
+                             const std::string& reason, const std::string& name);
+
+}  // namespace ambient
