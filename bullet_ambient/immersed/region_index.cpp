@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 namespace ambient {
 namespace {
@@ -42,11 +44,6 @@ bool holds(const FluidRegion& region, const Vector3& point_W) noexcept {
 
 }  // namespace
 
-RegionIndex::Tree RegionIndex::lastTree(std::size_t end) noexcept {
-  const std::size_t lowest_digit = end & (~end + 1);
-  return {end - lowest_digit, lowest_digit};
-}
-
 RegionIndex::Node RegionIndex::leafNode(const RegionEntry* entry) noexcept {
   return entry ? Node{boxOf(entry->region), entry->rank()} : Node{};
 }
@@ -57,44 +54,55 @@ RegionIndex::Node RegionIndex::around(const Node& a, const Node& b) noexcept {
 }
 
 void RegionIndex::add(RegionEntry& entry) {
-  nodes_.resize(2 * leaves_.size() + 2);
-  leaves_.push_back(&entry);
-  build(lastTree(leaves_.size()));
+  std::vector<RegionEntry*> leaves{&entry};
+  auto joined = trees_.end();
+  while (joined != trees_.begin() && std::prev(joined)->count() == leaves.size()) {
+    --joined;
+    leaves.insert(leaves.end(), joined->leaves.begin(), joined->leaves.end());
+  }
+  Tree tree = makeTree(std::move(leaves));
+  trees_.erase(joined, trees_.end());
+  trees_.push_back(std::move(tree));
+  ++leaf_count_;
 }
 
 void RegionIndex::remove(const RegionEntry& entry) {
-  leaves_[entry.leaf] = nullptr;
-  Tree tree = lastTree(leaves_.size());
-  while (tree.first > entry.leaf) tree = lastTree(tree.first);
-  std::size_t i = tree.count + entry.leaf - tree.first;
-  node(tree, i) = {};
-  while (i /= 2) node(tree, i) = around(node(tree, 2 * i), node(tree, 2 * i + 1));
-  if (2 * ++removed_ > leaves_.size()) dropEmptyLeaves();
+  const auto tree = std::find_if(trees_.begin(), trees_.end(), [&entry](const Tree& one) {
+    return entry.leaf < one.count() && one.leaves[entry.leaf] == &entry;
+  });
+  tree->leaves[entry.leaf] = nullptr;
+  std::size_t i = tree->count() + entry.leaf;
+  tree->nodes[i] = {};
+  while (i /= 2) tree->nodes[i] = around(tree->nodes[2 * i], tree->nodes[2 * i + 1]);
+  if (2 * ++removed_ > leaf_count_) dropEmptyLeaves();
 }
 
 void RegionIndex::dropEmptyLeaves() {
-  leaves_.erase(std::remove(leaves_.begin(), leaves_.end(), nullptr), leaves_.end());
-  nodes_.resize(2 * leaves_.size());
-  removed_ = 0;
-  for (Tree tree{leaves_.size(), 0}; tree.first > 0;) build(tree = lastTree(tree.first));
+  const std::vector<Tree> before = std::exchange(trees_, {});
+  removed_ = leaf_count_ = 0;
+  for (const Tree& tree : before)
+    for (RegionEntry* entry : tree.leaves)
+      if (entry) add(*entry);
 }
 
-void RegionIndex::build(const Tree& tree) {
-  sortLeaves(tree.first, tree.count);
-  for (std::size_t i = 0; i < tree.count; ++i) {
-    RegionEntry* entry = leaves_[tree.first + i];
-    if (entry) entry->leaf = tree.first + i;
-    node(tree, tree.count + i) = leafNode(entry);
+RegionIndex::Tree RegionIndex::makeTree(std::vector<RegionEntry*> leaves) {
+  const std::size_t count = leaves.size();
+  sortLeaves(leaves.data(), count);
+  Tree tree{std::move(leaves), std::vector<Node>(2 * count)};
+  for (std::size_t i = 0; i < count; ++i) {
+    RegionEntry* entry = tree.leaves[i];
+    if (entry) entry->leaf = i;
+    tree.nodes[count + i] = leafNode(entry);
   }
-  for (std::size_t i = tree.count; --i > 0;)
-    node(tree, i) = around(node(tree, 2 * i), node(tree, 2 * i + 1));
+  for (std::size_t i = count; --i > 0;)
+    tree.nodes[i] = around(tree.nodes[2 * i], tree.nodes[2 * i + 1]);
+  return tree;
 }
 
 // Halves by places along the axis on which these are farthest apart, and each half again.
-void RegionIndex::sortLeaves(std::size_t first, std::size_t count) {
+void RegionIndex::sortLeaves(RegionEntry** begin, std::size_t count) {
   if (count < 2) return;
-  const auto begin = leaves_.begin() + static_cast<std::ptrdiff_t>(first);
-  const auto end = begin + static_cast<std::ptrdiff_t>(count);
+  RegionEntry** const end = begin + count;
   int widest = 0;
   double width = -1;
   for (int axis = 0; axis < 3; ++axis) {
@@ -107,12 +115,12 @@ void RegionIndex::sortLeaves(std::size_t first, std::size_t count) {
     width = high - low;
     widest = axis;
   }
-  std::nth_element(begin, begin + static_cast<std::ptrdiff_t>(count / 2), end,
+  std::nth_element(begin, begin + count / 2, end,
                    [widest](const RegionEntry* a, const RegionEntry* b) {
                      return placeOf(a, widest) < placeOf(b, widest);
                    });
-  sortLeaves(first, count / 2);
-  sortLeaves(first + count / 2, count / 2);
+  sortLeaves(begin, count / 2);
+  sortLeaves(begin + count / 2, count / 2);
 }
 
 // The box of the higher rank first: what is found there makes most others needless.
@@ -120,22 +128,21 @@ template <class Visit>
 void RegionIndex::forEachNear(const Vector3& point_W, double reach, long long& asked,
                               const Visit& visit) const noexcept {
   RegionRank highest = kNoRank;
-  for (Tree tree{leaves_.size(), 0}; tree.first > 0;) {
-    tree = lastTree(tree.first);
+  for (auto tree = trees_.rbegin(); tree != trees_.rend(); ++tree) {
     constexpr int kDeepest = std::numeric_limits<std::size_t>::digits + 1;
     std::size_t waiting[kDeepest] = {1};
     int count = 1;
     while (count > 0) {
       const std::size_t i = waiting[--count];
-      const Node& box = node(tree, i);
+      const Node& box = tree->nodes[i];
       if (!(highest < box.best)) continue;
       ++asked;
       if (!mayMeet(box.box, point_W, reach)) continue;
-      if (i >= tree.count) {
-        if (visit(*leaves_[tree.first + i - tree.count])) highest = box.best;
+      if (i >= tree->count()) {
+        if (visit(*tree->leaves[i - tree->count()])) highest = box.best;
         continue;
       }
-      const bool is_second_higher = node(tree, 2 * i).best < node(tree, 2 * i + 1).best;
+      const bool is_second_higher = tree->nodes[2 * i].best < tree->nodes[2 * i + 1].best;
       waiting[count++] = 2 * i + (is_second_higher ? 0 : 1);
       waiting[count++] = 2 * i + (is_second_higher ? 1 : 0);
     }

@@ -17,7 +17,7 @@ using RegionRank = std::pair<int, int>;
 struct RegionEntry {
   RegionId id = RegionId::kNone;
   FluidRegion region;
-  std::size_t leaf = 0;  ///< place in RegionIndex
+  std::size_t leaf = 0;  ///< place in its tree of RegionIndex
 
   RegionRank rank() const noexcept { return {region.priority, static_cast<int>(id)}; }
 };
@@ -29,10 +29,9 @@ struct RegionsAround {
   bool is_alone = true;
 };
 
-/// Finds the region of highest rank at a point, by binary trees of bounding boxes. There is one
-/// tree for each binary digit 1 of the number of leaves: adding a region rebuilds only small trees,
-/// as adding 1 to a number changes only its last digits. Holds addresses of regions, which must not
-/// move.
+/// Finds the region of highest rank at a point, by binary trees of bounding boxes. A region that is
+/// added makes a tree of one leaf; two trees of the same size become one, so that most additions
+/// build small trees only. Holds addresses of regions, which must not move.
 class RegionIndex {
  public:
   /// Adds a region. Cost: O(log^2 n) on average over n additions.
@@ -63,20 +62,19 @@ class RegionIndex {
     RegionBounds box{Vector3::Constant(kInfinity), Vector3::Constant(-kInfinity)};  // closed
     RegionRank best = kNoRank;  // of the regions in it
   };
-  // Leaves `first` to `first + count`, a power of two. Node i has the children 2 i and 2 i + 1; the
-  // root is node 1, the leaves are nodes `count` and above.
+  // A tree over 2^k regions. Node i has the children 2 i and 2 i + 1; the root is node 1, the
+  // leaves are nodes count() and above.
   struct Tree {
-    std::size_t first, count;
+    std::vector<RegionEntry*> leaves;  // null: removed
+    std::vector<Node> nodes;
+
+    std::size_t count() const noexcept { return leaves.size(); }
   };
 
-  // The last tree of those over leaves 0 to `end`.
-  static Tree lastTree(std::size_t end) noexcept;
-  Node& node(const Tree& tree, std::size_t i) { return nodes_[2 * tree.first + i]; }
-  const Node& node(const Tree& tree, std::size_t i) const { return nodes_[2 * tree.first + i]; }
   static Node leafNode(const RegionEntry* entry) noexcept;
   static Node around(const Node& a, const Node& b) noexcept;
-  void build(const Tree& tree);
-  void sortLeaves(std::size_t first, std::size_t count);
+  static Tree makeTree(std::vector<RegionEntry*> leaves);
+  static void sortLeaves(RegionEntry** begin, std::size_t count);
   void dropEmptyLeaves();
   // Calls visit(entry) for regions that may meet the cube with its half edge `reach` [m] around a
   // point: in each tree those of higher rank first, and none that ranks below one for which
@@ -85,9 +83,8 @@ class RegionIndex {
   void forEachNear(const Vector3& point_W, double reach, long long& asked,
                    const Visit& visit) const noexcept;
 
-  std::vector<RegionEntry*> leaves_;  // null: removed
-  std::vector<Node> nodes_;           // two for each leaf
-  std::size_t removed_ = 0;
+  std::vector<Tree> trees_;  // of different sizes, the largest first
+  std::size_t leaf_count_ = 0, removed_ = 0;
 };
 
 }  // namespace ambient

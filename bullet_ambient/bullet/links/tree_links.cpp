@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "bullet_ambient/bullet/core/body_motion.h"
-#include "bullet_ambient/bullet/members/attach_link.h"
+#include "bullet_ambient/bullet/members/attach.h"
 #include "bullet_ambient/bullet/members/flight_coupling.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
 #include "bullet_ambient/force/loads/surface_loads.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bullet_ambient/bullet/core/body_motion.h"
-#include "bullet_ambient/bullet/members/attach_link.h"
+#include "bullet_ambient/bullet/members/attach.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
 #include "bullet_ambient/force/surface/buoyancy.h"
 #include "bullet_ambient/immersed/surface_encounter.h"

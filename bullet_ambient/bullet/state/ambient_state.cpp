@@ -5,8 +5,7 @@
 #include <utility>
 
 #include "bullet_ambient/bullet/links/tree_links.h"
-#include "bullet_ambient/bullet/members/attach_body.h"
-#include "bullet_ambient/bullet/members/attach_link.h"
+#include "bullet_ambient/bullet/members/attach.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
 #include "bullet_ambient/immersed/region_following.h"
 #include "bullet_ambient/immersed/surface_encounter.h"

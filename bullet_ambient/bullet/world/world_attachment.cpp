@@ -16,8 +16,7 @@
 
 #include "bullet_ambient/attach_world.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
-#include "bullet_ambient/bullet/members/attach_body.h"
-#include "bullet_ambient/bullet/members/attach_link.h"
+#include "bullet_ambient/bullet/members/attach.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
 
 AMBIENT_BEGIN

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bullet_ambient/bullet/members/attach_body.h"
+#include "bullet_ambient/bullet/members/attach.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 
 namespace ambient::test {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
-#include "bullet_ambient/bullet/members/attach_body.h"
+#include "bullet_ambient/bullet/members/attach.h"
 #include "bullet_ambient/impulse.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/support/bodies/free_body.h"

@@ -1,0 +1,327 @@
+#include "bullet_ambient/bullet/members/attach.h"
+
+#include <BulletDynamics/Featherstone/btMultiBody.h>
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "bullet_ambient/base/plain_text.h"
+#include "bullet_ambient/bullet/core/body_motion.h"
+#include "bullet_ambient/bullet/members/ambient_bodies.h"
+#include "bullet_ambient/bullet/members/tree_state.h"
+#include "bullet_ambient/immersed/region_following.h"
+
+AMBIENT_BEGIN
+namespace {
+
+btScalar massOf(const btMultiBody& body, int link) {
+  return link < 0 ? body.getBaseMass() : body.getLinkMass(link);
+}
+const btVector3& inertiaOf(const btMultiBody& body, int link) {
+  return link < 0 ? body.getBaseInertia() : body.getLinkInertia(link);
+}
+
+double inverseNumber(btScalar a) { return static_cast<double>(a != 0 ? 1 / a : btScalar(0)); }
+
+void checkFlight(const std::string& who, const FlightSettings& flight) {
+  if (!(flight.tolerance > 0) || !std::isfinite(flight.tolerance)) {
+    throw std::invalid_argument(who + " has a flight tolerance of " +
+                                std::to_string(flight.tolerance) +
+                                ", which must be positive and finite");
+  }
+  if (flight.max_substeps < 0) {
+    throw std::invalid_argument(who + " has max_substeps of " +
+                                std::to_string(flight.max_substeps) +
+                                ", which must be zero or positive");
+  }
+}
+
+template <class Choice, class Names>
+void checkChoice(const std::string& who, const char* what, Choice choice, const Names& names) {
+  if (wordOf(names, choice)) return;
+  throw std::invalid_argument(who + " has " + what + " number " +
+                              std::to_string(static_cast<int>(choice)) + "; there are 0 to " +
+                              std::to_string(names.size() - 1));
+}
+
+}  // namespace
+
+void checkDef(const std::string& who, const AttachDef& def) {
+  checkFlight(who, def.flight);
+  checkChoice(who, "the pressure law", def.flow.law, kPressureLawNames);
+  checkChoice(who, "the load precision", def.flow.precision, kLoadPrecisionNames);
+}
+
+void refresh(AmbientBody& ambient, const InverseMass& mass, const MotionView& now,
+             AmbientBodies& bodies) {
+  refreshModels(ambient, mass, bodies.regions, bodies.load_tables);
+  if (mayBeInRegion(ambient, bodies.regions)) {
+    followRegions(ambient, now, bodies.regions, 0, bodies.complaints);
+  } else {
+    stayInOwnMedium(ambient, bodies.regions, 0);
+  }
+}
+
+InverseMass inverseOf(btScalar mass, const btVector3& inertia) noexcept {
+  return {inverseNumber(mass),
+          {inverseNumber(inertia.x()), inverseNumber(inertia.y()), inverseNumber(inertia.z())}};
+}
+
+InverseMass inverseMassOf(const btMultiBody& body, int link) noexcept {
+  return inverseOf(massOf(body, link), inertiaOf(body, link));
+}
+
+void readLinkPose(const btMultiBody& body, AmbientLink& link) noexcept {
+  setMotion(linkTransform(body, link.link), link.now.twist_W, link.now);
+}
+
+void wake(btMultiBody& body) noexcept {
+  body.wakeUp();
+  if (body.getBaseCollider()) body.getBaseCollider()->activate();
+  for (int i = 0; i < body.getNumLinks(); ++i)
+    if (body.getLink(i).m_collider) body.getLink(i).m_collider->activate();
+}
+
+namespace {
+
+bool isFixed(const btMultiBody& body, int link) {
+  return link >= 0 && body.getLink(link).m_jointType == btMultibodyLink::eFixed;
+}
+
+// Pose of a link at a fixed joint in its parent's frame; does not depend on the tree's motion.
+btTransform poseInParent(const btMultibodyLink& link) {
+  const btQuaternion turn = link.m_cachedRotParentToThis.inverse();
+  return btTransform(turn, quatRotate(turn, link.m_cachedRVector));
+}
+
+}  // namespace
+
+std::optional<FixedLink> carrierOf(const btMultiBody& body, int link) {
+  const auto mass = [&](int of) { return of < 0 ? body.getBaseMass() : body.getLinkMass(of); };
+  std::vector<FixedLink> reached{{link, btTransform::getIdentity()}};
+  const auto reach = [&](int next, const btTransform& pose) {
+    const auto is_next = [next](const FixedLink& known) { return known.link == next; };
+    if (std::none_of(reached.begin(), reached.end(), is_next)) reached.push_back({next, pose});
+  };
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    const FixedLink here = reached[i];
+    if (mass(here.link) > 0 || (here.link < 0 && body.hasFixedBase())) return here;
+    if (isFixed(body, here.link)) {
+      const btMultibodyLink& joint = body.getLink(here.link);
+      reach(joint.m_parent, poseInParent(joint) * here.pose);
+    }
+    for (int child = here.link + 1; child < body.getNumLinks(); ++child)
+      if (isFixed(body, child) && body.getParent(child) == here.link)
+        reach(child, poseInParent(body.getLink(child)).inverse() * here.pose);
+  }
+  return std::nullopt;
+}
+
+std::vector<FixedLink> carriedBy(const btMultiBody& body, int carrier) {
+  std::vector<FixedLink> carried;
+  for (int link = -1; link < body.getNumLinks(); ++link) {
+    if (link == carrier) continue;
+    const auto found = carrierOf(body, link);
+    if (found && found->link == carrier) carried.push_back({link, found->pose});
+  }
+  return carried;
+}
+
+namespace {
+
+// Reports mass and shape that can be computed with, but were hardly meant.
+void warnOfSuspiciousMass(const AmbientBody& ambient, Complaints& complaints) {
+  constexpr double kRounding = 1e-3;
+  const FluidBody& shape = *ambient.def->fluid_body;
+  const std::string who = "bullet_ambient: " + nameOf(*ambient.def) + ' ';
+  const Vector3 moments = ambient.models->inverse_mass.moments();
+  const double largest = moments.maxCoeff(), others = moments.sum() - largest;
+  if (largest > (1 + kRounding) * others) {
+    const std::string text = who + "has a principal moment of inertia of " +
+                             std::to_string(largest) + " kg m^2, but no rigid body has one above " +
+                             std::to_string(others) + " kg m^2, the sum of the other two";
+    complaints.say(Complaint::kInertia, text.c_str());
+  }
+  if (ambient.isInFluid() && !ambient.model().loads && !(shape.volume > 0) &&
+      shape.added_mass.isZero(0)) {
+    const std::string text =
+        who + "feels no fluid: without faces, volume and added mass its shape is empty";
+    complaints.say(Complaint::kEmpty, text.c_str());
+  }
+}
+
+// Refuses a definition without a shape.
+void requireShape(const AttachDef& def) {
+  if (!def.fluid_body)
+    throw std::invalid_argument("add: the fluid body is null; load one with loadFluidBody()");
+}
+
+[[noreturn]] void refuseTwice(const std::string& who) {
+  throw std::invalid_argument(who +
+                              " was added already; use Immersed::setMedium(), or remove it first");
+}
+
+// Gives a new body or link its definition and models.
+void immerse(AmbientBody& ambient, const std::string& who, AttachDef def, const InverseMass& mass,
+             const MotionView& now, AmbientBodies& bodies) {
+  checkDef(who, def);
+  ambient.def = shareDef(std::move(def), bodies.load_tables);
+  refresh(ambient, mass, now, bodies);
+}
+
+}  // namespace
+
+AmbientBody& attachBody(AmbientBodies& bodies, btRigidBody& body, AttachDef def) {
+  requireShape(def);
+  if (def.name.empty() && bodies.naming) def.name = bodies.naming(body);
+  const std::string who = "add: " + nameOf(def);
+  if (body.isStaticOrKinematicObject()) {
+    throw std::invalid_argument(
+        who + " is static or kinematic (mass 0); only dynamic bodies feel a fluid");
+  }
+  if (!(body.getInvMass() > 0)) {
+    throw std::invalid_argument(who + " has an inverse mass of " +
+                                std::to_string(body.getInvMass()) +
+                                "; must be positive and finite");
+  }
+  if (bodies.find(&body)) refuseTwice(who);
+  AmbientBody ambient;
+  ambient.body = &body;
+  immerse(ambient, who, std::move(def), inverseMassOf(body), motionOf(body), bodies);
+  if (ambient.isInFluid()) body.activate();
+  warnOfSuspiciousMass(ambient, bodies.complaints);
+  return bodies.insert(std::move(ambient));
+}
+
+namespace {
+
+void checkTreeOf(const std::string& who, const LinkOf& at) {
+  if (at.link < -1 || at.link >= at.multi_body.getNumLinks()) {
+    throw std::invalid_argument(who + ": the btMultiBody has links 0 to " +
+                                std::to_string(at.multi_body.getNumLinks() - 1) +
+                                ", and its base is link -1");
+  }
+  if (at.multi_body.isUsingRK4Integration()) {
+    throw std::invalid_argument(
+        who + ": useRK4Integration moves a btMultiBody by its dry mass; switch it off");
+  }
+}
+
+void checkLinkMass(const std::string& who, const LinkOf& at) {
+  if (at.link < 0 && at.multi_body.isBaseStaticOrKinematic()) {
+    throw std::invalid_argument(who + " is static or kinematic; only what moves feels a fluid");
+  }
+  const btScalar mass = massOf(at.multi_body, at.link);
+  if (!(mass > 0)) {
+    throw std::invalid_argument(who + " has a mass of " + std::to_string(mass) +
+                                " kg; must be positive, or that of a link at a fixed joint");
+  }
+}
+
+// Moves a definition to the link that carries the given one.
+LinkOf carry(const LinkOf& at, AttachDef& def) {
+  const auto carrier = carrierOf(at.multi_body, at.link);
+  if (!carrier || carrier->link == at.link) return at;
+  const Matrix3 turn = toQuaternion(carrier->pose.getRotation()).toRotationMatrix();
+  def.fluid_frame.translation =
+      turn * def.fluid_frame.translation + toVector3(carrier->pose.getOrigin());
+  def.fluid_frame.rotation = turn * def.fluid_frame.rotation;
+  return {at.multi_body, carrier->link};
+}
+
+}  // namespace
+
+AmbientBody& attachLink(AmbientBodies& bodies, btMultiBodyDynamicsWorld& world, const LinkOf& given,
+                        AttachDef def) {
+  requireShape(def);
+  const std::string link_name = "add: link " + std::to_string(given.link);
+  checkTreeOf(link_name + " with fluid body '" + def.fluid_body->name + "'", given);
+  const btCollisionObject* collider = given.link < 0 ? given.multi_body.getBaseCollider()
+                                                     : given.multi_body.getLinkCollider(given.link);
+  if (def.name.empty() && collider && bodies.naming) def.name = bodies.naming(*collider);
+  const std::string who = def.name.empty()
+                              ? link_name + " with fluid body '" + def.fluid_body->name + "'"
+                              : link_name + ", '" + def.name + "',";
+  const LinkOf at = carry(given, def);
+  checkLinkMass(who, at);
+  const AmbientTree* known = bodies.trees.at(&at.multi_body);
+  if (known && !(known->isSame() && hasLinksOf(at.multi_body, known->tree))) {
+    bodies.trees.erase(at.multi_body);  // of another one that was destroyed at this address
+    known = nullptr;
+  }
+  if (known && known->find(at.link)) {
+    if (at.link != given.link)
+      throw std::invalid_argument(who + " has no mass, and link " + std::to_string(at.link) +
+                                  ", which carries it, was added already");
+    refuseTwice(who);
+  }
+  auto link = std::make_unique<AmbientLink>(at.link);
+  link->mass = inverseMassOf(at.multi_body, at.link);
+  link->now.gravity = toVector3(world.getGravity());
+  readLinkPose(at.multi_body, *link);
+  AmbientBody& attached = link->ambient;
+  immerse(attached, who, std::move(def), link->mass, link->now, bodies);
+  bodies.trees.insert(world, at.multi_body, std::move(link));
+  wake(at.multi_body);
+  return attached;
+}
+
+DisplacedMass displacedMass(const AmbientBody& ambient) {
+  double density = ambient.medium.density;
+  if (ambient.place.region != RegionId::kNone)
+    for (const SurfaceMedia& surface : ambient.models->surfaces)
+      density = std::min(density, surface.kind.mediumAbove(ambient.def->medium).density);
+  return {1 / ambient.models->inverse_mass.mass, ambient.def->fluid_body->volume * density};
+}
+
+namespace {
+
+double wholeMass(const btMultiBody& body) {
+  if (body.hasFixedBase()) return std::numeric_limits<double>::infinity();
+  double mass = static_cast<double>(body.getBaseMass());
+  for (int i = 0; i < body.getNumLinks(); ++i) mass += static_cast<double>(body.getLinkMass(i));
+  return mass;
+}
+
+DisplacedMass displacedMassOf(const AmbientTree& tree) {
+  DisplacedMass all{wholeMass(*tree.multi_body), 0};
+  for (const auto& link : tree.links) all.medium += displacedMass(link->ambient).medium;
+  return all;
+}
+
+}  // namespace
+
+std::optional<DisplacedMass> risingMass(const AmbientBody& ambient, const AmbientTree* tree,
+                                        const btVector3& gravity) {
+  const btRigidBody* body = ambient.body;
+  const bool falls =
+      (body && !body->getGravity().isZero()) || (!(body && body->isInWorld()) && !gravity.isZero());
+  if (!falls) return std::nullopt;
+  const DisplacedMass own = displacedMass(ambient);
+  const DisplacedMass all = tree ? displacedMassOf(*tree) : own;
+  const DisplacedMass before{all.body, all.medium - own.medium};
+  if (!all.isMuchLighter() || (tree && before.isMuchLighter())) return std::nullopt;
+  return all;
+}
+
+void warnOfLightBody(Complaints& complaints, const AttachDef& def, const DisplacedMass& mass,
+                     int count) {
+  std::ostringstream text;
+  text.precision(3);
+  text << "bullet_ambient: " << nameOf(def) << " has a mass of " << mass.body
+       << " kg and displaces " << mass.medium << " kg of its medium, so that it rises";
+  if (count > 1) text << ", and so do " << count - 1 << " more of less than half that mass";
+  text << "; if they are no balls, floats or balloons, give them the mass of their volume";
+  complaints.say(Complaint::kLight, text.str().c_str());
+}
+
+AMBIENT_END
