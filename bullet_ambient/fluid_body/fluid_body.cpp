@@ -1,5 +1,6 @@
 #include "bullet_ambient/fluid_body/fluid_body.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -20,6 +21,16 @@ void scale(FaceTable& faces, double factor) {
   for (std::vector<double>* column : {&faces.centroid_x, &faces.centroid_y, &faces.centroid_z})
     scale(*column, factor);
   scale(faces.area, factor * factor);
+}
+
+template <class Number, class Shape>
+std::array<Number*, FormShape::kNumbers> numbersOf(Shape& shape) {
+  std::array<Number*, FormShape::kNumbers> all{&shape.wing, &shape.edges, &shape.aspect,
+                                               &shape.chord};
+  std::size_t at = 4;
+  for (auto* vector : {&shape.facing, &shape.span, &shape.slender, &shape.pitching, &shape.centre})
+    for (Number& number : *vector) all[at++] = &number;
+  return all;
 }
 
 // The mass stays 1 kg, so that the inertia grows with the square.
@@ -44,6 +55,16 @@ void FaceTable::add(const Vector3& face_normal, const Vector3& face_centroid, do
   centroid_y.push_back(face_centroid.y());
   centroid_z.push_back(face_centroid.z());
   area.push_back(face_area);
+}
+
+double FormShape::pitchingArm(const Vector3& normal, const Vector3& place) const {
+  return pitching.dot((place - centre).cross(normal));
+}
+
+std::array<double*, FormShape::kNumbers> FormShape::numbers() { return numbersOf<double>(*this); }
+
+std::array<const double*, FormShape::kNumbers> FormShape::numbers() const {
+  return numbersOf<const double>(*this);
 }
 
 Eigen::Matrix<double, Eigen::Dynamic, 6> computeSlipMatrix(const FaceTable& faces) {
@@ -77,6 +98,9 @@ FluidBody scaled(const FluidBody& body, double factor) {
   scale(result.surface_mass, factor);
   scale(result.faces, factor);
   scale(result.surface.vertices, factor);
+  result.form.shape.chord *= factor;
+  result.form.shape.centre *= factor;
+  scale(result.form.faces, factor);
   result.sphere_radius *= factor;
   for (AddedMassPart& part : result.added_mass_parts) {
     part.centre *= factor;
@@ -108,6 +132,19 @@ void reject(const FluidBody& body, const std::string& what, double value, const 
   throw std::invalid_argument(message.str());
 }
 
+bool isPrepared(const FluidBody& body) {
+  if (body.sphere_radius > 0) return true;
+  return (body.faces.size() == 0 || body.form.faces.size() > 0) &&
+         (body.surface.triangles.empty() || !body.form.hull.empty());
+}
+
+void requirePrepared(const FluidBody& body) {
+  if (isPrepared(body)) return;
+  throw std::invalid_argument("fluid body '" + body.name +
+                              "' is not prepared: call prepare() of preprocess/build.h, or upgrade "
+                              "its file with ambient_preprocess upgrade");
+}
+
 std::uint64_t contentHash(const FluidBody& body) {
   std::string bytes;
   const auto append = [&bytes](const double* values, std::size_t count) {
@@ -123,12 +160,17 @@ std::uint64_t contentHash(const FluidBody& body) {
     append(faces.sharpness.data(), faces.sharpness.size());
   };
   appendFaces(body.faces);
+  if (body.form.faces.size() > 0)
+    for (const double* number : body.form.shape.numbers()) append(number, 1);
+  appendFaces(body.form.faces);
   for (const FormLevel& level : body.form_levels) appendFaces(level.faces);
   if (!body.drag.isZero(0)) append(body.drag.data(), 3);
   if (body.sphere_radius > 0) append(&body.sphere_radius, 1);
   append(body.surface.vertices.data(), body.surface.vertices.size());
   bytes.append(reinterpret_cast<const char*>(body.surface.triangles.data()),
                body.surface.triangles.size() * sizeof(std::int32_t));
+  bytes.append(reinterpret_cast<const char*>(body.form.hull.data()),
+               body.form.hull.size() * sizeof(std::int32_t));
   for (const AddedMassPart& part : body.added_mass_parts) {
     append(part.centre.data(), 3);
     append(part.spread.data(), 6);

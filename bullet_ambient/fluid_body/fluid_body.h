@@ -84,6 +84,41 @@ struct FaceTable {
   void add(const Vector3& normal, const Vector3& centroid, double area);
 };
 
+/// Numbers of a shape that tell the form law a wing from a block, and a slender hull from both;
+/// docs/theory.md eq. (45a) to (45d). All follow from added mass, faces and surface. Frame F.
+struct FormShape {
+  static constexpr std::size_t kNumbers = 19;
+  double wing = 0;           ///< W in [0, 1]: 1 of a thin plate, 0 of a body as thick as it is wide
+  double edges = 1;          ///< E in [0, 1]: 0 of a smooth body, 1 of a sheet
+  double aspect = 1;         ///< L >= 1: span over chord
+  double chord = 0;          ///< c_w [m]
+  Vector3 facing{0, 0, 0};   ///< z: normal of the mean plane, either way; unit length
+  Vector3 span{0, 0, 0};     ///< h: longest direction of that plane, either way; unit length
+  Vector3 slender{0, 0, 0};  ///< m: long axis of a smooth slender body; length in [0, 1]
+  Vector3 pitching{0, 0, 0};  ///< a: axis of pitching of a wing, along the span; length in [0, 1]
+  Vector3 centre{0, 0, 0};    ///< centre of volume [m]
+
+  bool isWing() const { return wing > 0; }
+  bool isSlender() const { return !slender.isZero(0); }
+  /// Returns mu of a face, eq. (43d): its arm in pitching [m].
+  double pitchingArm(const Vector3& normal, const Vector3& place) const;
+  /// All numbers in the order above, which is that of files.
+  std::array<double*, kNumbers> numbers();
+  std::array<const double*, kNumbers> numbers() const;
+};
+
+/// Surface as the form law and hydrostatics see it: follows from the other fields of a fluid body
+/// and is made by prepare() of the preprocessor.
+struct SurfaceForm {
+  FormShape shape;
+  /// Faces that the form law is summed over, with sharpness; see formLawFaces() of the
+  /// preprocessor.
+  FaceTable faces;
+  /// Triangles for hydrostatics, three indices of vertices of the surface each: those of the
+  /// surface, with fans of few triangles in place of flat sides.
+  std::vector<std::int32_t> hull;
+};
+
 /// Revision of the form law that levels are fitted to. 1: eq. (43) for every body; 2: with wings
 /// and slender hulls.
 constexpr int kFormLawRevision = 3;
@@ -138,6 +173,7 @@ struct FluidBody {
   MassDistribution surface_mass;      ///< uniform mass per area
   FaceTable faces;
   Surface surface;
+  SurfaceForm form;                    ///< made by prepare(); spheres need none
   std::vector<FormLevel> form_levels;  ///< fewer faces for the form law; may be empty
   /// Radius of a sphere about the centre of volume [m]; 0: the body is no sphere. Loads on a sphere
   /// have a closed form, docs/theory.md section 10; faces and levels are not evaluated.
@@ -172,10 +208,17 @@ FluidBody scaled(const FluidBody& body, double factor);
 [[noreturn]] void reject(const FluidBody& body, const std::string& what, double value,
                          const char* limit);
 
+/// Returns true if the form is there, or nothing needs one: a sphere, or a body without faces and
+/// surface.
+bool isPrepared(const FluidBody& body);
+
+/// Throws std::invalid_argument, in one line that tells how to make the form, unless isPrepared().
+void requirePrepared(const FluidBody& body);
+
 /// FNV-1a hash of all data that influence motion: added mass, volume, area, centre of volume,
-/// faces, levels, drag, sphere radius, surface triangles, parts of the added mass and waterline
-/// table. Name and provenance do not count. Saved states hold the hash to recognise their fluid
-/// body. Detects accidental change, not forgery.
+/// faces, form, levels, drag, sphere radius, surface triangles, parts of the added mass and
+/// waterline table. Name and provenance do not count. Saved states hold the hash to recognise their
+/// fluid body. Detects accidental change, not forgery.
 std::uint64_t contentHash(const FluidBody& body);
 
 }  // namespace ambient

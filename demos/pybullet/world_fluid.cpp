@@ -18,6 +18,7 @@
 #include "bullet_ambient/spatial/rotation.h"
 #include "demos/pybullet/server_world.h"
 #include "demos/scene/scene_parts.h"
+#include "preprocess/base/surface_form.h"
 #include "preprocess/polar/polar.h"
 
 namespace ambient::pybullet {
@@ -252,7 +253,9 @@ AttachDef definitionOf(const ChosenBody& chosen, std::shared_ptr<const FluidBody
   def.fluid_frame = chosen.fluid_frame;
   if (chosen.medium == "water") def.medium = water();
   if (chosen.medium == "air") def.medium = air();
-  def.fluid_body = chosen.file.empty() ? std::move(shape) : loadFluidBody(chosen.file);
+  def.fluid_body = chosen.file.empty()
+                       ? std::move(shape)
+                       : std::make_shared<const FluidBody>(readPrepared(chosen.file));
   if (chosen.density == 0 && chosen.drag.isZero(0)) return def;
   FluidBody own = *def.fluid_body;
   if (chosen.density > 0) scaleTo(mass / chosen.density, own, def.fluid_frame);

@@ -9,6 +9,7 @@
 #include "demos/python/arrays.h"
 #include "demos/python/bindings.h"
 #include "preprocess/base/fluid_body_writer.h"
+#include "preprocess/base/surface_form.h"
 #include "preprocess/hand_over/export_fluid_body.h"
 #include "preprocess/polar/polar.h"
 
@@ -285,8 +286,9 @@ Frame F: axes of the mesh, origin at the centre of volume unless chosen otherwis
            })
       .def(py::pickle([](const FluidBody& b) { return py::bytes(encodeFluidBody(b, b.name)); },
                       [](const py::bytes& bytes) {
-                        return std::make_shared<FluidBody>(
-                            decodeFluidBody(std::string(bytes), "pickle"));
+                        FluidBody body = decodeFluidBody(std::string(bytes), "pickle");
+                        if (!isPrepared(body)) prepare(body);  // an earlier version's
+                        return std::make_shared<FluidBody>(std::move(body));
                       }));
 }
 

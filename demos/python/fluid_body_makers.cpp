@@ -13,11 +13,11 @@
 #include <vector>
 
 #include "bullet_ambient/base/fnv1a.h"
-#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "bullet_ambient/fluid_body/fluid_body.h"
 #include "demos/python/arrays.h"
 #include "demos/python/bindings.h"
 #include "preprocess/base/fluid_body_writer.h"
+#include "preprocess/base/surface_form.h"
 #include "preprocess/builder/body_folder.h"
 #include "preprocess/builder/body_maker.h"
 #include "preprocess/builder/fluid_body_builder.h"
@@ -230,7 +230,7 @@ FluidBodyPtr fromShape(const py::object& shape, const std::string& name, const p
 FluidBodyPtr read(const py::object& path) {
   const std::filesystem::path file = pathFrom(path);
   requireReadable(file);
-  return std::make_shared<FluidBody>(readFluidBody(file));
+  return std::make_shared<FluidBody>(readPrepared(file));
 }
 
 void write(const FluidBody& body, const py::object& path) {

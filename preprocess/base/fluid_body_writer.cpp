@@ -37,11 +37,13 @@ Offset<file::Provenance> pack(FlatBufferBuilder& builder, const Provenance& prov
   return file::CreateProvenance(builder, source, provenance.source_hash, settings, generator);
 }
 
-Offset<file::FaceTable> pack(FlatBufferBuilder& builder, const FaceTable& faces) {
+/// `has_sharpness`: false leaves that column out.
+Offset<file::FaceTable> pack(FlatBufferBuilder& builder, const FaceTable& faces,
+                             bool has_sharpness = true) {
   std::array<Offset<flatbuffers::Vector<double>>, 7> c;
   for (std::size_t k = 0; k < c.size(); ++k) c[k] = builder.CreateVector(*faces.columns()[k]);
   Offset<flatbuffers::Vector<float>> sharpness;
-  if (!faces.sharpness.empty())
+  if (has_sharpness && !faces.sharpness.empty())
     sharpness = builder.CreateVector<float>(
         std::vector<float>(faces.sharpness.begin(), faces.sharpness.end()));
   return file::CreateFaceTable(builder, c[0], c[1], c[2], c[3], c[4], c[5], c[6], sharpness);
@@ -51,6 +53,17 @@ Offset<file::Surface> pack(FlatBufferBuilder& builder, const Surface& surface) {
   const auto vertices = builder.CreateVector(surface.vertices);
   const auto triangles = builder.CreateVector(surface.triangles);
   return file::CreateSurface(builder, vertices, triangles);
+}
+
+Offset<file::SurfaceForm> pack(FlatBufferBuilder& builder, const SurfaceForm& form) {
+  if (form.faces.size() == 0 && form.hull.empty()) return 0;
+  std::vector<double> numbers;
+  for (const double* number : form.shape.numbers()) numbers.push_back(*number);
+  const auto shape = builder.CreateVector(numbers);
+  const auto faces = pack(builder, form.faces, false);
+  const auto sharpness = builder.CreateVector(form.faces.sharpness);
+  const auto hull = builder.CreateVector(form.hull);
+  return file::CreateSurfaceForm(builder, shape, faces, sharpness, hull);
 }
 
 Offset<flatbuffers::Vector<Offset<file::FormLevel>>> pack(FlatBufferBuilder& builder,
@@ -108,6 +121,7 @@ void packInto(FlatBufferBuilder& builder, const FluidBody& body) {
   const auto form_levels = pack(builder, body.form_levels);
   const auto parts = pack(builder, body.added_mass_parts);
   const auto waterline = pack(builder, body.waterline);
+  const auto form = pack(builder, body.form);
   const auto added_mass = packMatrix<file::Matrix6>(body.added_mass);
   const auto centre_of_volume = packMatrix<file::Vector3>(body.centre_of_volume);
   const auto origin = packMatrix<file::Vector3>(body.origin);
@@ -119,7 +133,7 @@ void packInto(FlatBufferBuilder& builder, const FluidBody& body) {
       file::CreateFluidBody(builder, name, provenance, &added_mass, body.asymmetry, body.volume,
                             body.area, &centre_of_volume, &origin, uniform_mass, surface_mass,
                             faces, surface, sphere_radius, form_levels,
-                            body.drag.isZero(0) ? nullptr : &drag, parts, waterline));
+                            body.drag.isZero(0) ? nullptr : &drag, parts, waterline, form));
 }
 
 std::size_t numbersIn(const FaceTable& faces) {
@@ -131,7 +145,8 @@ std::size_t numbersIn(const FaceTable& faces) {
 /// Upper bound of the payload's size [bytes].
 std::size_t payloadBound(const FluidBody& body) {
   constexpr std::size_t kFixedPart = 4096;
-  std::size_t doubles = body.surface.vertices.size() + numbersIn(body.faces);
+  std::size_t doubles = body.surface.vertices.size() + numbersIn(body.faces) +
+                        numbersIn(body.form.faces) + FormShape::kNumbers;
   std::size_t level_bytes = 0;
   for (const FormLevel& level : body.form_levels)
     level_bytes += kFixedPart + numbersIn(level.faces) * sizeof(double);
@@ -139,8 +154,8 @@ std::size_t payloadBound(const FluidBody& body) {
   level_bytes += body.waterline.corrections.size() * kSymmetricNumbers * sizeof(float) +
                  body.waterline.immersions.size() * sizeof(double);
   return kFixedPart + level_bytes + sizeof(double) * doubles +
-         sizeof(std::int32_t) * body.surface.triangles.size() + body.name.size() +
-         body.provenance.source.size() + body.provenance.settings.size() +
+         sizeof(std::int32_t) * (body.surface.triangles.size() + body.form.hull.size()) +
+         body.name.size() + body.provenance.source.size() + body.provenance.settings.size() +
          body.provenance.generator.size();
 }
 

@@ -6,8 +6,8 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/fluid_body/sharpness.h"
 #include "bullet_ambient/spatial/inertia.h"
+#include "preprocess/base/surface_form.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/triangle_mesh.h"
@@ -176,6 +176,7 @@ FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& se
   AMBIENT_ASSERT(body.faces.sharpness.size() == body.faces.size());
   AMBIENT_ASSERT(settings.sphere_radius >= 0);
   if (settings.sphere_radius > 0) setSphere(settings.sphere_radius, body);
+  prepare(body);
   if (settings.waterline_subdivisions == 0) return body;
   tellStage(settings, "waterline table");
   body.waterline = waterlineOf(body, settings);

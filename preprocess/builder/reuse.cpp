@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "bullet_ambient/base/fnv1a.h"
-#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
+#include "preprocess/base/surface_form.h"
 
 namespace ambient {
 
@@ -12,7 +12,7 @@ std::optional<FluidBody> readIfSame(const std::filesystem::path& file, const std
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) return std::nullopt;
   try {
-    FluidBody body = readFluidBody(file);
+    FluidBody body = readPrepared(file);
     const Provenance& found = body.provenance;
     const bool is_same = body.name == name && found.source == provenance.source &&
                          found.source_hash == provenance.source_hash &&

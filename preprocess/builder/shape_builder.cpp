@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "bullet_ambient/base/fnv1a.h"
-#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
+#include "preprocess/base/surface_form.h"
 #include "preprocess/mesh/defects/topology_defects.h"
 #include "preprocess/mesh/geometry.h"
 #include "preprocess/mesh/input_error.h"
@@ -133,7 +133,7 @@ BuiltBody readBody(const FluidBodyFile& shape, const ShapeBuildSettings& setting
   if (settings.waterline_subdivisions != 0)
     raiseInputError(name, "waterline subdivisions = ", settings.waterline_subdivisions,
                     ": a fluid body keeps the waterline table that it was built with");
-  return {readFluidBody(shape.file), {}};
+  return {readPrepared(shape.file), {}};
 }
 
 }  // namespace

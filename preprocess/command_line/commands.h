@@ -13,6 +13,7 @@ namespace ambient {
 void addBuild(CLI::App& app);
 void addCheck(CLI::App& app);
 void addExport(CLI::App& app);
+void addUpgrade(CLI::App& app);
 void addInspect(CLI::App& app);
 void addLoads(CLI::App& app);
 void addPolar(CLI::App& app);

@@ -77,7 +77,8 @@ int run(int argc, char** argv) {
                "ambient_preprocess");
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string("ambient_preprocess ") + AMBIENT_VERSION);
-  for (const auto add : {addBuild, addCheck, addInspect, addLoads, addPolar, addExport}) add(app);
+  for (const auto add : {addBuild, addCheck, addInspect, addLoads, addPolar, addExport, addUpgrade})
+    add(app);
   for (const std::string& message : {emptyArgument(argc, argv), unknownCommand(app, argc, argv)}) {
     if (message.empty()) continue;
     std::cerr << "ambient_preprocess: " << plainLine(message) << "\n";

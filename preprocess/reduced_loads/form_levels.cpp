@@ -8,10 +8,10 @@
 
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/fluid_body/packed/packed_faces.h"
-#include "bullet_ambient/fluid_body/sharpness.h"
 #include "bullet_ambient/force/law/form_law.h"
 #include "bullet_ambient/force/loads/face_loads.h"
 #include "preprocess/base/large_products.h"
+#include "preprocess/base/surface_form.h"
 #include "preprocess/reduced_loads/centred_faces.h"
 #include "preprocess/reduced_loads/face_clusters.h"
 #include "preprocess/reduced_loads/face_mirrors.h"

@@ -6,8 +6,7 @@
 
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/fluid_body/form_shape.h"
-#include "bullet_ambient/fluid_body/sharpness.h"
+#include "preprocess/base/surface_form.h"
 
 namespace ambient {
 namespace {
@@ -44,7 +43,7 @@ class Rings {
       : count_(faces),
         pose_(pose),
         radius_(std::sqrt(body.area / (4 * kPi))),
-        wing_(formShapeOf(body).wing) {
+        wing_(body.form.shape.wing) {
     level_.p99_error = kRuleError;
   }
 

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
+#include "preprocess/base/surface_form.h"
 #include "preprocess/mesh/input_error.h"
 
 AMBIENT_BEGIN
@@ -13,8 +13,9 @@ AttachDef linkDef(const Robot& robot, int number, FluidBodySource& source, Attac
   if (own && own->medium == "water") def.medium = water();
   if (own && own->medium == "air") def.medium = air();
   if (own && own->law) def.flow.law = *own->law;
-  def.fluid_body = own && !own->fluid_body.empty() ? loadFluidBody(own->fluid_body.string())
-                                                   : source.fluidBody(*robot.shape(number).in_link);
+  def.fluid_body = own && !own->fluid_body.empty()
+                       ? std::make_shared<const FluidBody>(readPrepared(own->fluid_body.string()))
+                       : source.fluidBody(*robot.shape(number).in_link);
   def.fluid_frame = linkFluidFrame(robot, number);
   return def;
 }

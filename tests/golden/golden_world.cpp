@@ -1,5 +1,6 @@
 #include "tests/golden/golden_world.h"
 
+#include "preprocess/base/surface_form.h"
 #include "tests/support/bodies/ellipsoid_body.h"
 #include "tests/support/bodies/random_bodies.h"
 
@@ -119,6 +120,7 @@ AttachDef bumpyInWater() {
   body.area = totalArea(body.faces);
   body.volume = 0.001;
   body.centre_of_volume = {0.01, -0.02, 0.015};
+  prepare(body);
   AttachDef attach;
   attach.fluid_body = std::make_shared<FluidBody>(body);
   attach.medium = water();

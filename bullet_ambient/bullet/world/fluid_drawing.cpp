@@ -3,7 +3,6 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/bullet/core/conversions.h"
 #include "bullet_ambient/drawing.h"
-#include "bullet_ambient/fluid_body/sharpness.h"
 #include "bullet_ambient/force/law/form_law.h"
 #include "bullet_ambient/force/loads/face_loads.h"
 #include "bullet_ambient/force/medium/fluid_region.h"
@@ -42,10 +41,9 @@ class Arrows {
 void drawFaces(const AmbientBody& ambient, const Twist& relative, const FluidDrawing& what,
                const Arrows& arrows) {
   const FluidBody& body = *ambient.def->fluid_body;
-  const bool is_form = ambient.def->flow.law == PressureLaw::kForm;
-  const ShapeFactors factors(is_form ? formShapeOf(body) : FormShape{});
-  const FaceTable form_faces = is_form ? formLawFaces(body, factors.shape) : FaceTable{};
-  const FaceTable& faces = is_form ? form_faces : body.faces;
+  const bool is_form = ambient.def->flow.law == PressureLaw::kForm && !(body.sphere_radius > 0);
+  const ShapeFactors factors(body.form.shape);
+  const FaceTable& faces = is_form ? body.form.faces : body.faces;
   const FrameOffset& frame = ambient.def->fluid_frame;
   LoadSettings settings = loadSettings(ambient.medium, ambient.def->flow);
   if (is_form) settings.shape = &factors;

@@ -114,6 +114,8 @@ void checkPlaces(const FluidBody& body, const Checker& check) {
   check.near(body.surface_mass.centre, size, "centre of surface mass");
   for (std::size_t i = 0; i < body.faces.size(); ++i)
     check.near(body.faces.centroid(i), size, "centroid of a face");
+  for (std::size_t i = 0; i < body.form.faces.size(); ++i)
+    check.near(body.form.faces.centroid(i), size, "centroid of a face of the form law");
 }
 
 void checkFaces(const FaceTable& faces, const Checker& check) {
@@ -145,21 +147,47 @@ void checkFaces(const FaceTable& faces, const Checker& check) {
   }
 }
 
+/// Fails unless the entries are vertices of the surface, three for each triangle.
+void checkTriangles(const std::vector<std::int32_t>& triangles, const Surface& surface,
+                    const char* what, const Checker& check) {
+  if (triangles.size() % 3 != 0)
+    check.fail("there are ", triangles.size(), " ", what,
+               " indices, but their number must be a multiple of 3");
+  const std::size_t vertex_count = surface.vertices.size() / 3;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const std::int32_t index = triangles[i];
+    if (index < 0 || static_cast<std::size_t>(index) >= vertex_count)
+      check.fail(what, " ", i / 3, " refers to vertex ", index, ", but there are ", vertex_count,
+                 " vertices");
+  }
+}
+
 void checkSurface(const Surface& surface, const Checker& check) {
   check.finiteColumn(surface.vertices, "vertex coordinate");
   if (surface.vertices.size() % 3 != 0)
     check.fail("there are ", surface.vertices.size(),
                " vertex coordinates, but their number must be a multiple of 3");
-  if (surface.triangles.size() % 3 != 0)
-    check.fail("there are ", surface.triangles.size(),
-               " triangle indices, but their number must be a multiple of 3");
-  const std::size_t vertex_count = surface.vertices.size() / 3;
-  for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
-    const std::int32_t index = surface.triangles[i];
-    if (index < 0 || static_cast<std::size_t>(index) >= vertex_count)
-      check.fail("triangle ", i / 3, " refers to vertex ", index, ", but there are ", vertex_count,
-                 " vertices");
-  }
+  checkTriangles(surface.triangles, surface, "triangle", check);
+}
+
+/// Checks the form for what loads and hydrostatics rely on, of a body that is prepared.
+void checkForm(const FluidBody& body, const Checker& check) {
+  constexpr double kLongest = 1 + kRounding;  // of directions and of lengths of at most 1
+  const FormShape& shape = body.form.shape;
+  for (const double* number : shape.numbers()) check.finite(*number, "a number of the form");
+  for (const double share : {shape.wing, shape.edges})
+    if (!(share >= 0) || !(share <= kLongest))
+      check.fail("a share of the form is ", share, ", but must be between 0 and 1");
+  if (!(shape.aspect >= 1 - kRounding))
+    check.fail("aspect of the form is ", shape.aspect, ", but must be at least 1");
+  check.notNegative(shape.chord, "chord of the form");
+  for (const Vector3& axis : {shape.facing, shape.span, shape.slender, shape.pitching})
+    if (!(axis.stableNorm() <= kLongest))
+      check.fail("an axis of the form has length ", axis.stableNorm(), ", but must be at most 1");
+  checkFaces(body.form.faces, check);
+  if (body.form.faces.sharpness.size() != body.form.faces.size())
+    check.fail("the faces of the form law have no sharpness");
+  checkTriangles(body.form.hull, body.surface, "hull triangle", check);
 }
 
 void checkFormLevel(const FormLevel& level, const Checker& check) {
@@ -224,6 +252,7 @@ void checkFluidBody(const FluidBody& body, const std::string& source) {
                         "inertia of surface mass");
   checkFaces(body.faces, check);
   checkSurface(body.surface, check);
+  checkForm(body, check);
   for (const FormLevel& level : body.form_levels) checkFormLevel(level, check);
   for (const AddedMassPart& part : body.added_mass_parts) checkPart(part, sizeOf(body), check);
   checkWaterline(body, check);

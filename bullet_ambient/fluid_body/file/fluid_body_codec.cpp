@@ -58,6 +58,19 @@ Surface unpack(const file::Surface& packed) {
   return {unpackVector(*packed.vertices()), unpackVector(*packed.triangles())};
 }
 
+SurfaceForm unpack(const file::SurfaceForm& packed, const std::string& source) {
+  SurfaceForm form;
+  if (packed.shape()->size() != FormShape::kNumbers)
+    throw std::runtime_error(source + ": its form has " + std::to_string(packed.shape()->size()) +
+                             " numbers, but must have " + std::to_string(FormShape::kNumbers));
+  std::size_t at = 0;
+  for (double* number : form.shape.numbers()) *number = elementOf(*packed.shape(), at++);
+  form.faces = unpack(*packed.faces());
+  form.faces.sharpness = unpackVector(*packed.sharpness());
+  form.hull = unpackVector(*packed.hull());
+  return form;
+}
+
 constexpr std::size_t kSymmetricNumbers = 21;  // entries of the upper triangle of 6x6
 
 template <typename Next>
@@ -122,6 +135,7 @@ FluidBody unpack(const file::FluidBody& packed, const std::string& source) {
   if (packed.added_mass_parts())
     body.added_mass_parts = unpackParts(*packed.added_mass_parts(), source);
   if (packed.waterline()) body.waterline = unpack(*packed.waterline(), source);
+  if (packed.form()) body.form = unpack(*packed.form(), source);
   return body;
 }
 

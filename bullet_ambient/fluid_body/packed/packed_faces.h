@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
-#include "bullet_ambient/fluid_body/form_shape.h"
 #include "bullet_ambient/fluid_body/packed/face_block.h"
 
 namespace ambient {

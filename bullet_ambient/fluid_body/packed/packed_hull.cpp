@@ -6,7 +6,6 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/fluid_body/packed/block_order.h"
-#include "bullet_ambient/fluid_body/surface_triangles.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
 
 namespace ambient {
@@ -14,22 +13,15 @@ namespace {
 
 using Triangle = std::array<Vector3, 3>;
 
-// Returns the triangles of the surface; flat sides become fans if this needs fewer triangles.
-std::vector<Triangle> trianglesOf(const Surface& surface) {
-  const SurfaceTriangles mesh(surface);
+std::vector<Triangle> trianglesOf(const FluidBody& body) {
   std::vector<Triangle> triangles;
-  std::vector<bool> is_replaced(static_cast<std::size_t>(mesh.size()));
-  for (const FlatSide& side : findFlatSides(mesh)) {
-    const std::vector<Vector3>& c = side.corners;
-    if (c.size() >= side.triangles.size() + 2) continue;
-    for (std::size_t i = 2; i < c.size(); ++i) triangles.push_back({c[0], c[i - 1], c[i]});
-    for (const int t : side.triangles) is_replaced[static_cast<std::size_t>(t)] = true;
-  }
-  for (int t = 0; t < mesh.size(); ++t) {
-    if (is_replaced[static_cast<std::size_t>(t)]) continue;
-    const auto corner = [&](int i) { return mesh.place(mesh.vertex(t, i)); };
-    triangles.push_back({corner(0), corner(1), corner(2)});
-  }
+  const auto corner = [&body](std::int32_t vertex) {
+    const double* place = &body.surface.vertices[3 * static_cast<std::size_t>(vertex)];
+    return Vector3(place[0], place[1], place[2]);
+  };
+  const std::vector<std::int32_t>& hull = body.form.hull;
+  for (std::size_t i = 0; i < hull.size(); i += 3)
+    triangles.push_back({corner(hull[i]), corner(hull[i + 1]), corner(hull[i + 2])});
   return triangles;
 }
 
@@ -121,7 +113,8 @@ double volumeOf(const std::vector<Triangle>& triangles) {
 
 PackedHull::PackedHull(const FluidBody& body) {
   if (body.surface.triangles.empty()) return;
-  const std::vector<Triangle> triangles = trianglesOf(body.surface);
+  requirePrepared(body);
+  const std::vector<Triangle> triangles = trianglesOf(body);
   packPoints(cornersOf(triangles));
   if (!(body.volume > 0)) return;
   const double volume = volumeOf(triangles);

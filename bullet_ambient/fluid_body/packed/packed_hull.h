@@ -9,11 +9,11 @@
 namespace ambient {
 
 /// Shape for hydrostatics, in frame F: surface triangles in blocks of neighbours with their
-/// moments, 140 bytes per triangle. A flat side with a convex outline becomes a fan of few
-/// triangles, whatever its mesh. A sheet has corners but no triangles: it displaces nothing.
+/// moments, 140 bytes per triangle. The triangles are those of SurfaceForm::hull. A sheet has
+/// corners but no triangles: it displaces nothing.
 class PackedHull {
  public:
-  /// Cost: O(T log T), 2 us per triangle.
+  /// Cost: O(T log T). @throws std::invalid_argument as requirePrepared().
   explicit PackedHull(const FluidBody& body);
 
   HullBlocks blocks() const { return {blocks_.data(), moments_.data(), blocks_.size()}; }

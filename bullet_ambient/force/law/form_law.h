@@ -1,7 +1,6 @@
 #pragma once
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
-#include "bullet_ambient/fluid_body/form_shape.h"
 #include "bullet_ambient/force/law/wing_pressure.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
 

@@ -5,7 +5,6 @@
 #include <tuple>
 #include <utility>
 
-#include "bullet_ambient/fluid_body/sharpness.h"
 #include "bullet_ambient/force/loads/shared_tables.h"
 #include "bullet_ambient/force/medium/medium.h"
 
@@ -35,7 +34,6 @@ using Lock = std::lock_guard<std::recursive_mutex>;
 /// end with their last user.
 struct BodyTables {
   std::recursive_mutex mutex;  // loads are made of other tables
-  std::unique_ptr<const FaceTable> form_faces;
   std::unique_ptr<const ShapeFactors> shape;
   std::map<std::pair<const FaceTable*, bool>, std::unique_ptr<const PackedFaces>> packed;
   std::unique_ptr<const PackedHull> hull;
@@ -66,15 +64,8 @@ LoadTables::Wetted LoadTables::wettedInertia(const std::function<Wetted()>& make
   return tables_.wetted.get(body_, {}, make);
 }
 
-LoadTables::Faces LoadTables::formFaces() const {
-  return tables_.get(body_, tables_.form_faces, [this] {
-    const FaceTable faces = formLawFaces(*body_, shape()->shape);
-    return FaceTable(faces);  // a copy has no room to spare
-  });
-}
-
 LoadTables::Shape LoadTables::shape() const {
-  return tables_.get(body_, tables_.shape, [this] { return ShapeFactors(formShapeOf(*body_)); });
+  return tables_.get(body_, tables_.shape, [this] { return ShapeFactors(body_->form.shape); });
 }
 
 std::shared_ptr<const PackedFaces> LoadTables::packedFaces(const Faces& faces,

@@ -39,9 +39,7 @@ class LoadTables {
   /// Returns the added mass at the surface of the water; calls make() if nobody uses it.
   Wetted wettedInertia(const std::function<Wetted()>& make) const;
 
-  /// Faces of the form law, see formLawFaces().
-  Faces formFaces() const;
-  /// Shape as the form law sees it. Cost: formShapeOf().
+  /// Shape as the form law sees it.
   Shape shape() const;
   /// Faces of the fluid body, of a level of it or of the form law, packed in single precision for
   /// the form law of a shape; null: for the published law. Cost: PackedFaces().

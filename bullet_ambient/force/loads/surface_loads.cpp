@@ -313,7 +313,7 @@ LoadTables::Faces chooseFormFaces(const Body& body, const ShapeFactors& shape,
       best = &level;
   }
   if (best) return {body, &best->faces};
-  return LoadTables(body).formFaces();
+  return {body, &body->form.faces};
 }
 
 std::shared_ptr<const SurfaceLoads> loadsOn(const Body& body, const LoadTables::Faces& faces,
@@ -330,6 +330,7 @@ std::shared_ptr<const SurfaceLoads> loadsOnFaces(const Body& body, LoadSettings 
   if (body->faces.size() == 0) return nullptr;
   if (settings.law != PressureLaw::kForm)
     return loadsOn(body, {body, &body->faces}, settings, flow.precision);
+  requirePrepared(*body);
   const LoadTables::Shape shape = LoadTables(body).shape();
   const LoadTables::Faces faces = chooseFormFaces(body, *shape, flow);
   settings.shape = shape.get();

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "demos/simulation/robots/scene_robot.h"
+#include "preprocess/base/surface_form.h"
 #include "preprocess/robot/link_shape.h"
 
 namespace ambient {
@@ -43,7 +43,7 @@ class SceneRobots : public RobotsInWorld {
 std::shared_ptr<const FluidBody> fluidBodyOf(const LinkModel& link, const std::string& name,
                                              SceneBodyCache& fluid_bodies) {
   if (link.fluid && !link.fluid->fluid_body.empty())
-    return loadFluidBody(link.fluid->fluid_body.string());
+    return std::make_shared<const FluidBody>(readPrepared(link.fluid->fluid_body.string()));
   const LinkShape shape = makeLinkShape(link, RigidPose::Identity());
   return fluid_bodies.get(*shape.in_link, name);
 }

@@ -1,7 +1,7 @@
 #include <iostream>
 #include <memory>
 
-#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
+#include "preprocess/base/surface_form.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/option_values.h"
 #include "preprocess/command_line/output_place.h"
@@ -47,7 +47,7 @@ ExportSettings settingsOf(const ExportArguments& arguments, ExportFormat format)
 
 ExportedBody exported(const ExportArguments& arguments, ExportFormat format,
                       const ExportSettings& settings) {
-  const auto body = std::make_shared<const FluidBody>(readFluidBody(arguments.file));
+  const auto body = std::make_shared<const FluidBody>(readPrepared(arguments.file));
   try {
     return exportFluidBody(body, format, settings);
   } catch (const std::invalid_argument& error) {

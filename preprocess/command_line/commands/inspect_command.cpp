@@ -7,8 +7,8 @@
 #include <string>
 
 #include "bullet_ambient/fluid_body/displaced_mass.h"
-#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "bullet_ambient/force/medium/medium.h"
+#include "preprocess/base/surface_form.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/fluid_body_report.h"
 #include "preprocess/command_line/json_numbers.h"
@@ -147,7 +147,7 @@ std::string inspectionJson(const FluidBody& body, const InspectArguments& argume
 }
 
 void runInspect(const InspectArguments& arguments) {
-  const FluidBody body = readFluidBody(arguments.file);
+  const FluidBody body = readPrepared(arguments.file);
   if (arguments.json) {
     std::cout << inspectionJson(body, arguments);
     return;

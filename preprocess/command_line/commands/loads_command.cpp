@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
+#include "preprocess/base/surface_form.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/json_numbers.h"
 #include "preprocess/command_line/option_values.h"
@@ -82,7 +82,7 @@ void runLoads(const LoadsArguments& arguments) {
   const Medium medium = mediumOf(arguments);
   const FlowSettings flow = flowOf(arguments);
   const Twist twist = twistOf(arguments);
-  const FaceLoads loads = BodyLoads(readFluidBody(arguments.file), medium, flow).at(twist);
+  const FaceLoads loads = BodyLoads(readPrepared(arguments.file), medium, flow).at(twist);
   const double dynamic_pressure = medium.density * twist.vector().squaredNorm();
   if (!std::isfinite(dynamic_pressure) || !loads.total().vector().allFinite()) {
     raiseInputError(arguments.file, "the loads of this motion are beyond the largest number, ",

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
+#include "preprocess/base/surface_form.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/option_values.h"
 #include "preprocess/polar/polar.h"
@@ -87,7 +87,7 @@ void runPolar(const PolarArguments& arguments) {
   flow.separation_angle = separationAngleOf(arguments.separation_angle);
   flow.law = lawOf(arguments.law);
   const Medium medium{arguments.density, arguments.viscosity, Vector3::Zero(), Vector3::Zero()};
-  const FluidBody body = readFluidBody(arguments.file);
+  const FluidBody body = readPrepared(arguments.file);
   const BodyLoads loads(body, medium, flow);
   const PolarFlight flight{axes, arguments.density, arguments.speed,
                            referenceOf(arguments, body, axes),

@@ -4,6 +4,7 @@
 
 #include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/fluid.h"
+#include "preprocess/base/surface_form.h"
 #include "tests/support/bodies/ellipsoid_body.h"
 #include "tests/support/world.h"
 
@@ -82,7 +83,9 @@ struct FluidWorld : WholeWorld<ActionWorld> {
                    PressureLaw law = PressureLaw::kForm) {
     btRigidBody& body = add(def);
     AttachDef attach;
-    attach.fluid_body = std::make_shared<FluidBody>(fluid_body);
+    const auto prepared = std::make_shared<FluidBody>(fluid_body);
+    prepare(*prepared);
+    attach.fluid_body = prepared;
     attach.medium = medium;
     attach.flow.law = law;
     fluid.add(body, attach);

@@ -3,6 +3,7 @@
 
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/force/medium/waves.h"
+#include "preprocess/base/surface_form.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/bullet_ambient/bullet/robots/state/robot_state_scene.h"
 #include "tests/support/allocation_counter.h"
@@ -30,6 +31,7 @@ void addFloatingBodies(FluidWorld& scene, BodyDef def) {
 FluidBody formShape() {
   FluidBody shape = floatingEllipsoid(Vector3(0.3, 0.25, 0.1), 3);
   shape.faces.sharpness.assign(shape.faces.size(), 0.5);
+  prepare(shape);
   return shape;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
+#include "preprocess/base/surface_form.h"
 #include "tests/support/bodies/geodesic.h"
 #include "tests/support/refusal_of.h"
 
@@ -29,6 +30,7 @@ inline FluidBody exampleBody(int level = 1) {
     body.surface.vertices.insert(body.surface.vertices.end(), {v.x(), v.y(), v.z()});
   for (const Eigen::Vector3i& t : mesh.triangles)
     body.surface.triangles.insert(body.surface.triangles.end(), {t[0], t[1], t[2]});
+  prepare(body);
   return body;
 }
 

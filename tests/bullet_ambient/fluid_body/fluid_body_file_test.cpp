@@ -52,6 +52,18 @@ TEST(FluidBodyFile, KeepsASharpnessInSinglePrecisionAndInTheSameVersion) {
   EXPECT_LT(bytes.size(), without.size() + 4 * body.faces.size() + 64);
 }
 
+TEST(FluidBodyFile, TheFormKeepsItsBits) {
+  FluidBody body = test::exampleBody();
+  body.form.faces.sharpness[3] = 1.0 / 3;  // that of a wing is not rounded
+  const FluidBody back = decodeFluidBody(encodeFluidBody(body, "a"), "a");
+  EXPECT_TRUE(isPrepared(back));
+  EXPECT_EQ(back.form.hull, body.form.hull);
+  EXPECT_EQ(back.form.faces.sharpness, body.form.faces.sharpness);
+  EXPECT_EQ(contentHash(back), contentHash(body));
+  body.form = {};
+  EXPECT_FALSE(isPrepared(decodeFluidBody(encodeFluidBody(body, "a"), "a")));
+}
+
 TEST(FluidBodyFile, KeepsPartsOfTheAddedMassInSinglePrecisionAndInTheSameVersion) {
   FluidBody body = test::exampleBody();
   for (int i = 0; i < 3; ++i) {

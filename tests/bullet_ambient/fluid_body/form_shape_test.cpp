@@ -1,12 +1,11 @@
 // Numbers of a shape for the form law, docs/theory.md eq. (45a) to (45d).
 
-#include "bullet_ambient/fluid_body/form_shape.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "bullet_ambient/base/pi.h"
+#include "preprocess/base/surface_form.h"
 #include "tests/support/bodies/geodesic.h"
 #include "tests/support/bodies/wing_bodies.h"
 

@@ -1,5 +1,3 @@
-#include "bullet_ambient/fluid_body/sharpness.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,7 +5,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "bullet_ambient/fluid_body/form_shape.h"
+#include "preprocess/base/surface_form.h"
 #include "tests/support/bodies/geodesic.h"
 #include "tests/support/refusal_of.h"
 

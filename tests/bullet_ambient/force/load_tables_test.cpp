@@ -9,9 +9,11 @@
 #include "bullet_ambient/force/loads/sphere_loads.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "bullet_ambient/force/surface/make_wetted_inertia.h"
+#include "preprocess/base/surface_form.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/bodies/geodesic.h"
 #include "tests/support/bodies/hull_bodies.h"
+#include "tests/support/refusal_of.h"
 
 namespace ambient {
 namespace {
@@ -24,17 +26,30 @@ std::shared_ptr<const FluidBody> closedSphere() {
 TEST(LoadTables, AreMadeOnceForEachFluidBody) {
   const auto body = closedSphere(), other = closedSphere();
   const PackedHull* hull = LoadTables(body).hull().get();
-  const FaceTable* faces = LoadTables(body).formFaces().get();
   std::vector<std::thread> threads;
   std::atomic<int> same{0};
   for (int i = 0; i < 4; ++i)
     threads.emplace_back([&] {
       const LoadTables tables(body);
-      same += tables.hull().get() == hull && tables.formFaces().get() == faces;
+      same += tables.hull().get() == hull;
     });
   for (std::thread& thread : threads) thread.join();
   EXPECT_EQ(same, 4);
   EXPECT_NE(LoadTables(other).hull().get(), hull);
+}
+
+TEST(LoadTables, NeedAPreparedBodyForTheFormLawAndForHydrostatics) {
+  const auto body = std::make_shared<FluidBody>(test::hullBody(test::geodesicSphere(1)));
+  body->name = "old";
+  body->form = {};
+  const std::string expected =
+      "fluid body 'old' is not prepared: call prepare() of preprocess/build.h, or upgrade its file "
+      "with ambient_preprocess upgrade";
+  EXPECT_EQ(test::refusalOf<std::invalid_argument>([&] { makeSurfaceLoads(body, water(), {}); }),
+            expected);
+  EXPECT_EQ(test::refusalOf<std::invalid_argument>([&] { LoadTables(body).hull(); }), expected);
+  prepare(*body);
+  EXPECT_NE(makeSurfaceLoads(body, water(), {}), nullptr);
 }
 
 // A world that is made anew finds them.
@@ -100,7 +115,8 @@ TEST(LoadTables, PackTheSharpnessForTheFormLawOnly) {
   const auto body = closedSphere();
   const LoadTables tables(body);
   EXPECT_EQ(tables.packedFaces({body, &body->faces}, nullptr)->blocks().form, nullptr);
-  EXPECT_NE(tables.packedFaces(tables.formFaces(), tables.shape().get())->blocks().form, nullptr);
+  EXPECT_NE(tables.packedFaces({body, &body->form.faces}, tables.shape().get())->blocks().form,
+            nullptr);
 }
 
 TEST(SharedSphereTable, IsKeptUnusedUntilTheNextIsMade) {

@@ -10,6 +10,7 @@
 #include "bullet_ambient/force/law/form_law.h"
 #include "bullet_ambient/force/loads/face_loads.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
+#include "preprocess/base/surface_form.h"
 #include "tests/support/bodies/random_bodies.h"
 #include "tests/support/bodies/wing_bodies.h"
 #include "tests/support/runs.h"
@@ -30,7 +31,9 @@ std::shared_ptr<const SurfaceLoads> loadsOf(const FluidBody& body,
                                             double separation_angle = kPi / 2) {
   FlowSettings flow = formLaw(precision);
   flow.separation_angle = separation_angle;
-  return makeSurfaceLoads(std::make_shared<FluidBody>(body), {1.3, 0, {}, {}}, flow);
+  const auto prepared = std::make_shared<FluidBody>(body);
+  prepare(*prepared);
+  return makeSurfaceLoads(prepared, {1.3, 0, {}, {}}, flow);
 }
 
 /// C_N of a sheet at incidence `degrees` in flow along its chord.

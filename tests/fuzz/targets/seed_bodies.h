@@ -2,6 +2,7 @@
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
 #include "bullet_ambient/saved_state.h"
+#include "preprocess/base/surface_form.h"
 
 namespace ambient::test {
 
@@ -18,6 +19,7 @@ inline FluidBody seedFluidBody() {
   body.faces.add(-Vector3::UnitX(), Vector3::UnitZ(), 1);
   body.surface.vertices = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   body.surface.triangles = {0, 1, 2, 0, 2, 1};
+  prepare(body);
   return body;
 }
 

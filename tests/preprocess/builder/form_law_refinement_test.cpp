@@ -8,8 +8,8 @@
 #include <memory>
 #include <vector>
 
-#include "bullet_ambient/fluid_body/form_shape.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
+#include "preprocess/base/surface_form.h"
 #include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/mesh/shapes/convex_hull.h"
 #include "preprocess/mesh/shapes/primitives.h"

@@ -9,10 +9,9 @@
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
-#include "bullet_ambient/fluid_body/form_shape.h"
-#include "bullet_ambient/fluid_body/sharpness.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "preprocess/base/fluid_body_writer.h"
+#include "preprocess/base/surface_form.h"
 #include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/mesh/shapes/primitives.h"
 #include "preprocess/mesh/triangle_mesh.h"

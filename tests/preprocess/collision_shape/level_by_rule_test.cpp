@@ -4,10 +4,9 @@
 #include <cmath>
 #include <vector>
 
-#include "bullet_ambient/fluid_body/form_shape.h"
-#include "bullet_ambient/fluid_body/sharpness.h"
 #include "bullet_ambient/force/law/form_law.h"
 #include "bullet_ambient/force/loads/face_loads.h"
+#include "preprocess/base/surface_form.h"
 #include "preprocess/reduced_loads/levels_by_rule.h"
 #include "tests/preprocess/collision_shape/shape_fixtures.h"
 #include "tests/support/bodies/random_bodies.h"

@@ -10,10 +10,10 @@
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
-#include "bullet_ambient/fluid_body/sharpness.h"
 #include "bullet_ambient/force/law/form_law.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "preprocess/base/fluid_body_writer.h"
+#include "preprocess/base/surface_form.h"
 #include "tests/support/bodies/ellipsoid_body.h"
 #include "tests/support/bodies/random_bodies.h"
 

@@ -4,6 +4,7 @@
 
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "bullet_ambient/motion/body/body_model.h"
+#include "preprocess/base/surface_form.h"
 
 namespace ambient::test {
 
@@ -22,9 +23,10 @@ struct BodyModelDef {
   FrameOffset frame{};
 };
 
-/// Returns the model of a body with all loads.
+/// Returns the model of a body with all loads; prepares the shape.
 inline BodyModel modelOf(const BodyModelDef& def) {
-  const auto shape = std::make_shared<const FluidBody>(def.shape);
+  const auto shape = std::make_shared<FluidBody>(def.shape);
+  if (def.flow.law == PressureLaw::kForm) prepare(*shape);
   return makeBodyModel(*shape, def.frame, def.mass, def.medium,
                        makeSurfaceLoads(shape, def.medium, def.flow));
 }

@@ -7,6 +7,7 @@
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/fluid_body/fluid_body.h"
 #include "bullet_ambient/spatial/inertia.h"
+#include "preprocess/base/surface_form.h"
 #include "tests/reference/ellipsoid_added_mass.h"
 #include "tests/support/bodies/geodesic.h"
 
@@ -37,6 +38,7 @@ inline FluidBody meshedEllipsoid(const Vector3& semi_axes, int level) {
   FluidBody shape = facelessEllipsoid(semi_axes);
   shape.faces = faceTableOf(geodesicEllipsoid(semi_axes, level));
   shape.area = totalArea(shape.faces);
+  prepare(shape);
   return shape;
 }
 
@@ -67,6 +69,7 @@ inline FluidBody latticeEllipsoid(const Vector3& semi_axes, int meridians, int b
   FluidBody shape = facelessEllipsoid(semi_axes);
   shape.faces = faceTableOf(mesh);
   shape.area = totalArea(shape.faces);
+  prepare(shape);
   return shape;
 }
 
@@ -112,6 +115,7 @@ inline FluidBody gaussSphere(double radius) {
     }
   }
   shape.faces.sharpness.assign(shape.faces.size(), 0);  // round
+  prepare(shape);
   return shape;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
+#include "preprocess/base/surface_form.h"
 #include "tests/support/bodies/geodesic.h"
 
 namespace ambient::test {
@@ -21,6 +22,7 @@ inline FluidBody hullBody(const Triangulation& mesh) {
   }
   body.faces = faceTableOf(mesh);
   body.area = totalArea(body.faces);
+  prepare(body);
   return body;
 }
 

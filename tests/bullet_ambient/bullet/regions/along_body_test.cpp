@@ -7,6 +7,7 @@
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/force/medium/waves.h"
+#include "preprocess/base/surface_form.h"
 #include "tests/bullet_ambient/bullet/regions/long_scene.h"
 
 // Bodies that are not small against what moves around them, docs/theory.md section 16.
@@ -139,6 +140,7 @@ AttachDef floatDef(int parts) {
     const Matrix6 of_half = longBox(half)->added_mass;
     for (const double x : {-half.x() / 2, half.x() / 2})
       shape->added_mass += FrameOffset{Matrix3::Identity(), {x, 0, 0}}.inertiaToB(of_half);
+    prepare(*shape);
   }
   def.fluid_body = shape;
   def.flow.law = PressureLaw::kForm;

@@ -5,11 +5,11 @@
 
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/drawing.h"
-#include "bullet_ambient/fluid_body/sharpness.h"
 #include "bullet_ambient/force/law/form_law.h"
 #include "bullet_ambient/force/medium/water_surface.h"
 #include "bullet_ambient/reading.h"
 #include "bullet_ambient/spatial/rotation.h"
+#include "preprocess/base/surface_form.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 
 namespace ambient::test {
@@ -203,6 +203,7 @@ TEST_F(Drawing, PressureOfTheFormLawIsDrawnInTheLeeAsWell) {
   AttachDef def = *ambient().def;
   auto shape = std::make_shared<FluidBody>(*def.fluid_body);
   shape->faces.sharpness.assign(shape->faces.size(), 0.5);
+  prepare(*shape);
   def.fluid_body = shape;
   def.flow.law = PressureLaw::kForm;
   scene.of(*body).remove();

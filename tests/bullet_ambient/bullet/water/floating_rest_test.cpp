@@ -9,6 +9,7 @@
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/force/medium/waves.h"
+#include "preprocess/base/surface_form.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/support/bodies/part_bodies.h"
 
@@ -56,6 +57,7 @@ Float barrelOf(double radius, double length, int sides, double mass) {
   const double across = mass * (3 * radius * radius + length * length) / 12;
   barrel.moments = Vector3(mass * radius * radius / 2, across, across);
   barrel.shape.added_mass = facelessEllipsoid(Vector3(0.6 * length, radius, radius)).added_mass;
+  prepare(barrel.shape);
   return barrel;
 }
 

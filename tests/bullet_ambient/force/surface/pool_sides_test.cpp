@@ -5,11 +5,11 @@
 #include <tuple>
 #include <vector>
 
-#include "bullet_ambient/fluid_body/sharpness.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "bullet_ambient/force/surface/hydrostatics.h"
 #include "bullet_ambient/force/surface/make_wetted_inertia.h"
 #include "bullet_ambient/spatial/rotation.h"
+#include "preprocess/base/surface_form.h"
 #include "tests/support/bodies/part_bodies.h"
 #include "tests/support/bodies/random_bodies.h"
 
@@ -196,6 +196,7 @@ TEST(PoolSides, BothPartsOfTheLoadMakeUpTheWhole) {
   Arbitrary arbitrary(4);
   FluidBody body = test::hullBody(test::geodesicSphere(3));
   body.faces.sharpness = computeSharpness(body);
+  prepare(body);
   const auto shape = std::make_shared<const FluidBody>(body);
   for (const PressureLaw law : {PressureLaw::kPublished, PressureLaw::kForm})
     for (const LoadPrecision precision : {LoadPrecision::kSingle, LoadPrecision::kDouble}) {

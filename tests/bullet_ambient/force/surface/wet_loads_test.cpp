@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/fluid_body/sharpness.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
+#include "preprocess/base/surface_form.h"
 #include "tests/support/bodies/hull_bodies.h"
 #include "tests/support/bodies/random_bodies.h"
 
@@ -19,6 +19,7 @@ const Medium kLiquid{1000, 1e-3, {0, 0, 0}, {0, 0, 0}};
 std::shared_ptr<const FluidBody> roundBody(int level) {
   FluidBody body = test::hullBody(test::geodesicSphere(level));
   body.faces.sharpness = computeSharpness(body);
+  prepare(body);
   return std::make_shared<const FluidBody>(body);
 }
 
@@ -97,6 +98,7 @@ TEST(WetLoads, TakeEnergyAtARightAngle) {
     FluidBody body;
     body.faces = arbitrary.body();
     body.area = test::totalArea(body.faces);
+    prepare(body);
     const auto loads = makeWaterlineLoads(std::make_shared<const FluidBody>(body), kLiquid, flow);
     const Twist x = arbitrary.twist();
     EXPECT_LE(power(loads->wetLoad(x, wetBelow(arbitrary.vector(), arbitrary.between(-1, 1))), x),

@@ -11,8 +11,7 @@
 #include <random>
 
 #include "bullet_ambient/bullet/core/conversions.h"
-#include "bullet_ambient/fluid_body/form_shape.h"
-#include "bullet_ambient/fluid_body/sharpness.h"
+#include "preprocess/base/surface_form.h"
 #include "preprocess/collision_shape/collision_shape_body.h"
 #include "preprocess/reduced_loads/form_levels.h"
 

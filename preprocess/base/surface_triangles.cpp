@@ -1,4 +1,4 @@
-#include "bullet_ambient/fluid_body/surface_triangles.h"
+#include "preprocess/base/surface_triangles.h"
 
 #include <Eigen/Geometry>
 #include <map>
@@ -39,11 +39,18 @@ void SurfaceTriangles::weld(const Surface& surface) {
     const double* p = &surface.vertices[3 * vertex];
     const auto [entry, is_new] = seen.insert({{p[0], p[1], p[2]}, vertexCount()});
     if (is_new) places_.emplace_back(p[0], p[1], p[2]);
+    if (is_new) sources_.push_back(surface.triangles[i]);
     return numbers[vertex] = entry->second;
   };
   corners_.reserve(surface.triangles.size() / 3);
   for (std::size_t t = 0; t < surface.triangles.size() / 3; ++t)
     corners_.push_back({corner(3 * t), corner(3 * t + 1), corner(3 * t + 2)});
+}
+
+std::vector<Vector3> SurfaceTriangles::places(const std::vector<int>& vertices) const {
+  std::vector<Vector3> result;
+  for (const int vertex : vertices) result.push_back(place(vertex));
+  return result;
 }
 
 namespace {
@@ -144,16 +151,16 @@ class SideFinder {
   }
 
   /// Returns the corners of the outline; empty if the outline is not convex.
-  std::vector<Vector3> cornersOf(const FlatSide& side) const {
+  std::vector<int> cornersOf(const FlatSide& side) const {
     const std::vector<int> ring = outlineOf(side);
-    std::vector<Vector3> corners;
+    std::vector<int> corners;
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const Vector3& here = mesh_.place(ring[i]);
       const Vector3 in = here - mesh_.place(ring[(i + ring.size() - 1) % ring.size()]);
       const Vector3 out = mesh_.place(ring[(i + 1) % ring.size()]) - here;
       const double sine = side.normal.dot(in.normalized().cross(out.normalized()));
       if (sine < -kFlat) return {};
-      if (sine > kFlat) corners.push_back(here);
+      if (sine > kFlat) corners.push_back(ring[i]);
     }
     return corners;
   }

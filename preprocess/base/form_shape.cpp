@@ -1,5 +1,3 @@
-#include "bullet_ambient/fluid_body/form_shape.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -8,8 +6,9 @@
 #include <vector>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/fluid_body/surface_triangles.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
+#include "preprocess/base/surface_form.h"
+#include "preprocess/base/surface_triangles.h"
 
 namespace ambient {
 namespace {
@@ -124,10 +123,6 @@ bool setPlane(const SurfaceMoments& moments, FormShape& shape) {
 }
 
 }  // namespace
-
-double FormShape::pitchingArm(const Vector3& normal, const Vector3& place) const {
-  return pitching.dot((place - centre).cross(normal));
-}
 
 FormShape formShapeOf(const FluidBody& body) {
   FormShape shape;

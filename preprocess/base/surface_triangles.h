@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
@@ -24,6 +25,10 @@ class SurfaceTriangles {
   int vertexCount() const { return static_cast<int>(places_.size()); }
   int vertex(int triangle, int corner) const { return corners_[index(triangle)][index(corner)]; }
   const Vector3& place(int vertex) const { return places_[index(vertex)]; }
+  /// Places of vertices [m].
+  std::vector<Vector3> places(const std::vector<int>& vertices) const;
+  /// Index of a vertex among those of the surface; of several at one place the first one.
+  std::int32_t source(int vertex) const { return sources_[index(vertex)]; }
   const Vector3& normal(int triangle) const { return normals_[index(triangle)]; }
 
  private:
@@ -32,16 +37,17 @@ class SurfaceTriangles {
 
   bool is_sheet_ = false;
   std::vector<Vector3> places_;
+  std::vector<std::int32_t> sources_;  ///< of the vertices
   std::vector<std::array<int, 3>> corners_;
   std::vector<Vector3> normals_;  ///< unit, into the fluid, one per triangle
 };
 
 /// A flat part of the surface with one convex outline.
 struct FlatSide {
-  std::vector<int> triangles;    ///< indices into the mesh, one or more
-  std::vector<Vector3> corners;  ///< [m], counter-clockwise seen from the fluid, 3 or more
-  Vector3 normal;                ///< unit, into the fluid
-  bool has_sharp_rim = false;    ///< true: an edge to all that it borders on, kEdgeCosine
+  std::vector<int> triangles;  ///< indices into the mesh, one or more
+  std::vector<int> corners;    ///< vertices, counter-clockwise seen from the fluid, 3 or more
+  Vector3 normal;              ///< unit, into the fluid
+  bool has_sharp_rim = false;  ///< true: an edge to all that it borders on, kEdgeCosine
 };
 
 /// Finds the flat sides. A triangle belongs to at most one side; to none if the outline of its

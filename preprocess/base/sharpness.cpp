@@ -1,5 +1,3 @@
-#include "bullet_ambient/fluid_body/sharpness.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -8,7 +6,8 @@
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/base/single_precision.h"
-#include "bullet_ambient/fluid_body/surface_triangles.h"
+#include "preprocess/base/surface_form.h"
+#include "preprocess/base/surface_triangles.h"
 
 namespace ambient {
 namespace {

@@ -3,9 +3,8 @@
 #include <array>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/fluid_body/form_shape.h"
-#include "bullet_ambient/fluid_body/sharpness.h"
-#include "bullet_ambient/fluid_body/surface_triangles.h"
+#include "preprocess/base/surface_form.h"
+#include "preprocess/base/surface_triangles.h"
 
 namespace ambient {
 namespace {
@@ -55,9 +54,9 @@ void addPoints(const Corners& corners, std::vector<Point>& points) {
   }
 }
 
-std::vector<Point> pointsOf(const FlatSide& side) {
+/// Points of a flat side with these corners.
+std::vector<Point> pointsOf(const std::vector<Vector3>& corners) {
   std::vector<Point> points;
-  const std::vector<Vector3>& corners = side.corners;
   for (std::size_t i = 1; i + 1 < corners.size(); i += 2)
     if (i + 2 < corners.size())
       addPoints({corners[0], corners[i], corners[i + 1], corners[i + 2]}, kFourNodes, points);
@@ -157,12 +156,13 @@ FaceTable facesWithPoints(const FluidBody& body) {
   std::vector<bool> is_replaced(static_cast<std::size_t>(mesh.size()));
   for (const FlatSide& side : findFlatSides(mesh)) {
     if (!isSharp(side, faces)) continue;
-    const double sharpness = sharpnessOfSide(side.corners);
+    const std::vector<Vector3> corners = mesh.places(side.corners);
+    const double sharpness = sharpnessOfSide(corners);
     if (!deservesPoints(side, mesh, body, longest)) {
       if (side.has_sharp_rim) setSharpness(side, sharpness, mesh.size(), faces);
       continue;
     }
-    for (const Point& point : pointsOf(side)) {
+    for (const Point& point : pointsOf(corners)) {
       collector.add(side.normal, point.place, point.area, sharpness);
       if (mesh.isSheet()) collector.add(-side.normal, point.place, point.area, sharpness);
     }
