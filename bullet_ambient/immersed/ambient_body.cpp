@@ -69,9 +69,9 @@ void forgetWake(AmbientBody& ambient) noexcept {
 }
 
 void forgetSurface(AmbientBody& ambient) noexcept {
-  if (!ambient.meeting) return;
-  ambient.encounter().waves = {};
-  ambient.meeting->forgetPlane();
+  if (!ambient.floating) return;
+  ambient.floating->waves = {};
+  ambient.floating->forgetPlane();
 }
 
 void setModels(AmbientBody& ambient, std::shared_ptr<const FluidModels> models) {
@@ -87,11 +87,11 @@ void setModels(AmbientBody& ambient, std::shared_ptr<const FluidModels> models) 
   if (const MediumModel* found = known.find(FluidKind(ambient.medium)))
     ambient.in_medium = {ambient.models, found};
   if (known.surfaces.empty()) {
-    ambient.meeting = nullptr;
-  } else if (ambient.meeting) {
-    ambient.meeting->is_valid = false;
+    ambient.floating = nullptr;
+  } else if (ambient.floating) {
+    ambient.floating->is_valid = false;
   } else {
-    ambient.meeting = std::make_unique<SurfaceMeeting>();
+    ambient.floating = std::make_unique<FloatingState>();
   }
   if (!dependOnWake(known)) {
     ambient.wake = nullptr;
@@ -108,7 +108,7 @@ void rebuildModels(AmbientBody& ambient, const InverseMass& mass) {
   // Made above, and not const there.
   FluidModels& own = const_cast<FluidModels&>(*ambient.models);
   setMass(own, *ambient.def, mass);
-  if (ambient.meeting) ambient.meeting->is_valid = false;
+  if (ambient.floating) ambient.floating->is_valid = false;
   forgetFlight(ambient);
 }
 

@@ -26,13 +26,13 @@ namespace ambient {
 
 /// Outcome of a substep for a body, from the solver; docs/bullet_step.md has the transitions.
 enum class Outcome : std::uint8_t {
-  kNotMet,  ///< the solver has not met it since the action took the last outcome
-  kStock,   ///< moves as in stock Bullet: not in a fluid, static, or of no physical mass
-  kRows,    ///< moved by rows
-  kAdrift,  ///< moved by no row and by no flight: locked axes, too fast a spin among rows, or a
-            ///< failed flight
-  kFlown,   ///< moved by no row, and has flown
-  kHeld,    ///< moved by nothing: the substep has no finite duration
+  kNotSolved,  ///< the solver has not worked on it since the action took the last outcome
+  kStock,      ///< moves as in stock Bullet: not in a fluid, static, or of no physical mass
+  kRows,       ///< moved by rows
+  kAdrift,     ///< moved by no row and by no flight: locked axes, too fast a spin among rows, or a
+               ///< failed flight
+  kFlown,      ///< moved by no row, and has flown
+  kHeld,       ///< moved by nothing: the substep has no finite duration
 };
 
 /// Data that the action needs to complete a motion by rows; docs/theory.md eq. (31).
@@ -63,9 +63,9 @@ struct LastFlight {
 
 /// Effect of a substep on one body: written by the solver, taken once by the action.
 struct SubstepOutcome {
-  Outcome kind = Outcome::kNotMet;
+  Outcome kind = Outcome::kNotSolved;
   bool is_too_long = false;  ///< true: with this flight the errors exceed StepErrors::kLargest
-  int world_index = -1;      ///< index of the body in its world's array when the solver met it
+  int world_index = -1;  ///< index of the body in its world's array when the solver worked on it
   int activation_state = 0;  ///< kHeld: activation state to restore; meanwhile the body is disabled
   /// RowMotion: since rows have moved the body, for kRows and kAdrift. It takes the place of the
   /// memory of the last flight, which is of no use then.
@@ -109,8 +109,8 @@ class StepErrors {
 
 struct FluidReading;
 
-/// Encounter of a body with a surface in one step.
-struct SurfaceEncounter {
+/// Body that a water surface may cut: its state there, from step to step.
+struct FloatingState {
   SurfacePlane plane_W;  ///< surface at the start of the step
   Vector3 velocity_above = Vector3::Zero();
   WaveMemory waves;            ///< waves that the body has made
@@ -118,22 +118,17 @@ struct SurfaceEncounter {
   Vector6 twist_before_rows =
       Vector6::Zero();  ///< velocity in B, relative to the water, that constraint rows start from
   SurfacePlane plane_before_rows;  ///< surface in B at the pose that rows start from
-};
-
-/// Memory of a body that a surface may cut, from step to step.
-struct SurfaceMeeting {
-  SurfaceEncounter encounter;
   /// Last result of standAt(). Its plane is that of the surface in B at the exact pose where the
   /// last flight or step with rows ended, before Bullet rounded it.
   SurfaceStand stand;
-  bool has_met = false;   ///< true: the plane of `stand` is known
-  bool is_valid = false;  ///< true: `stand` belongs to its plane, and to the present models and
-                          ///< surface
+  bool has_plane = false;  ///< true: the plane of `stand` is known
+  bool is_valid = false;   ///< true: `stand` belongs to its plane, and to the present models and
+                           ///< surface
 
-  void forgetPlane() noexcept { has_met = false; }
-  void meet(const SurfacePlane& plane_B) noexcept {
+  void forgetPlane() noexcept { has_plane = false; }
+  void setPlane(const SurfacePlane& plane_B) noexcept {
     stand.plane = plane_B;
-    has_met = true;
+    has_plane = true;
     is_valid = false;
   }
 };
@@ -142,10 +137,10 @@ struct SurfaceMeeting {
 /// which a step uses them, so that a flight touches few lines of the cache; those that few steps or
 /// few bodies use are last, or behind a pointer.
 struct AmbientBody {
-  btRigidBody* body = nullptr;      ///< null: a link. May have been destroyed: look it up in a
-                                    ///< world first
-  AmbientBody* next_met = nullptr;  ///< next body in the list of AmbientBodies::takeMet()
-  int instance = 0;                 ///< instanceNumber() of the body that was attached
+  btRigidBody* body = nullptr;         ///< null: a link. May have been destroyed: look it up in a
+                                       ///< world first
+  AmbientBody* next_solved = nullptr;  ///< next body in the list of AmbientBodies::takeSolved()
+  int instance = 0;                    ///< instanceNumber() of the body that was attached
   int surface_media = -1;  ///< index into FluidModels::surfaces; -1: no surface is near the body
   std::shared_ptr<const MediumModel> in_medium;  ///< that of `medium`
   std::shared_ptr<FluidReading>
@@ -164,7 +159,7 @@ struct AmbientBody {
   RegionPlace place;      ///< kNone: the body is in its own medium
   FlowMemory flow;
   AmbientCounters counters;
-  std::unique_ptr<SurfaceMeeting> meeting;  ///< null: the body meets no surface
+  std::unique_ptr<FloatingState> floating;  ///< null: the body meets no surface
   std::unique_ptr<Wake> wake;  ///< wake behind a smooth body, docs/theory.md eq. (51b); null: no
                                ///< load on the body depends on it
   /// In this step; null: no region makes the fluid differ along the body.
@@ -181,11 +176,8 @@ struct AmbientBody {
     if (surface_media < 0) return nullptr;
     return &models->surfaces[static_cast<std::size_t>(surface_media)].model;
   }
-  /// Encounter with that surface. @pre the body meets one
-  SurfaceEncounter& encounter() { return meeting->encounter; }
-  const SurfaceEncounter& encounter() const { return meeting->encounter; }
   /// Stand at that surface: the last result of standAt().
-  const SurfaceStand& stand() const { return meeting->stand; }
+  const SurfaceStand& stand() const { return floating->stand; }
   /// Model whose inertia K defines the norm sqrt(x.K x) of velocity changes.
   const BodyModel& metric() const { return surface() ? surface()->below : model(); }
 };
@@ -233,7 +225,7 @@ void followWake(AmbientBody& ambient, const Twist& twist_W, double duration) noe
 void forgetFlight(AmbientBody& ambient) noexcept;
 void forgetWake(AmbientBody& ambient) noexcept;
 
-/// Forgets the waves that a body has made and where it met a surface.
+/// Forgets the waves that a body has made and where its surface was.
 void forgetSurface(AmbientBody& ambient) noexcept;
 
 /// Gives a body without a name one that it had before.

@@ -1,7 +1,7 @@
 #include "bullet_ambient/immersed/fluid_reading.h"
 
 #include "bullet_ambient/force/surface/buoyancy.h"
-#include "bullet_ambient/immersed/surface_encounter.h"
+#include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/motion/surface/body_waves.h"
 #include "bullet_ambient/motion/surface/stand_lanes.h"
 #include "bullet_ambient/motion/surface/surface_stand.h"
@@ -196,10 +196,10 @@ class MiddleWrenches {
     if (model.loads_below.loads)
       setLoads(loadBelow(model, stand, seen_, {s.load_share, s.flow}).wrench,
                frictionAlong([&](const Twist& x) { return frictionBelow(model, stand, x); }));
-    found_.waves = waveWrench(stand.modes, to_world_, reading_.waves, ambient_.encounter().waves);
+    found_.waves = waveWrench(stand.modes, to_world_, reading_.waves, ambient_.floating->waves);
     if (!model.loads_above.loads) return;
     Twist seen_above = step_.middle.twist;
-    seen_above.linear -= to_world_.transpose() * ambient_.encounter().velocity_above;
+    seen_above.linear -= to_world_.transpose() * ambient_.floating->velocity_above;
     found_.wind = loadAbove(model, stand, seen_above);
   }
 
@@ -219,8 +219,8 @@ void beginReading(const AmbientBody& ambient, const RigidState& start,
   reading.start = start;
   reading.surroundings = surroundings;
   if (ambient.surface()) {
-    reading.plane_W = ambient.encounter().plane_W;
-    reading.waves = ambient.encounter().waves;
+    reading.plane_W = ambient.floating->plane_W;
+    reading.waves = ambient.floating->waves;
   }
   reading.moved_W = turned(start.orientation, start.twist);
 }

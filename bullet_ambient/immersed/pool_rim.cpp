@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/immersed/fluid_regions.h"
-#include "bullet_ambient/immersed/surface_encounter.h"
 
 namespace ambient {
 namespace {

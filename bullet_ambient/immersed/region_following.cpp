@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/immersed/fluid_regions.h"
 #include "bullet_ambient/immersed/pool_rim.h"
 #include "bullet_ambient/immersed/station_samples.h"
-#include "bullet_ambient/immersed/surface_encounter.h"
 
 namespace ambient {
 namespace {
@@ -171,13 +171,13 @@ void enterOwnMedium(AmbientBody& ambient, const FlowStep& step, const RegionsAro
 
 // Returns the side of a region's surface on which a body is. `is_alone`: no bounds cross the body.
 // Sides of a pool are held on the body over the step: they are those of its middle.
-SurfaceSide meetWater(AmbientBody& ambient, const FlowStep& step, bool is_alone,
-                      const RegionSample& sample) noexcept {
+SurfaceSide findWaterSide(AmbientBody& ambient, const FlowStep& step, bool is_alone,
+                          const RegionSample& sample) noexcept {
   const FluidRegion& region = step.entry->region;
   const SampleAt at{sample, pointIn(region, step.now->centre_W())};
   const NearSurface near = nearSurface(ambient, *step.now, SurfaceKind(region), at, step.duration);
   const bool has_sides = !is_alone && near.side != SurfaceSide::kAbove;
-  return meetSurface(
+  return enterSurface(
       ambient, near, sample,
       has_sides ? findSides(ambient, *step.now, step.regions, *step.entry, step.duration / 2)
                 : PoolSides{});
@@ -185,16 +185,16 @@ SurfaceSide meetWater(AmbientBody& ambient, const FlowStep& step, bool is_alone,
 
 // Finds on which side of the surface of its region a body is, and what of the flow differs along
 // it. `is_alone`: no bounds cross the body.
-SurfaceSide meetFluids(AmbientBody& ambient, const FlowStep& step, bool is_alone,
-                       const std::optional<StationSamples>& stations,
-                       RegionSample& sample) noexcept {
+SurfaceSide findSide(AmbientBody& ambient, const FlowStep& step, bool is_alone,
+                     const std::optional<StationSamples>& stations, RegionSample& sample) noexcept {
   const Vector3& gravity = step.now->gravity;
   if (stations) {
     stations->addMeans(&RegionSample::below, sample);
     stations->fitSurface(gravity, sample);
   }
-  const SurfaceSide side =
-      step.entry->region.surface ? meetWater(ambient, step, is_alone, sample) : SurfaceSide::kBelow;
+  const SurfaceSide side = step.entry->region.surface
+                               ? findWaterSide(ambient, step, is_alone, sample)
+                               : SurfaceSide::kBelow;
   if (!stations) return side;
   const bool is_above = side == SurfaceSide::kAbove;
   if (is_above) stations->addMeans(&RegionSample::above, sample);
@@ -250,7 +250,7 @@ void followRegions(AmbientBody& ambient, const MotionView& now, const FluidRegio
   followFlow(ambient, step, sample);
   if (entry->region.surface)
     checkUp(entry->id, entry->region.surface->up(), now.gravity, complaints);
-  const SurfaceSide side = meetFluids(ambient, step, around.is_alone, stations, sample);
+  const SurfaceSide side = findSide(ambient, step, around.is_alone, stations, sample);
   const bool is_above = side == SurfaceSide::kAbove;
   changeSide(ambient.flow, is_above, is_above ? sample.bare_above : sample.bare_below);
   [[maybe_unused]] const bool is_known =

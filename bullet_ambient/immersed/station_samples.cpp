@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/immersed/fluid_regions.h"
 #include "bullet_ambient/immersed/pool_rim.h"
-#include "bullet_ambient/immersed/surface_encounter.h"
 
 namespace ambient {
 namespace {

@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "bullet_ambient/force/surface/wet_polygon.h"
+#include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/immersed/fluid_regions.h"
 #include "bullet_ambient/immersed/pool_rim.h"
-#include "bullet_ambient/immersed/surface_encounter.h"
 
 namespace ambient {
 namespace {

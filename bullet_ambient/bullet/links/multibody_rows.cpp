@@ -52,7 +52,7 @@ class RowSet {
  private:
   MultiBodyParty multibody(btMultiBody* body, int jacobian, int change, const RowSide& side) const {
     AmbientTree* tree = trees_ ? trees_->find(body) : nullptr;
-    if (tree && !hasMet(*tree)) tree = nullptr;
+    if (tree && !isSolved(*tree)) tree = nullptr;
     return {body, jacobian, change, tree, nullptr, nullptr, side};
   }
 

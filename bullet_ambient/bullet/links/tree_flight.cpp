@@ -8,7 +8,7 @@
 #include "bullet_ambient/bullet/links/tree_links.h"
 #include "bullet_ambient/bullet/links/tree_surface.h"
 #include "bullet_ambient/bullet/members/flight_coupling.h"
-#include "bullet_ambient/immersed/surface_encounter.h"
+#include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/motion/flight/flight_task.h"
 
 // Flights of trees without joints, as rigid bodies.
@@ -54,7 +54,7 @@ void setFlown(TreeStep& step) {
 bool takeFlight(AmbientTree& tree, const TreeTask& task) {
   TreeStep& step = tree.step;
   AmbientBody& ambient = baseOf(tree).ambient;
-  if (std::exchange(ambient.outcome.kind, Outcome::kNotMet) != Outcome::kFlown) return false;
+  if (std::exchange(ambient.outcome.kind, Outcome::kNotSolved) != Outcome::kFlown) return false;
   const LastFlight& end = std::as_const(ambient.outcome).flight();
   step.moved << end.effective_W.angular, end.effective_W.linear;
   if (turnsTooFastForBullet(tree.tree, step.moved, task.duration)) return false;
@@ -83,7 +83,7 @@ void flyAsBodies(AmbientTree* const* trees, int count, const TreeTask& task) noe
     AmbientLink& base = baseOf(*trees[i]);
     bodies[i] = &base.ambient;
     before[i] = base.ambient.outcome.flight();
-    if (base.ambient.surface()) base.start = *base.ambient.meeting;
+    if (base.ambient.surface()) base.start = *base.ambient.floating;
   }
   Departures departures;
   readDepartures(trees, count, departures);
@@ -91,7 +91,7 @@ void flyAsBodies(AmbientTree* const* trees, int count, const TreeTask& task) noe
   for (int i = 0; i < count; ++i) {
     if (takeFlight(*trees[i], task)) continue;
     bodies[i]->outcome.motion = before[i];  // in the place where the tree knows its memory
-    if (bodies[i]->surface()) *bodies[i]->meeting = baseOf(*trees[i]).start;
+    if (bodies[i]->surface()) *bodies[i]->floating = baseOf(*trees[i]).start;
   }
 }
 
@@ -167,7 +167,7 @@ class TreeFlight {
   // it never does, the motion ends after the last part at whose end it suffices.
   void flyInParts() {
     step_.surface.pose = step_.pose;
-    forEachAtSurface(tree_, [](AmbientLink& link, int) { link.start = *link.ambient.meeting; });
+    forEachAtSurface(tree_, [](AmbientLink& link, int) { link.start = *link.ambient.floating; });
     int parts = 1, reached = 0;
     while (is_finite_ && reached < parts && parts < settings_.max_substeps) {
       parts = std::min(2 * parts, settings_.max_substeps);
@@ -227,7 +227,7 @@ class TreeFlight {
     count_.energy_removed = 0;
     count_.coarse = false;
     forEachAtSurface(tree_, [](AmbientLink& link, int) {
-      *link.ambient.meeting = link.start;
+      *link.ambient.floating = link.start;
       link.frozen.freeze(link.ambient);
     });
   }

@@ -10,7 +10,7 @@
 #include "bullet_ambient/bullet/members/flight_coupling.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
-#include "bullet_ambient/immersed/surface_encounter.h"
+#include "bullet_ambient/immersed/floating_state.h"
 
 AMBIENT_BEGIN
 

@@ -247,7 +247,7 @@ void reportFastJoints(const AmbientTree& tree, const TreeTask& task) noexcept {
 
 }  // namespace
 
-bool meetTree(AmbientTree& tree, const TreeTask& task) noexcept {
+bool prepareTree(AmbientTree& tree, const TreeTask& task) noexcept {
   AMBIENT_ASSERT(task.duration > 0 && !tree.links.empty());
   TreeStep& step = tree.step;
   btMultiBody& body = *tree.multi_body;
@@ -268,10 +268,10 @@ bool meetTree(AmbientTree& tree, const TreeTask& task) noexcept {
   return true;
 }
 
-void meetAsBodies(AmbientTree* const* trees, int count, const TreeTask& task) noexcept {
+void flyLoneTrees(AmbientTree* const* trees, int count, const TreeTask& task) noexcept {
   flyAsBodies(trees, count, task);
   for (int i = 0; i < count; ++i) {
-    if (hasMet(*trees[i])) {
+    if (isSolved(*trees[i])) {
       writeVelocity(*trees[i]->multi_body, trees[i]->step.end);
     } else {
       beginAlone(*trees[i], task);
@@ -281,7 +281,7 @@ void meetAsBodies(AmbientTree* const* trees, int count, const TreeTask& task) no
 
 void finishTree(AmbientTree& tree, const TreeTask& task) noexcept {
   TreeStep& step = tree.step;
-  if (!hasMet(tree)) return;
+  if (!isSolved(tree)) return;
   readChange(*tree.multi_body, step.change);
   if (!step.change.allFinite()) {
     clearChange(*tree.multi_body);
@@ -298,7 +298,7 @@ void finishTree(AmbientTree& tree, const TreeTask& task) noexcept {
 void completeTree(AmbientTree& tree, const TreeTask& task) noexcept {
   TreeStep& step = tree.step;
   btMultiBody& body = *tree.multi_body;
-  if (!hasMet(tree) || isAsleep(body)) return;
+  if (!isSolved(tree) || isAsleep(body)) return;
   if (step.outcome == TreeOutcome::kRows) {
     turnAfterRows(tree, task.duration);
   } else {

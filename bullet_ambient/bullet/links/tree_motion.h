@@ -31,13 +31,13 @@ AMBIENT_BEGIN
 // steps (`reserve`) may be used later.
 
 /// Call before Bullet makes rows. Sets the velocity of a tree to the one that rows are solved
-/// against. Returns false, and sets none, for a tree that flies as a body: call meetAsBodies() for
+/// against. Returns false, and sets none, for a tree that flies as a body: call flyLoneTrees() for
 /// it. @pre `step.start` is the velocity before the substep
-bool meetTree(AmbientTree& tree, const TreeTask& task) noexcept;
+bool prepareTree(AmbientTree& tree, const TreeTask& task) noexcept;
 
-/// Flies up to kFlightsTogether trees for which meetTree() was false, side by side, and sets their
-/// velocities to those at the end of the flights.
-void meetAsBodies(AmbientTree* const* trees, int count, const TreeTask& task) noexcept;
+/// Flies up to kFlightsTogether trees for which prepareTree() was false, side by side, and sets
+/// their velocities to those at the end of the flights.
+void flyLoneTrees(AmbientTree* const* trees, int count, const TreeTask& task) noexcept;
 
 /// Call after the rows are solved. Sets the velocity that Bullet moves the tree by.
 void finishTree(AmbientTree& tree, const TreeTask& task) noexcept;

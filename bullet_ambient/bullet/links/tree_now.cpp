@@ -10,7 +10,7 @@
 #include "bullet_ambient/bullet/members/attach.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
 #include "bullet_ambient/force/surface/buoyancy.h"
-#include "bullet_ambient/immersed/surface_encounter.h"
+#include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/motion/rows/axis_locks.h"
 
 AMBIENT_BEGIN

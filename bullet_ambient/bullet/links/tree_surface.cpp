@@ -6,7 +6,7 @@
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
-#include "bullet_ambient/immersed/surface_encounter.h"
+#include "bullet_ambient/immersed/floating_state.h"
 
 AMBIENT_BEGIN
 namespace {
@@ -57,9 +57,9 @@ double passTogether(const SurfaceArrivals& some, const SurfaceStep& step,
   double energy_removed = 0;
   for (int i = 0; i < some.count; ++i) {
     AmbientLink& link = *some.links[i];
-    SurfaceEncounter& encounter = link.ambient.encounter();
+    FloatingState& floating = *link.ambient.floating;
     link.frozen.freeze(link.ambient);
-    encounter.waves = encounter.waves_with_rows;
+    floating.waves = floating.waves_with_rows;
     impulses[link.link + 1] = impulseOf(link, after[i].twist - some.twists[i]);
     energy_removed += after[i].energy_removed;
   }
@@ -140,7 +140,7 @@ namespace {
 // True if the fluid above the surface loads the link and moves relative to the water.
 bool hasWind(const AmbientBody& ambient) {
   return ambient.surface()->loads_above.loads &&
-         ambient.encounter().velocity_above != ambient.medium.velocity;
+         ambient.floating->velocity_above != ambient.medium.velocity;
 }
 
 // True if a torque, a joint force or an accelerating flow acts on a link.
@@ -199,7 +199,7 @@ double energyOfPlace(const AmbientTree& tree, const Vector3& origin_W, const OfW
 double energyOfWater(const AmbientBody& ambient, int) {
   const SurfaceStand& stand = ambient.stand();
   return hydrostaticEnergy(wetVolume(*ambient.surface(), stand), stand.plane) +
-         ambient.encounter().waves.energy();
+         ambient.floating->waves.energy();
 }
 
 // Returns the largest change of the energy by rounding of Bullet's poses [J].
@@ -209,7 +209,7 @@ double roundingOf(const AmbientTree& tree) {
   forEachAtSurface(tree, [&](const AmbientLink& link, int i) {
     const SurfaceModel& model = *link.ambient.surface();
     const double weight =
-        (model.below.mass + model.below.displaced_mass) * link.ambient.encounter().plane_W.gravity;
+        (model.below.mass + model.below.displaced_mass) * link.ambient.floating->plane_W.gravity;
     sum += weight * (model.radius + tree.flight.dynamics().position(i).norm());
   });
   return kRounding * sum;
@@ -242,7 +242,7 @@ bool mayGainEnergy(AmbientTree& tree, double duration) noexcept {
   forEachAtSurface(tree, [&](const AmbientLink& link, int i) {
     const AmbientBody& ambient = link.ambient;
     const SurfaceModel& model = *ambient.surface();
-    const SurfacePlane& plane = ambient.encounter().plane_W;
+    const SurfacePlane& plane = ambient.floating->plane_W;
     const Twist& twist = dynamics.twist(i);
     const double radius = model.radius;
     const double speed =
@@ -261,7 +261,7 @@ bool hasGainedEnergy(const AmbientTree& tree, double since_start) noexcept {
       tree, originAfter(tree, since_start), [&](const AmbientBody& ambient, int link) {
         const FrameOffset pose{dynamics.rotation(link), dynamics.position(link)};
         return hydrostaticEnergyAt(ambient, pose, surface.time) +
-               ambient.encounter().waves_with_rows.energy();
+               ambient.floating->waves_with_rows.energy();
       });
   return place > surface.energy + surface.rounding;
 }

@@ -98,7 +98,7 @@ AmbientBody& AmbientBodies::insert(AmbientBody ambient) {
 bool AmbientBodies::erase(const btRigidBody& body) {
   const auto found = by_object_.find(&body);
   if (!found) return false;
-  forgetMeeting(**found);
+  forgetSolved(**found);
   slots.leave(**found);
   by_object_.erase(&body);
   bodies_.erase(*found);
@@ -106,7 +106,7 @@ bool AmbientBodies::erase(const btRigidBody& body) {
 }
 
 void AmbientBodies::clear() {
-  met_ = nullptr;
+  solved_list_ = nullptr;
   for (AmbientBody& ambient : bodies_) slots.leave(ambient);
   by_object_.clear();
   bodies_.clear();
@@ -135,19 +135,19 @@ void AmbientBodies::requireChangeable(const char* function) {
   throw std::logic_error(sentence);
 }
 
-void AmbientBodies::meet(AmbientBody& ambient) noexcept {
-  if (std::exchange(ambient.outcome.kind, Outcome::kStock) != Outcome::kNotMet) return;
-  ambient.next_met = met_.load(std::memory_order_relaxed);
-  while (!met_.compare_exchange_weak(ambient.next_met, &ambient)) {
+void AmbientBodies::noteSolved(AmbientBody& ambient) noexcept {
+  if (std::exchange(ambient.outcome.kind, Outcome::kStock) != Outcome::kNotSolved) return;
+  ambient.next_solved = solved_list_.load(std::memory_order_relaxed);
+  while (!solved_list_.compare_exchange_weak(ambient.next_solved, &ambient)) {
   }
 }
 
 // Between steps the list is empty, unless there is no action to take it.
-void AmbientBodies::forgetMeeting(const AmbientBody& ambient) noexcept {
-  AmbientBody* met = met_.load();
-  if (met == &ambient) met_ = ambient.next_met;
-  for (; met; met = met->next_met) {
-    if (met->next_met == &ambient) met->next_met = ambient.next_met;
+void AmbientBodies::forgetSolved(const AmbientBody& ambient) noexcept {
+  AmbientBody* solved = solved_list_.load();
+  if (solved == &ambient) solved_list_ = ambient.next_solved;
+  for (; solved; solved = solved->next_solved) {
+    if (solved->next_solved == &ambient) solved->next_solved = ambient.next_solved;
   }
 }
 

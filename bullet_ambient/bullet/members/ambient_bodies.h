@@ -113,11 +113,11 @@ class AmbientBodies : public std::enable_shared_from_this<AmbientBodies> {
   /// that names `function`; reports it once, too.
   void requireChangeable(const char* function);
 
-  /// Notes that the solver has met the body in this substep. May be called from any thread.
-  void meet(AmbientBody& ambient) noexcept;
-  /// Takes the list of bodies that the solver has met since the last call, linked by
-  /// AmbientBody::next_met; null: none.
-  AmbientBody* takeMet() noexcept { return met_.exchange(nullptr); }
+  /// Notes that the solver has worked on the body in this substep. May be called from any thread.
+  void noteSolved(AmbientBody& ambient) noexcept;
+  /// Takes the list of bodies that the solver has worked on since the last call, linked by
+  /// AmbientBody::next_solved; null: none.
+  AmbientBody* takeSolved() noexcept { return solved_list_.exchange(nullptr); }
 
   MemberSlots slots;
   AmbientTrees trees{slots};
@@ -130,11 +130,11 @@ class AmbientBodies : public std::enable_shared_from_this<AmbientBodies> {
   bool is_closed = false;           ///< Fluid or world were destroyed
 
  private:
-  void forgetMeeting(const AmbientBody& ambient) noexcept;
+  void forgetSolved(const AmbientBody& ambient) noexcept;
 
   std::list<AmbientBody> bodies_;
   BodyIndex by_object_;
-  std::atomic<AmbientBody*> met_{nullptr};
+  std::atomic<AmbientBody*> solved_list_{nullptr};
 };
 
 AMBIENT_END

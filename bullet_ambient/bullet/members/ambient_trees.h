@@ -8,7 +8,7 @@
 #include "bullet_ambient/bullet/members/member_slots.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
 #include "bullet_ambient/immersed/ambient_body.h"
-#include "bullet_ambient/immersed/surface_encounter.h"
+#include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/motion/links/link_flight.h"
 
 class btMultiBody;
@@ -28,18 +28,19 @@ struct AmbientLink {
                      ///< bodies; gravity of the world
   InverseMass mass;  ///< of the link at the start of the last substep
   AmbientBody ambient;
-  StepModel frozen;      ///< at a water surface: the model in the present or last step
-  SurfaceMeeting start;  ///< that of `ambient` at the start of the step, to repeat a flight from
-                         ///< there
+  StepModel frozen;     ///< at a water surface: the model in the present or last step
+  FloatingState start;  ///< that of `ambient` at the start of the step, to repeat a flight from
+                        ///< there
   Vector6 fall = Vector6::Zero();  ///< weight and buoyancy of a flight, in the link's frame
 };
 
 /// Outcome of a substep for a tree, from the solver; docs/bullet_step.md has the transitions.
 enum class TreeOutcome {
-  kNotMet,  ///< asleep, or the solver has not met it since the action took the last outcome
-  kStock,   ///< moves as in stock Bullet: no fluid, or not of a physical mass
-  kRows,    ///< moved by rows that turn with it: contacts, joints to other bodies
-  kFlown,   ///< has flown; moved by no rows but those of its own joints
+  kNotSolved,  ///< asleep, or the solver has not worked on it since the action took the last
+               ///< outcome
+  kStock,      ///< moves as in stock Bullet: no fluid, or not of a physical mass
+  kRows,       ///< moved by rows that turn with it: contacts, joints to other bodies
+  kFlown,      ///< has flown; moved by no rows but those of its own joints
 };
 
 /// One step of a tree at a water surface, or a part of it.
@@ -61,7 +62,7 @@ struct SurfaceStep {
 struct TreeStep {
   TreeStep(Eigen::Index coordinates, std::size_t links);
 
-  TreeOutcome outcome = TreeOutcome::kNotMet;
+  TreeOutcome outcome = TreeOutcome::kNotSolved;
   bool was_awake = false;   ///< before Bullet's pass
   bool turns_rows = false;  ///< true: rows whose directions turn with the tree act on it (contacts,
                             ///< joints to other bodies)
@@ -106,7 +107,7 @@ struct AmbientTree {
 };
 
 /// True if the fluid's solver has set the velocity of a tree in this substep; false: Bullet has.
-inline bool hasMet(const AmbientTree& tree) noexcept {
+inline bool isSolved(const AmbientTree& tree) noexcept {
   return tree.step.outcome == TreeOutcome::kRows || tree.step.outcome == TreeOutcome::kFlown;
 }
 

@@ -4,9 +4,9 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/bullet/core/body_motion.h"
+#include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/immersed/region_following.h"
 #include "bullet_ambient/immersed/station_samples.h"
-#include "bullet_ambient/immersed/surface_encounter.h"
 #include "bullet_ambient/motion/flight/flight_group.h"
 
 AMBIENT_BEGIN
@@ -55,7 +55,7 @@ constexpr double kRestingTime = 2;       // [s], Bullet's gDeactivationTime by d
 bool prepareStep(AmbientBody& ambient, AmbientBodies& bodies, double time_step) noexcept {
   SubstepOutcome& outcome = ambient.outcome;
   if (outcome.kind == Outcome::kFlown) bodies.complaints.say(Complaint::kNoAction);
-  bodies.meet(ambient);
+  bodies.noteSolved(ambient);
   outcome.world_index = ambient.body->getWorldArrayIndex();
   const btRigidBody& body = *ambient.body;
   if (body.isStaticOrKinematicObject()) return false;  // for now
@@ -89,7 +89,7 @@ bool prepareFluid(AmbientBody& ambient, const StepStart& start, AmbientBodies& b
 }
 
 void hold(AmbientBody& ambient, AmbientBodies& bodies) noexcept {
-  bodies.meet(ambient);
+  bodies.noteSolved(ambient);
   SubstepOutcome& outcome = ambient.outcome;
   outcome.kind = Outcome::kHeld;
   outcome.world_index = ambient.body->getWorldArrayIndex();

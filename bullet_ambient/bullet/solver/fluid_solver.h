@@ -74,7 +74,7 @@ class FluidSolver : public Base {
                                         btTypedConstraint** constraints, int constraint_count,
                                         const btContactSolverInfo& info,
                                         btIDebugDraw* debug_drawer) override {
-    if constexpr (kHasMultiBodies) trees_.meet(info);
+    if constexpr (kHasMultiBodies) trees_.prepare(info);
     input_ = {manifolds, manifold_count, constraints, constraint_count};
     return Base::solveGroupCacheFriendlySetup(bodies, body_count, manifolds, manifold_count,
                                               constraints, constraint_count, info, debug_drawer);
@@ -105,7 +105,7 @@ class FluidSolver : public Base {
                                       this->m_multiBodySpinningFrictionContactConstraints,
                                       this->m_multiBodyNonContactConstraints,
                                       this->m_data,
-                                      trees_.met()};
+                                      trees_.solvedTrees()};
       group_.rewriteRows(this->m_tmpSolverBodyPool, pools(), &multibodies, info);
     } else {
       group_.rewriteRows(this->m_tmpSolverBodyPool, pools(), nullptr, info);

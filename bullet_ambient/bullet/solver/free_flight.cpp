@@ -8,7 +8,7 @@
 #include "bullet_ambient/bullet/core/attitude.h"
 #include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/bullet/members/flight_coupling.h"
-#include "bullet_ambient/immersed/surface_encounter.h"
+#include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/motion/flight/flight_group.h"
 #include "bullet_ambient/motion/surface/surface_flight.h"
 #include "bullet_ambient/spatial/rotation.h"
@@ -41,18 +41,18 @@ bool wasMovedByOthers(const AmbientBody& ambient, const Twist& left, const Rigid
 }
 
 SurfaceFlight surfaceFlight(AmbientBody& ambient, Flight& flight) {
-  SurfaceEncounter& encounter = ambient.encounter();
+  FloatingState& floating = *ambient.floating;
   const FlightTask& task = flight.task;
   const RigidState& start = flight.body.state;
   AmbientBody* const body = &ambient;
   standAt(&body, &start, 1, kBulletRounding);
   const SurfaceModel* model = ambient.surface();
   AMBIENT_ASSERT(model);
-  return {{*model, encounter.plane_W, task.surroundings, encounter.velocity_above, task.settings,
+  return {{*model, floating.plane_W, task.surroundings, floating.velocity_above, task.settings,
            task.duration},
           flight.body,
-          encounter.waves,
-          ambient.meeting->stand};
+          floating.waves,
+          ambient.floating->stand};
 }
 
 void flyNearSurface(AmbientBody* const* bodies, Flight* const* flights, int count) {

@@ -63,7 +63,7 @@ bool finishRows(AmbientBody& ambient, const RowBody& row_body, btSolverBody& b) 
               b.internalGetDeltaLinearVelocity());
     fromBasis(row_body.basis, b.internalGetTurnVelocity(), b.internalGetPushVelocity());
   }
-  if (ambient.surface()) ambient.encounter().waves = ambient.encounter().waves_with_rows;
+  if (ambient.surface()) ambient.floating->waves = ambient.floating->waves_with_rows;
   if (!isFinite(b)) {
     dropRows(b);
     ++ambient.counters.rejected;

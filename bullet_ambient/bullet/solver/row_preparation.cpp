@@ -10,7 +10,7 @@
 #include "bullet_ambient/bullet/members/flight_coupling.h"
 #include "bullet_ambient/bullet/rows/row_rewriting.h"
 #include "bullet_ambient/bullet/solver/solver_group.h"
-#include "bullet_ambient/immersed/surface_encounter.h"
+#include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/motion/rows/axis_locks.h"
 #include "bullet_ambient/motion/rows/row_velocity.h"
 #include "bullet_ambient/spatial/rotation.h"

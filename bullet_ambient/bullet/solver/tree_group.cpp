@@ -69,8 +69,8 @@ void TreeGroup::begin() noexcept {
   is_begun_ = true;
   forEachTree(*bodies_.trees.world(), bodies_.trees, [this](AmbientTree& tree) {
     TreeStep& step = tree.step;
-    if (hasMet(tree)) bodies_.complaints.say(Complaint::kNoAction);
-    step.outcome = TreeOutcome::kNotMet;
+    if (isSolved(tree)) bodies_.complaints.say(Complaint::kNoAction);
+    step.outcome = TreeOutcome::kNotSolved;
     step.was_awake = !isAsleep(*tree.multi_body);
     step.turns_rows = false;
     readVelocity(*tree.multi_body, step.start);
@@ -94,7 +94,7 @@ void TreeGroup::markTurningRows() noexcept {
   }
 }
 
-void TreeGroup::meet(const btContactSolverInfo& info) noexcept {
+void TreeGroup::prepare(const btContactSolverInfo& info) noexcept {
   if (!is_begun_) return;
   is_begun_ = false;
   bodies_.solved.fetch_add(1, std::memory_order_relaxed);
@@ -103,14 +103,14 @@ void TreeGroup::meet(const btContactSolverInfo& info) noexcept {
   AmbientTree* lone[kFlightsTogether];
   int count = 0;
   forEachTree(*bodies_.trees.world(), bodies_.trees, [&](AmbientTree& tree) {
-    if (meetTree(tree, task)) return;
+    if (prepareTree(tree, task)) return;
     lone[count++] = &tree;
-    if (count == kFlightsTogether) meetAsBodies(lone, std::exchange(count, 0), task);
+    if (count == kFlightsTogether) flyLoneTrees(lone, std::exchange(count, 0), task);
   });
-  if (count > 0) meetAsBodies(lone, count, task);
+  if (count > 0) flyLoneTrees(lone, count, task);
 }
 
-const AmbientTrees* TreeGroup::met() const noexcept {
+const AmbientTrees* TreeGroup::solvedTrees() const noexcept {
   return bodies_.trees.empty() ? nullptr : &bodies_.trees;
 }
 

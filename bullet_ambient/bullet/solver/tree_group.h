@@ -24,9 +24,9 @@ class TreeGroup {
   /// Call before the first group is solved; later calls in the substep do nothing. Flies trees on
   /// which only rows of their own joints act. Sets the velocity of each tree to the one that its
   /// rows are solved against, docs/theory.md section 14.
-  void meet(const btContactSolverInfo& info) noexcept;
+  void prepare(const btContactSolverInfo& info) noexcept;
   /// Returns the trees whose rows have to be rewritten; null: none.
-  const AmbientTrees* met() const noexcept;
+  const AmbientTrees* solvedTrees() const noexcept;
   /// Call after all groups are solved. Sets the velocity that Bullet moves each tree by.
   void finish(const btContactSolverInfo& info) noexcept;
 

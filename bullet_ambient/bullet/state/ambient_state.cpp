@@ -7,21 +7,21 @@
 #include "bullet_ambient/bullet/links/tree_links.h"
 #include "bullet_ambient/bullet/members/attach.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
+#include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/immersed/region_following.h"
-#include "bullet_ambient/immersed/surface_encounter.h"
 
 AMBIENT_BEGIN
 namespace {
 
 // Gives a link at a surface the inertia that its last substep has left.
-void meetSurfaceAgain(AmbientLink& link, const FluidRegions& regions) {
+void floatAgain(AmbientLink& link, const FluidRegions& regions) {
   AmbientBody& ambient = link.ambient;
-  if (!ambient.place.is_at_surface || !metPlane(ambient)) return;
+  if (!ambient.place.is_at_surface || !lastPlane(ambient)) return;
   const auto entry = regions.all().find(ambient.place.region);
   if (entry == regions.all().end()) return;
   const int media = ambient.models->findSurface(SurfaceKind(entry->second.region));
   if (media < 0) return;
-  meetAgain(ambient, link.now.state, media);
+  restoreFloating(ambient, link.now.state, media);
   link.frozen.freeze(ambient);
 }
 
@@ -42,11 +42,11 @@ std::unique_ptr<AmbientLink> makeLink(const LinkFluidState& saved, const MultiBo
 AmbientState saveAmbient(const AmbientBody& ambient, const InverseMass& mass) {
   const auto* last = std::get_if<LastFlight>(&ambient.outcome.motion);
   const LastFlight flight = last ? *last : LastFlight{};
-  AmbientState state{*ambient.def,      ambient.medium,
-                     ambient.place,     ambient.flow,
-                     flight.memory,     ambient.meeting ? ambient.encounter().waves : WaveMemory{},
-                     metPlane(ambient), ambient.wake ? *ambient.wake : Wake{},
-                     flight.left_W,     ambient.counters};
+  AmbientState state{*ambient.def,       ambient.medium,
+                     ambient.place,      ambient.flow,
+                     flight.memory,      ambient.floating ? ambient.floating->waves : WaveMemory{},
+                     lastPlane(ambient), ambient.wake ? *ambient.wake : Wake{},
+                     flight.left_W,      ambient.counters};
   if (isModelStale(ambient, mass)) state.memory = {};  // as the next step will do
   return state;
 }
@@ -78,9 +78,9 @@ AmbientBody makeAmbient(const AmbientState& saved, const InverseMass& mass,
   LastFlight& flight = ambient.outcome.flight();
   flight.memory = saved.memory;
   flight.left_W = saved.left_W;
-  if (ambient.meeting && ambient.place.is_at_surface) {
-    ambient.encounter().waves = saved.waves;
-    if (saved.met_B) ambient.meeting->meet(*saved.met_B);
+  if (ambient.floating && ambient.place.is_at_surface) {
+    ambient.floating->waves = saved.waves;
+    if (saved.met_B) ambient.floating->setPlane(*saved.met_B);
   }
   if (ambient.wake) *ambient.wake = saved.wake;
   ambient.counters = saved.counters;
@@ -109,7 +109,7 @@ void insertLinks(const MultiBodyState& state, std::vector<std::unique_ptr<Ambien
   for (const auto& link : tree->links) link->now.gravity = toVector3(world.getGravity());
   placeLinksNow(*tree);
   tree->step.end = tree->step.start;
-  for (const auto& link : tree->links) meetSurfaceAgain(*link, registered.regions);
+  for (const auto& link : tree->links) floatAgain(*link, registered.regions);
 }
 
 AMBIENT_END

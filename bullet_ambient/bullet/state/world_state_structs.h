@@ -28,7 +28,7 @@ struct AmbientState {
   FlowMemory flow;
   FlightMemory memory;
   WaveMemory waves;
-  std::optional<SurfacePlane> met_B;  ///< metPlane()
+  std::optional<SurfacePlane> met_B;  ///< lastPlane()
   Wake wake;
   Twist left_W;
   AmbientCounters counters;

@@ -49,9 +49,9 @@ bool hasAwakeMember(const btCollisionWorld& world, const AmbientBodies& bodies) 
   return is_awake;
 }
 
-// Whether the body that the solver met is still there: it may have been removed and destroyed
-// since, by another action, or long ago if that substep had no action. Removals swap the world's
-// array.
+// Whether the body that the solver has worked on is still there: it may have been removed and
+// destroyed since, by another action, or long ago if that substep had no action. Removals swap the
+// world's array.
 bool isStillIn(const btCollisionWorld& world, const AmbientBody& ambient) {
   const btCollisionObjectArray& objects = world.getCollisionObjectArray();
   int index = ambient.outcome.world_index;
@@ -106,12 +106,12 @@ class Completion {
   int count_ = 0;
 };
 
-// Completes the trees that the solver has met, after Bullet has moved them.
+// Completes the trees that the solver has worked on, after Bullet has moved them.
 void completeTrees(const btCollisionWorld& world, AmbientBodies& bodies, btScalar time_step) {
   if (!isOf(world, bodies.trees)) return;
   const TreeTask task = taskOf(bodies, time_step);
   forEachTreeIn(world, bodies, [&task](AmbientTree& tree) { completeTree(tree, task); });
-  for (const auto& tree : bodies.trees.all()) tree->step.outcome = TreeOutcome::kNotMet;
+  for (const auto& tree : bodies.trees.all()) tree->step.outcome = TreeOutcome::kNotSolved;
 }
 
 // Clears contact impulses after a substep whose duration is not finite: the next one would start
@@ -176,8 +176,8 @@ bool FluidAction::isSolverMissing(const btCollisionWorld& world) {
 void FluidAction::updateAction(btCollisionWorld* world, btScalar time_step) {
   world_ = world;
   Completion completion(static_cast<double>(time_step), bodies_.complaints);
-  for (AmbientBody* ambient = bodies_.takeMet(); ambient; ambient = ambient->next_met) {
-    const Outcome kind = std::exchange(ambient->outcome.kind, Outcome::kNotMet);
+  for (AmbientBody* ambient = bodies_.takeSolved(); ambient; ambient = ambient->next_solved) {
+    const Outcome kind = std::exchange(ambient->outcome.kind, Outcome::kNotSolved);
     if (kind == Outcome::kStock || !isStillIn(*world, *ambient)) continue;
     completion.add(kind, *ambient);
   }

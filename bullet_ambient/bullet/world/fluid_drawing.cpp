@@ -8,8 +8,8 @@
 #include "bullet_ambient/force/medium/fluid_region.h"
 #include "bullet_ambient/force/surface/buoyancy.h"
 #include "bullet_ambient/immersed/ambient_body.h"
+#include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/immersed/fluid_reading.h"
-#include "bullet_ambient/immersed/surface_encounter.h"
 
 AMBIENT_BEGIN
 namespace {

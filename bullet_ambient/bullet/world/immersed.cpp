@@ -13,8 +13,8 @@
 #include "bullet_ambient/bullet/members/attach.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
 #include "bullet_ambient/fluid.h"
+#include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/immersed/fluid_reading.h"
-#include "bullet_ambient/immersed/surface_encounter.h"
 
 AMBIENT_BEGIN
 namespace {

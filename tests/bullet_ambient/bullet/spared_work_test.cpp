@@ -177,7 +177,7 @@ TEST(SparedWork, BodiesOfOneShapeShareItsData) {
     EXPECT_EQ(bodies[0]->models, bodies[1]->models);
     EXPECT_EQ(bodies[0]->models->media.size(), 2U);
     EXPECT_EQ(bodies[0]->models->surfaces.size(), 1U);
-    EXPECT_NE(bodies[0]->meeting, bodies[1]->meeting);
+    EXPECT_NE(bodies[0]->floating, bodies[1]->floating);
   }
 }
 

@@ -103,7 +103,7 @@ TEST_F(Lifetime, NothingTouchesABodyThatAnotherActionHasDestroyed) {
   EXPECT_TRUE(storage.isUntouched());
   // The removal moved the other body within the world's array; its flight was completed all the
   // same.
-  EXPECT_EQ(membersOf(scene.fluid).find(&other)->outcome.kind, Outcome::kNotMet);
+  EXPECT_EQ(membersOf(scene.fluid).find(&other)->outcome.kind, Outcome::kNotSolved);
   scene.world.removeAction(&destroyer);
 }
 
@@ -130,7 +130,7 @@ TEST_F(Lifetime, ABodyThatAnotherActionDetachesLeavesTheOthersTheirFlights) {
       const AmbientBody* ambient = membersOf(three.fluid).find(bodies[i]);
       ASSERT_EQ(ambient == nullptr, i == detached);
       if (ambient) {
-        EXPECT_EQ(ambient->outcome.kind, Outcome::kNotMet);
+        EXPECT_EQ(ambient->outcome.kind, Outcome::kNotSolved);
         EXPECT_NE(bodies[i]->getLinearVelocity().z(), 0);
       }
     }

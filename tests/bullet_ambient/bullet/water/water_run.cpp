@@ -180,7 +180,7 @@ double WaterRun::energyOf(const FloatingBody& floating) const {
   const double centre = (state.position + R * model.above.centre_of_volume).z();
   const double in_air = model.above.displaced_mass * kGravity * centre;
   return x.dot(stand.inertia.full() * x) / 2 + weight - in_air +
-         hydrostaticEnergy(at.wet, at.plane) + ambient.encounter().waves.energy();
+         hydrostaticEnergy(at.wet, at.plane) + ambient.floating->waves.energy();
 }
 
 }  // namespace ambient::test

@@ -1,4 +1,4 @@
-#include "bullet_ambient/immersed/surface_encounter.h"
+#include "bullet_ambient/immersed/floating_state.h"
 
 #include <cmath>
 #include <cstddef>
@@ -15,15 +15,14 @@ namespace {
 // Returns the plane in W after a time since the step began: it moves with the water.
 SurfacePlane movedPlane(const AmbientBody& ambient, double time) {
   const Medium& water = ambient.medium;
-  SurfacePlane plane = ambient.encounter().plane_W;
+  SurfacePlane plane = ambient.floating->plane_W;
   plane.height += plane.normal.dot(time * water.velocity + time * time / 2 * water.acceleration);
   return plane;
 }
 
 // Returns the plane at the start of the step in B, at a pose.
 SurfacePlane planeAt(const AmbientBody& ambient, const RigidState& state) {
-  return seenFrom(ambient.encounter().plane_W, state.orientation.toRotationMatrix(),
-                  state.position);
+  return seenFrom(ambient.floating->plane_W, state.orientation.toRotationMatrix(), state.position);
 }
 
 // Whether two planes are one but for a rounding of poses, relative to their place in W.
@@ -39,38 +38,39 @@ bool isSame(const SurfacePlane& a, const SurfacePlane& b) {
 }
 
 // Sets the plane of the stand to a plane in B.
-void moveTo(const SurfacePlane& plane_B, SurfaceMeeting& meeting) {
-  if (meeting.is_valid && isSame(meeting.stand.plane, plane_B)) {
-    meeting.has_met = true;
+void moveTo(const SurfacePlane& plane_B, FloatingState& floating) {
+  if (floating.is_valid && isSame(floating.stand.plane, plane_B)) {
+    floating.has_plane = true;
   } else {
-    meeting.meet(plane_B);
+    floating.setPlane(plane_B);
   }
 }
 
 // Sets the plane of the stand to that at a pose, unless they differ by the rounding of the pose
 // only.
-void meetPlane(AmbientBody& ambient, const RigidState& state, double rounding) {
+void takePlane(AmbientBody& ambient, const RigidState& state, double rounding) {
   constexpr double kRoundings = 64;
-  SurfaceMeeting& meeting = *ambient.meeting;
+  FloatingState& floating = *ambient.floating;
   const SurfacePlane plane_B = planeAt(ambient, state);
   const double size = ambient.surface()->radius + state.position.norm();
-  if (meeting.has_met && isNear(meeting.stand.plane, plane_B, size, kRoundings * rounding)) return;
-  moveTo(plane_B, meeting);
+  if (floating.has_plane && isNear(floating.stand.plane, plane_B, size, kRoundings * rounding))
+    return;
+  moveTo(plane_B, floating);
 }
 
 // Computes the stands of up to kFlightsTogether bodies for the planes that they have met.
-void completeMet(AmbientBody* const* bodies, int count) {
+void completeAll(AmbientBody* const* bodies, int count) {
   const SurfaceModel* models[kFlightsTogether] = {};
   SurfaceStand* stands[kFlightsTogether] = {};
   int made = 0;
   for (int i = 0; i < count; ++i) {
-    SurfaceMeeting& meeting = *bodies[i]->meeting;
-    if (meeting.is_valid) continue;
+    FloatingState& floating = *bodies[i]->floating;
+    if (floating.is_valid) continue;
     const SurfaceModel& model = *bodies[i]->surface();
-    static_cast<SurfacePlace&>(meeting.stand) = placeAt(model, meeting.stand.plane);
-    meeting.is_valid = true;
+    static_cast<SurfacePlace&>(floating.stand) = placeAt(model, floating.stand.plane);
+    floating.is_valid = true;
     models[made] = &model;
-    stands[made++] = &meeting.stand;
+    stands[made++] = &floating.stand;
   }
   if (made > 0) completeStands(models, stands, made);
 }
@@ -117,27 +117,27 @@ NearSurface nearSurface(const AmbientBody& ambient, const MotionView& now, const
   return {sideOf(model, plane_B, travel), media, plane_W};
 }
 
-SurfaceSide meetSurface(AmbientBody& ambient, const NearSurface& near, const RegionSample& sample,
-                        const PoolSides& sides_F) noexcept {
+SurfaceSide enterSurface(AmbientBody& ambient, const NearSurface& near, const RegionSample& sample,
+                         const PoolSides& sides_F) noexcept {
   const bool is_cut = sides_F.count > 0 && near.side != SurfaceSide::kAbove;
   if (near.media < 0 || (near.side != SurfaceSide::kAt && !is_cut)) return near.side;
-  if (ambient.surface_media != near.media) ambient.meeting->is_valid = false;
+  if (ambient.surface_media != near.media) ambient.floating->is_valid = false;
   ambient.surface_media = near.media;
-  SurfaceEncounter& encounter = ambient.encounter();
-  encounter.plane_W = near.plane_W;
-  encounter.velocity_above = sample.above.velocity;
+  FloatingState& floating = *ambient.floating;
+  floating.plane_W = near.plane_W;
+  floating.velocity_above = sample.above.velocity;
   if (!is_cut) return SurfaceSide::kAt;
   ambient.flow_along->sides_F = sides_F;
-  encounter.plane_W.sides_F = &ambient.flow_along->sides_F;
-  ambient.meeting->has_met = ambient.meeting->is_valid = false;  // its stand had other sides
+  floating.plane_W.sides_F = &ambient.flow_along->sides_F;
+  ambient.floating->has_plane = ambient.floating->is_valid = false;  // its stand had other sides
   return SurfaceSide::kAt;
 }
 
 void standAt(AmbientBody* const* bodies, const RigidState* states, int count,
              double rounding) noexcept {
   AMBIENT_ASSERT(count > 0 && count <= kFlightsTogether);
-  for (int i = 0; i < count; ++i) meetPlane(*bodies[i], states[i], rounding);
-  completeMet(bodies, count);
+  for (int i = 0; i < count; ++i) takePlane(*bodies[i], states[i], rounding);
+  completeAll(bodies, count);
 }
 
 BodyModel modelNow(const AmbientBody& ambient, const MotionView& now) {
@@ -205,34 +205,34 @@ Vector6 kickByWavesAndWind(AmbientBody& ambient, const RigidState& now, double d
   Twist relative = now.twist;
   relative.linear -= R.transpose() * ambient.medium.velocity;
   const Vector6 x = relative.vector();
-  ambient.encounter().twist_before_rows = x;
-  ambient.encounter().plane_before_rows = planeAt(ambient, now);
-  WaveMemory& waves = ambient.encounter().waves_with_rows;
-  waves = ambient.encounter().waves;
+  ambient.floating->twist_before_rows = x;
+  ambient.floating->plane_before_rows = planeAt(ambient, now);
+  WaveMemory& waves = ambient.floating->waves_with_rows;
+  waves = ambient.floating->waves;
   Vector6 end = exchangeWaves(stand.modes, R, stand.inverse, duration, x, waves);
   if (model.loads_above.loads) {
-    const Vector3 wind_W = ambient.medium.velocity - ambient.encounter().velocity_above;
+    const Vector3 wind_W = ambient.medium.velocity - ambient.floating->velocity_above;
     end = takeWind({model, stand, R.transpose() * wind_W, duration}, end);
     countLoads(ambient, 1);
   }
   return end - x;
 }
 
-std::optional<SurfacePlane> metPlane(const AmbientBody& ambient) noexcept {
-  if (!ambient.meeting || !ambient.meeting->has_met) return std::nullopt;
+std::optional<SurfacePlane> lastPlane(const AmbientBody& ambient) noexcept {
+  if (!ambient.floating || !ambient.floating->has_plane) return std::nullopt;
   return ambient.stand().plane;
 }
 
-void meetAgain(AmbientBody& ambient, const RigidState& now, int media) noexcept {
-  SurfaceEncounter& encounter = ambient.encounter();
-  AMBIENT_ASSERT(ambient.meeting->has_met);
+void restoreFloating(AmbientBody& ambient, const RigidState& now, int media) noexcept {
+  FloatingState& floating = *ambient.floating;
+  AMBIENT_ASSERT(ambient.floating->has_plane);
   ambient.surface_media = media;
   const SurfacePlane met = ambient.stand().plane;
   const Vector3 normal_W = now.orientation * met.normal;
-  encounter.plane_W = {normal_W, met.height + normal_W.dot(now.position), met.density, met.gravity};
-  ambient.meeting->meet(met);
+  floating.plane_W = {normal_W, met.height + normal_W.dot(now.position), met.density, met.gravity};
+  ambient.floating->setPlane(met);
   AmbientBody* const body = &ambient;
-  completeMet(&body, 1);
+  completeAll(&body, 1);
 }
 
 namespace {
@@ -318,7 +318,7 @@ BoundedTwist passedFrom(const Departure& before, const AmbientBody& ambient, Axe
     return scaledWithin(x, x.dot(after.inertia.full() * x), x.dot(before.place.inertia.full() * x));
   const Matrix6 inverse = after.inverse.full();
   const BoundedTwist moved = withinPotential(
-      {before.fall, fallOf(ambient), inverse, ambient.encounter().twist_before_rows, duration}, x);
+      {before.fall, fallOf(ambient), inverse, ambient.floating->twist_before_rows, duration}, x);
   BoundedTwist end = passSurface({model, before.place, after, duration}, moved.twist);
   end.energy_removed += moved.energy_removed;
   return end;
@@ -342,14 +342,14 @@ void passWithRows(AmbientBody* const* bodies, const FrameOffset* poses, int coun
   for (int i = 0; i < count; ++i) {
     AmbientBody& ambient = *bodies[i];
     departures[i] = Departure{ambient.stand(),  // since standNow()
-                              fallOf(ambient, ambient.encounter().plane_before_rows)};
+                              fallOf(ambient, ambient.floating->plane_before_rows)};
     if (falls) departures[i]->fall.wrench = falls[i];
-    moveTo(seenFrom(movedPlane(ambient, duration), poses[i]), *ambient.meeting);
+    moveTo(seenFrom(movedPlane(ambient, duration), poses[i]), *ambient.floating);
   }
-  completeMet(bodies, count);
+  completeAll(bodies, count);
   for (int i = 0; i < count; ++i) {
     AmbientBody& ambient = *bodies[i];
-    ambient.encounter().plane_W = movedPlane(ambient, duration);
+    ambient.floating->plane_W = movedPlane(ambient, duration);
     twists[i] = passedFrom(*departures[i], ambient, axes, duration, twists[i].twist);
   }
 }

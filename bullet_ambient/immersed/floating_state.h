@@ -41,15 +41,15 @@ struct NearSurface {
 NearSurface nearSurface(const AmbientBody& ambient, const MotionView& now, const SurfaceKind& kind,
                         const SampleAt& at, double duration) noexcept;
 
-/// Fills AmbientBody::encounter() if the surface matters to the body; where sides of its pool cut
+/// Fills AmbientBody::floating if the surface matters to the body; where sides of its pool cut
 /// it and it is not dry, it does at any depth. Allocates nothing.
-SurfaceSide meetSurface(AmbientBody& ambient, const NearSurface& near, const RegionSample& sample,
-                        const PoolSides& sides_F) noexcept;
+SurfaceSide enterSurface(AmbientBody& ambient, const NearSurface& near, const RegionSample& sample,
+                         const PoolSides& sides_F) noexcept;
 
 /// Computes the SurfaceStands of up to kFlightsTogether bodies at poses when the step begins, side
-/// by side. Keeps the last one if the plane in B equals metPlane() up to `rounding` of poses in
-/// Bullet. The result depends on metPlane() alone, so that a restored state continues with the same
-/// bits. Allocates nothing. @pre they are at a surface
+/// by side. Keeps the last one if the plane in B equals lastPlane() up to `rounding` of poses in
+/// Bullet. The result depends on lastPlane() alone, so that a restored state continues with the
+/// same bits. Allocates nothing. @pre they are at a surface
 void standAt(AmbientBody* const* bodies, const RigidState* states, int count,
              double rounding) noexcept;
 
@@ -123,12 +123,12 @@ Vector6 kickByWavesAndWind(AmbientBody& ambient, const RigidState& now, double d
 
 /// Plane of the surface in B at the exact pose where the last flight or step with rows ended,
 /// before Bullet rounded it; none: the body has met no surface.
-std::optional<SurfacePlane> metPlane(const AmbientBody& ambient) noexcept;
+std::optional<SurfacePlane> lastPlane(const AmbientBody& ambient) noexcept;
 
-/// Restores the encounter of a saved state with its surface, and the stand for metPlane(). Call
+/// Restores the surface of a saved state, and the stand for lastPlane(). Call
 /// between steps.
-/// @pre metPlane() is set; `media` is an index into FluidModels::surfaces
-void meetAgain(AmbientBody& ambient, const RigidState& now, int media) noexcept;
+/// @pre lastPlane() is set; `media` is an index into FluidModels::surfaces
+void restoreFloating(AmbientBody& ambient, const RigidState& now, int media) noexcept;
 
 /// Replaces the twists of up to kFlightsTogether bodies that Bullet has moved with rows by those
 /// after the change of their added mass on the way; in B, relative to the water. Removes energy
