@@ -9,6 +9,7 @@
 #include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/immersed/fluid_regions.h"
 #include "bullet_ambient/immersed/pool_rim.h"
+#include "bullet_ambient/immersed/station_samples.h"
 
 namespace ambient {
 namespace {

@@ -2,6 +2,7 @@
 
 #include <BulletDynamics/ConstraintSolver/btSolverBody.h>
 
+#include "bullet_ambient/bullet/core/conversions.h"
 #include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/bullet/rows/row_rewriting.h"
 #include "bullet_ambient/immersed/ambient_body.h"

@@ -1,5 +1,7 @@
 // Ends the solver's work on a group: maps velocity changes by rows back, flies bodies that no row
 // has moved.
+#include <BulletDynamics/ConstraintSolver/btContactSolverInfo.h>
+
 #include <algorithm>
 
 #include "bullet_ambient/base/ambient_assert.h"

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/bullet/links/tree_links.h"
 #include "bullet_ambient/bullet/members/attach.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
