@@ -18,10 +18,8 @@
 #include <vector>
 
 #include "bullet_ambient/base/plain_text.h"
-#include "demos/scene/scene_lookup.h"
 #include "demos/scene/scene_reader.h"
 #include "demos/simulation/body_preparation.h"
-#include "demos/simulation/output/output_folder.h"
 #include "demos/simulation/output/run_files.h"
 #include "demos/simulation/scene_run.h"
 #include "preprocess/base/output_file.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bullet_ambient/spatial/spatial_vectors.h"
-#include "preprocess/builder/body_folder.h"
+#include "preprocess/builder/body_maker.h"
 
 namespace ambient {
 

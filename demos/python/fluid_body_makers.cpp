@@ -18,7 +18,6 @@
 #include "demos/python/arrays.h"
 #include "demos/python/bindings.h"
 #include "preprocess/base/fluid_body_writer.h"
-#include "preprocess/builder/body_folder.h"
 #include "preprocess/builder/body_maker.h"
 #include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/builder/shape_builder.h"

@@ -5,7 +5,6 @@
 #include "bullet_ambient/base/fnv1a.h"
 #include "demos/python/arrays.h"
 #include "demos/python/bindings.h"
-#include "demos/scene/scene_lookup.h"
 #include "demos/scene/scene_reader.h"
 #include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/shape/json_schema.h"

@@ -1,6 +1,8 @@
 #include "preprocess/builder/body_maker.h"
 
 #include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <optional>
 #include <utility>
 
@@ -10,6 +12,54 @@
 #include "preprocess/builder/reuse.h"
 
 namespace ambient {
+
+namespace {
+
+std::filesystem::path variable(const char* name) {
+  const char* value = std::getenv(name);
+  return value ? value : "";
+}
+
+}  // namespace
+
+BodyFolder userBodyFolder() {
+  constexpr std::chrono::milliseconds kWorthAFile(50);
+  const auto chosen = variable("BULLET_AMBIENT_CACHE"), home = variable("HOME");
+  auto cache = variable("XDG_CACHE_HOME");
+  if (chosen == "off") return {};
+  if (!chosen.empty()) return {chosen, kWorthAFile};
+  if (!cache.is_absolute()) cache = home / ".cache";  // as the XDG specification says
+  if (!cache.is_absolute()) return {};
+  return {cache / "bullet_ambient", kWorthAFile};
+}
+
+SharedBodies::Body SharedBodies::get(const std::string& key, const std::function<Body()>& make) {
+  std::promise<Body> promise;
+  std::shared_future<Body> body;
+  bool is_new = false;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto [entry, inserted] = bodies_.try_emplace(key);
+    is_new = inserted;
+    if (is_new) entry->second = promise.get_future().share();
+    body = entry->second;
+  }
+  if (is_new) {
+    try {
+      promise.set_value(make());
+    } catch (...) {
+      forget(key);
+      promise.set_exception(std::current_exception());
+    }
+  }
+  return body.get();
+}
+
+void SharedBodies::forget(const std::string& key) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  bodies_.erase(key);
+}
+
 namespace {
 
 constexpr std::chrono::seconds kBetweenLines(1);

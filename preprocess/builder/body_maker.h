@@ -1,15 +1,52 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
 #include <functional>
+#include <future>
 #include <memory>
 #include <mutex>
 #include <string>
+#include <type_traits>
+#include <unordered_map>
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
-#include "preprocess/builder/body_folder.h"
 
 namespace ambient {
+
+/// Folder of .ambient files that keeps fluid bodies for other runs and programs.
+struct BodyFolder {
+  BodyFolder() = default;
+  template <class Path,
+            class = std::enable_if_t<std::is_constructible_v<std::filesystem::path, const Path&>>>
+  BodyFolder(const Path& folder, std::chrono::milliseconds least_time = {})
+      : path(folder), least(least_time) {}
+
+  std::filesystem::path path;          ///< made when first needed; empty: none
+  std::chrono::milliseconds least{0};  ///< bodies that are made in less time get no file
+};
+
+/// Returns the folder of the user, in which PyBullet and Python keep what takes more than 50 ms:
+/// $BULLET_AMBIENT_CACHE, else bullet_ambient in $XDG_CACHE_HOME or in ~/.cache. None if
+/// BULLET_AMBIENT_CACHE is "off", or without a home.
+BodyFolder userBodyFolder();
+
+/// Fluid bodies by key; may be used by any number of threads.
+class SharedBodies {
+ public:
+  using Body = std::shared_ptr<const FluidBody>;
+
+  /// Returns the body of a key. The first thread that asks calls make(); others wait for it. An
+  /// exception of make() goes to all of them; the next caller makes the body again, as the memory
+  /// or the file that was missing may be there then.
+  Body get(const std::string& key, const std::function<Body()>& make);
+  /// Lets go of the body of a key: the next caller makes it again.
+  void forget(const std::string& key);
+
+ private:
+  std::mutex mutex_;
+  std::unordered_map<std::string, std::shared_future<Body>> bodies_;
+};
 
 /// Prints a line to standard error, begun with the library's name.
 void printReport(const std::string& line);

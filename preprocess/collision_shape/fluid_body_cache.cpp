@@ -8,7 +8,6 @@
 
 #include "bullet_ambient/base/fnv1a.h"
 #include "preprocess/builder/body_maker.h"
-#include "preprocess/builder/shared_bodies.h"
 #include "preprocess/collision_shape/collision_shape_body.h"
 #include "preprocess/collision_shape/form_body.h"
 

@@ -1,11 +1,15 @@
 #pragma once
 
+#include <CLI/App.hpp>
+#include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
 #include "bullet_ambient/force/law/flow_settings.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/potential_flow/results/potential_flow.h"
+#include "preprocess/shape/shapes.h"
 
 namespace ambient {
 
@@ -45,5 +49,35 @@ Matrix3 flightAxesOf(const std::string& forward, const std::string& up);
 
 /// The law named by --law.
 PressureLaw lawOf(const std::string& name);
+
+/// True if a file name ends with an extension, such as ".json", in upper or lower case.
+bool hasExtension(const std::filesystem::path& file, const std::string& extension);
+
+/// Options that say how an INPUT is used.
+struct InputOptions {
+  bool sheet = false;  ///< an open surface of zero thickness
+  bool hull = false;   ///< true: use the convex hull
+  std::optional<std::string>
+      wrap;             ///< use a closed surface around the mesh; value: its size [m] as text
+  double scale = 1;     ///< factor on all lengths of the result
+  bool strict = false;  ///< refuse what is not a closed body after mending, in place of wrapping it
+};
+
+/// Adds --scale, --sheet, --hull, --wrap [SIZE] and --strict.
+void addInputOptions(CLI::App& command, InputOptions& options);
+
+/// Reads the shape of an INPUT of the command line: a mesh file, or a JSON file with a shape.
+/// @throws UsageError for options that exclude each other.
+/// @throws std::runtime_error in one line that names the file.
+ShapeDescription describeInput(const std::filesystem::path& input, const InputOptions& options);
+
+/// Checks before the work that a file can be written.
+/// @throws std::runtime_error if its folder does not exist, it is a folder, or it is the input.
+void requireWritablePlace(const std::filesystem::path& output, const std::filesystem::path& input);
+
+/// Checks that a fluid body would replace no foreign file: only a file with extension .ambient, or
+/// one that begins like such a file, or nothing.
+/// @throws std::runtime_error in one line that names the file, if something else stands there.
+void requireReplaceable(const std::filesystem::path& output);
 
 }  // namespace ambient

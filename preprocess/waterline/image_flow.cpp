@@ -13,7 +13,6 @@
 #include "preprocess/base/large_products.h"
 #include "preprocess/mesh/triangle_mesh.h"
 #include "preprocess/potential_flow/operators/far_moments.h"
-#include "preprocess/potential_flow/operators/hypersingular.h"
 #include "preprocess/potential_flow/operators/near_moments.h"
 #include "preprocess/potential_flow/surface/panel_surface.h"
 #include "preprocess/potential_flow/surface/surface_refinement.h"

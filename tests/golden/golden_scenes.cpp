@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
-#include "demos/scene/scene_lookup.h"
+#include "demos/scene/scene_reader.h"
 #include "tests/demos/simulation/scenes/run_scene.h"
 #include "tests/golden/golden_record.h"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "preprocess/builder/fluid_body_builder.h"
-#include "preprocess/command_line/input_shape.h"
+#include "preprocess/command_line/option_values.h"
 
 namespace ambient {
 

@@ -15,7 +15,6 @@
 #include "preprocess/command_line/commands/build_arguments.h"
 #include "preprocess/command_line/fluid_body_report.h"
 #include "preprocess/command_line/option_values.h"
-#include "preprocess/command_line/output_place.h"
 #include "preprocess/polar/polar.h"
 #include "preprocess/reduced_loads/form_levels.h"
 #include "preprocess/waterline/waterline_builder.h"

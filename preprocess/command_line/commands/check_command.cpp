@@ -14,16 +14,14 @@
 #include "preprocess/builder/elapsed_display.h"
 #include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/command_line/commands.h"
-#include "preprocess/command_line/input_shape.h"
-#include "preprocess/command_line/json_numbers.h"
+#include "preprocess/command_line/fluid_body_report.h"
 #include "preprocess/command_line/option_values.h"
-#include "preprocess/command_line/output_place.h"
 #include "preprocess/mesh/check/mesh_checks.h"
 #include "preprocess/mesh/geometry.h"
 #include "preprocess/mesh/import/mesh_import.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mass_properties.h"
-#include "preprocess/potential_flow/results/flow_estimate.h"
+#include "preprocess/potential_flow/results/refined_flow.h"
 #include "preprocess/shape/shape_mesh.h"
 
 namespace ambient {

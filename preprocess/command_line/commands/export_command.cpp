@@ -4,7 +4,6 @@
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/option_values.h"
-#include "preprocess/command_line/output_place.h"
 #include "preprocess/hand_over/export_fluid_body.h"
 #include "preprocess/polar/polar.h"
 

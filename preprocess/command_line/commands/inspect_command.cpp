@@ -11,7 +11,6 @@
 #include "bullet_ambient/force/medium/medium.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/fluid_body_report.h"
-#include "preprocess/command_line/json_numbers.h"
 #include "preprocess/floating/floating_body.h"
 
 namespace ambient {

@@ -7,7 +7,7 @@
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "preprocess/command_line/commands.h"
-#include "preprocess/command_line/json_numbers.h"
+#include "preprocess/command_line/fluid_body_report.h"
 #include "preprocess/command_line/option_values.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/polar/polar.h"

@@ -7,7 +7,7 @@
 #include "preprocess/builder/elapsed_display.h"
 #include "preprocess/bullet_world/world_builder.h"
 #include "preprocess/command_line/commands/build_arguments.h"
-#include "preprocess/command_line/json_numbers.h"
+#include "preprocess/command_line/fluid_body_report.h"
 #include "preprocess/command_line/option_values.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mass_properties.h"

@@ -12,12 +12,67 @@
 #include "preprocess/mesh/geometry.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/wrap/surface_wrap.h"
-#include "preprocess/potential_flow/results/curvature_correction.h"
 #include "preprocess/potential_flow/surface/flat_merging.h"
+#include "preprocess/potential_flow/surface/panel.h"
+#include "preprocess/potential_flow/surface/quadrature_rules.h"
 #include "preprocess/potential_flow/surface/shape_symmetry.h"
 #include "preprocess/potential_flow/surface/surface_refinement.h"
 
 namespace ambient {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::Vector3d;
+using Matrix36 = Eigen::Matrix<double, 3, 6>;
+
+Panel panelOf(const TriangleMesh& mesh, Index t) {
+  return makePanel(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2));
+}
+
+/// Height of the smooth surface over a point of the face.
+double heightAt(const Panel& face, const FaceBulge& bulge, const Vector3d& x) {
+  Vector3d hat;
+  for (int a = 0; a < 3; ++a) hat[a] = 1.0 / 3 + face.hatGradient(a).dot(x - face.centroid);
+  return 4 * (bulge[0] * hat[0] * hat[1] + bulge[1] * hat[1] * hat[2] + bulge[2] * hat[2] * hat[0]);
+}
+
+/// Velocities of the six unit motions at x.
+Matrix36 velocitiesAt(const Vector3d& x) {
+  Matrix36 u;
+  u << -crossMatrix(x), Eigen::Matrix3d::Identity();
+  return u;
+}
+
+}  // namespace
+
+CurvatureCorrection computeCurvatureCorrection(
+    const TriangleMesh& mesh, const std::vector<FaceBulge>& bulges, const DividedSurface& panels,
+    const Eigen::Matrix<double, Eigen::Dynamic, 6>& potential) {
+  CurvatureCorrection correction;
+  if (bulges.empty()) return correction;
+  AMBIENT_ASSERT(static_cast<Index>(bulges.size()) == mesh.triangleCount());
+  AMBIENT_ASSERT(potential.rows() == mesh.vertexCount() ||
+                 potential.rows() == panels.mesh.vertexCount());
+  for (Index t = 0; t < panels.mesh.triangleCount(); ++t) {
+    const int face_number = panels.face[t];
+    const Panel face = panelOf(mesh, face_number), panel = panelOf(panels.mesh, t);
+    Matrix36 flow = Matrix36::Zero();  // along the panel
+    for (int a = 0; a < 3; ++a)
+      flow += panel.hatGradient(a) * potential.row(panels.mesh.triangles(a, t));
+    const Eigen::Matrix3d along =
+        Eigen::Matrix3d::Identity() - panel.normal * panel.normal.transpose();
+    for (const TriangleNode& node : kTriangleRule6) {
+      const Vector3d x = panel.at(node.barycentric);
+      const double layer = node.weight * panel.area * heightAt(face, bulges[face_number], x);
+      const Matrix36 u = velocitiesAt(x), slip = along * u - flow;
+      correction.added_mass += layer * (slip.transpose() * slip - u.transpose() * u);
+      correction.volume += layer;
+    }
+  }
+  return correction;
+}
+
 namespace {
 
 // Order of the error in the length of the panels at edges they are thinned across; measured 2.1 to
@@ -207,6 +262,61 @@ RefinedFlow solveRefinedFlow(const TriangleMesh& mesh, const PotentialFlowSettin
   finer.max_panels =
       settings.polyhedron ? static_cast<int>(kMostDensePanels) : 4 * settings.max_panels;
   return solveDivided(mesh, finer);
+}
+
+namespace {
+
+double blockError(const Matrix6& error, const Matrix6& value, int first) {
+  const double scale = value.block<3, 3>(first, first).cwiseAbs().maxCoeff();
+  return scale > 0 ? error.block<3, 3>(first, first).cwiseAbs().maxCoeff() / scale : 0;
+}
+
+FlowEstimate estimateOf(const Matrix6& error, const Matrix6& added_mass, Eigen::Index panels,
+                        Eigen::Index other_panels) {
+  return {panels, other_panels, blockError(error, added_mass, 0), blockError(error, added_mass, 3)};
+}
+
+/// Compares with a build on half or a third of the panels.
+std::optional<FlowEstimate> compareWithFewer(const TriangleMesh& mesh, const RefinedFlow& fine,
+                                             PotentialFlowSettings settings) {
+  for (const int divisor : {2, 3}) {
+    settings.max_panels = static_cast<int>(fine.panels) / divisor;
+    const RefinedFlow coarse = solveRefinedFlow(mesh, settings);
+    if (5 * coarse.panels <= 4 * fine.panels)
+      return estimateOf(fine.added_mass - coarse.added_mass, fine.added_mass, fine.panels,
+                        coarse.panels);
+  }
+  return std::nullopt;
+}
+
+/// Compares the plain solution on the triangles with that on about four times as many.
+std::optional<FlowEstimate> compareWithMore(const TriangleMesh& mesh,
+                                            PotentialFlowSettings settings) {
+  constexpr int kMostPanels = 8000;
+  const TriangleMesh finer = divideTriangles(mesh, 3 * static_cast<int>(mesh.triangleCount()));
+  if (finer.triangleCount() > kMostPanels) return std::nullopt;
+  settings.max_panels = 0;
+  const PotentialFlow few = solvePotentialFlow(mesh, settings),
+                      many = solvePotentialFlow(finer, settings);
+  // K(P) = K + c / P.
+  const double ratio = static_cast<double>(few.panels) / static_cast<double>(many.panels);
+  const Matrix6 error = (few.added_mass - many.added_mass) / (1 - ratio);
+  return estimateOf(error, few.added_mass - error, few.panels, many.panels);
+}
+
+}  // namespace
+
+std::optional<FlowEstimate> estimateFlow(const TriangleMesh& mesh,
+                                         const PotentialFlowSettings& settings) {
+  TriangleMesh centred = mesh;
+  centred.vertices.colwise() -= computeMassProperties(mesh, settings.sheet).uniform.centre;
+  const TriangleMesh basis = mergeFlatTriangles(centred, settings.sheet, settings.max_panels);
+  if (settings.max_panels > basis.triangleCount()) {
+    const RefinedFlow fine = solveRefinedFlow(basis, settings);
+    if (fine.panels != basis.triangleCount())
+      if (const auto estimate = compareWithFewer(basis, fine, settings)) return estimate;
+  }
+  return compareWithMore(refineSurface(basis, settings.sheet, settings.max_panels), settings);
 }
 
 }  // namespace ambient

@@ -1,8 +1,30 @@
 #pragma once
 
+#include <optional>
+
+#include "bullet_ambient/spatial/vector_types.h"
+#include "preprocess/mesh/triangle_mesh.h"
 #include "preprocess/potential_flow/results/potential_flow.h"
+#include "preprocess/potential_flow/surface/face_bulges.h"
+#include "preprocess/potential_flow/surface/surface_refinement.h"
 
 namespace ambient {
+
+/// Change of a body's volume and added mass if its flat triangles bulge to the smooth surface that
+/// they approximate; first order in the height, docs/theory.md eq. (11a). Zero without bulges.
+struct CurvatureCorrection {
+  Matrix6 added_mass = Matrix6::Zero();  ///< about the mesh's origin, per unit density
+  double volume = 0;                     ///< [m^3]
+};
+
+/// Computes the correction.
+/// @param mesh mesh whose triangles approximate a smooth surface
+/// @param bulges estimateBulges() of the mesh
+/// @param panels the same flat surface, divided
+/// @param potential V x 6 of the panels' vertices, outside, of unit motions about the mesh's origin
+CurvatureCorrection computeCurvatureCorrection(
+    const TriangleMesh& mesh, const std::vector<FaceBulge>& bulges, const DividedSurface& panels,
+    const Eigen::Matrix<double, Eigen::Dynamic, 6>& potential);
 
 /// Added mass of the body that a mesh approximates.
 struct RefinedFlow {
@@ -29,5 +51,22 @@ struct RefinedFlow {
 /// on, and it then gets kMostDensePanels.
 /// @throws std::runtime_error as solvePotentialFlow().
 RefinedFlow solveRefinedFlow(const TriangleMesh& mesh, const PotentialFlowSettings& settings);
+
+/// Estimated error of the added mass of a mesh: its difference to a solution on another number of
+/// panels. It knows the polyhedron only, not the smooth body that the mesh may stand for.
+struct FlowEstimate {
+  Eigen::Index panels = 0, other_panels = 0;
+  double rotation_error = 0, translation_error = 0;  ///< over the largest entry of the block [1]
+};
+
+/// Estimates the error of a build. Where it divides the mesh, the other solution has a half or a
+/// third of its panels; the difference is mostly more than the error. Where it solves on the mesh's
+/// own triangles, as for a smooth or fine mesh, or so few are not possible, plain solutions on
+/// these panels and on four times as many are compared, with an error that is inverse to their
+/// number; none if these are more than 8000.
+/// @pre the mesh passed checkMesh() as a body or as a sheet.
+/// @throws std::runtime_error as solvePotentialFlow().
+std::optional<FlowEstimate> estimateFlow(const TriangleMesh& mesh,
+                                         const PotentialFlowSettings& settings);
 
 }  // namespace ambient

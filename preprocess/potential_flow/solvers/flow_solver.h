@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "preprocess/potential_flow/operators/far_moments.h"
-#include "preprocess/potential_flow/operators/hypersingular.h"
+#include "preprocess/potential_flow/operators/near_moments.h"
 
 namespace ambient {
 

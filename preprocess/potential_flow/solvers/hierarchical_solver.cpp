@@ -10,7 +10,7 @@
 #include "preprocess/base/large_products.h"
 #include "preprocess/base/parallel_for.h"
 #include "preprocess/potential_flow/operators/far_moments.h"
-#include "preprocess/potential_flow/operators/hypersingular.h"
+#include "preprocess/potential_flow/operators/near_moments.h"
 #include "preprocess/potential_flow/solvers/flow_solver.h"
 #include "preprocess/potential_flow/solvers/pair_integrals.h"
 

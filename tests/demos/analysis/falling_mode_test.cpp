@@ -1,5 +1,3 @@
-#include "demos/analysis/falling_mode.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "demos/integrators/integrators.h"
-#include "demos/scene/scene_lookup.h"
+#include "demos/scene/scene_reader.h"
 #include "tests/demos/scene/scene_refusals.h"
 #include "tests/support/refusal_of.h"
 

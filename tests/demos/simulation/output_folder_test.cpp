@@ -1,10 +1,8 @@
-#include "demos/simulation/output/output_folder.h"
-
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "demos/scene/scene_lookup.h"
+#include "demos/scene/scene_reader.h"
 #include "demos/simulation/output/run_files.h"
 #include "preprocess/shape/shape_mesh.h"
 #include "tests/demos/simulation/scenes/run_scene.h"

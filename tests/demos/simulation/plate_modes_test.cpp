@@ -9,7 +9,7 @@
 #include <numeric>
 #include <string>
 
-#include "demos/analysis/falling_mode.h"
+#include "demos/analysis/path_summary.h"
 #include "demos/integrators/integrators.h"
 #include "tests/demos/simulation/scenes/run_scene.h"
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "demos/analysis/falling_mode.h"
+#include "demos/analysis/path_summary.h"
 #include "tests/demos/simulation/scenes/run_scene.h"
 
 namespace ambient {

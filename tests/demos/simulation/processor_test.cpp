@@ -13,7 +13,7 @@
 #include <string>
 
 #include "bullet_ambient/base/fnv1a.h"
-#include "demos/scene/scene_lookup.h"
+#include "demos/scene/scene_reader.h"
 #include "tests/demos/simulation/scenes/run_scene.h"
 #include "tests/support/bits_of.h"
 #include "tests/support/run_program.h"

@@ -1,9 +1,9 @@
-#include "preprocess/builder/shared_bodies.h"
-
 #include <gtest/gtest.h>
 
 #include <memory>
 #include <new>
+
+#include "preprocess/builder/body_maker.h"
 
 // Bodies that several callers share, and what could not be made.
 namespace ambient::test {

@@ -6,7 +6,7 @@
 #include "bullet_ambient/base/pi.h"
 #include "preprocess/mesh/shapes/primitives.h"
 #include "preprocess/potential_flow/operators/far_moments.h"
-#include "preprocess/potential_flow/operators/hypersingular.h"
+#include "preprocess/potential_flow/operators/near_moments.h"
 #include "preprocess/potential_flow/results/potential_flow.h"
 #include "preprocess/potential_flow/solvers/block_product.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"

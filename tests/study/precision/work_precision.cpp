@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "demos/integrators/integrators.h"
-#include "demos/scene/scene_lookup.h"
 #include "demos/scene/scene_reader.h"
 #include "demos/simulation/body_preparation.h"
 #include "preprocess/base/output_file.h"

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "demos/analysis/falling_mode.h"
+#include "demos/analysis/path_summary.h"
 #include "tests/study/reality/falling_cases.h"
 
 namespace ambient {

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "demos/simulation/output/output_folder.h"
+#include "demos/simulation/output/run_files.h"
 #include "preprocess/base/output_file.h"
 #include "preprocess/shape/json_schema.h"
 #include "tests/study/reality/falling_run.h"

@@ -58,7 +58,7 @@ The form law drawn is that of a square plate. Longer plates have a steeper rise 
 MOTION = """\
 ## Motions
 
-Regimes as [falling_mode.h](../demos/analysis/falling_mode.h) has them, from the second half of each fall. Released at
+Regimes as [path_summary.h](../demos/analysis/path_summary.h) has them, from the second half of each fall. Released at
 rest, with default settings. Discs, spheroids and strips are without size: their fluid is that of a Reynolds number of
 2000, their weight that of speed 1 broadside; 120 of their widths at that speed are run. `mixed` is what the literature
 calls chaotic. The discs' borders, I* = 0.01 to some 0.05 and 0.1, are from memory, to a factor of 1.5. Strips within

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "bullet_ambient/base/pi.h"
-#include "demos/analysis/falling_mode.h"
 #include "demos/analysis/path_summary.h"
 #include "tests/demos/scene/scene_text.h"
 #include "tests/demos/simulation/scenes/run_scene.h"

@@ -7,6 +7,7 @@
 
 #include "bullet_ambient/spatial/inertia.h"
 #include "preprocess/mesh/check/mesh_checks.h"
+#include "preprocess/mesh/geometry.h"
 #include "preprocess/mesh/shapes/primitives.h"
 #include "tests/preprocess/potential_flow/flow_fixtures.h"
 #include "tests/reference/body_added_mass.h"
@@ -26,15 +27,6 @@ Matrix6 refinedAddedMassOf(const TriangleMesh& mesh, int panels = kFinePanels, b
   settings.sheet = sheet;
   settings.max_panels = panels;
   return solvePotentialFlow(mesh, settings).added_mass;
-}
-
-double areaOf(const TriangleMesh& mesh) {
-  double area = 0;
-  for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) {
-    const Eigen::Vector3d a = mesh.corner(t, 0);
-    area += (mesh.corner(t, 1) - a).cross(mesh.corner(t, 2) - a).norm() / 2;
-  }
-  return area;
 }
 
 TEST(SurfaceRefinement, KeepsTheSurfaceClosedAndItsShape) {
