@@ -5,6 +5,7 @@
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
 #include "tests/support/bodies/geodesic.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace ambient::test {
 
@@ -22,6 +23,13 @@ inline FluidBody hullBody(const Triangulation& mesh) {
   body.faces = faceTableOf(mesh);
   body.area = totalArea(body.faces);
   return body;
+}
+
+/// A closed bumpy body beside the origin.
+inline FluidBody bumpyBody(Arbitrary& arbitrary) {
+  Triangulation mesh = geodesicSphere(2);
+  for (Vector3& v : mesh.vertices) v = arbitrary.between(0.7, 1.3) * v + Vector3(0.1, 0.2, -0.3);
+  return hullBody(mesh);
 }
 
 /// A box about the origin; each side has `divisions` squared rectangles of two triangles. The sides
