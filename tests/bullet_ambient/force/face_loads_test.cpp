@@ -71,14 +71,6 @@ TEST(FaceLoads, AreTheQuadraticFormsOfTheSlipMatrixWhenAttachedEverywhere) {
   EXPECT_LT((pressure.vector() - expected.vector()).norm(), 1e-13 * expected.vector().norm());
 }
 
-TEST(FaceLoads, TotalIsPressureAndFriction) {
-  test::Arbitrary arbitrary(43);
-  const FaceLoads loads =
-      computeFaceLoads(arbitrary.body(), 1, arbitrary.twist(), {1.3, 1e-3, 0, true});
-  EXPECT_EQ(loads.total().vector(), loads.pressure.vector() + loads.friction.vector());
-  EXPECT_GT(loads.friction.vector().norm(), 0);
-}
-
 // Magnitudes of the loads in double and in single precision.
 Vector6 loadsOf(const FaceTable& faces, const Twist& x, const LoadSettings& settings) {
   return computeFaceLoads(faces, 1, x, settings).total().vector().cwiseAbs() +

@@ -10,7 +10,6 @@
 #include "tests/reference/loads/sphere_loads.h"
 #include "tests/support/bodies/geodesic.h"
 #include "tests/support/bodies/random_bodies.h"
-#include "tests/support/convergence.h"
 
 namespace ambient::skin_friction {
 namespace {
@@ -19,7 +18,6 @@ namespace {
 const reference::SphereInFluid kBall{0.02135, 1.204, 1.82e-5};
 constexpr double kSpeed = 53;
 const double kSpin = 42 * 2 * std::acos(-1.0);
-constexpr int kDirections = 16;
 
 LoadSettings ballSettings(double angle_in_right_angles) {
   return {kBall.density, kBall.viscosity, separationCosine(angle_in_right_angles * kPi / 2), true};
@@ -31,70 +29,10 @@ FaceTable ballFaces(int level) {
 
 const double kLength = std::sqrt(4 * kPi) * kBall.radius;
 
-/// Root mean square over directions of (drag / expected - 1).
-double dragError(int level, double angle, double expected) {
-  const FaceTable ball = ballFaces(level);
-  test::Arbitrary arbitrary(3);
-  return test::rootMeanSquare(kDirections, [&](int) {
-    const Vector3 direction = arbitrary.vector().normalized();
-    const FaceLoads loads =
-        computeFaceLoads(ball, kLength, {Vector3::Zero(), kSpeed * direction}, ballSettings(angle));
-    return -loads.friction.force.dot(direction) / expected - 1;
-  });
-}
-
 TEST(SphereFrictionReference, HasTheTabulatedValues) {
   EXPECT_NEAR(reference::sphereFrictionDrag(kBall, kSpeed, kPi / 2), 0.01382554906, 1e-11);
   EXPECT_NEAR(reference::sphereFrictionDrag(kBall, kSpeed, 0.75 * kPi), 0.02651367823, 1e-11);
   EXPECT_NEAR(reference::sphereFrictionTorque(kBall, kSpin), 1.0444853816e-05, 1e-15);
-}
-
-TEST(SkinFriction, DragsTheSphereAsInTheClosedForm) {
-  for (const double angle : {1.0, 1.5}) {
-    const double expected = reference::sphereFrictionDrag(kBall, kSpeed, angle * kPi / 2);
-    const test::Convergence c = test::measureConvergence(
-        1, 5, [=](int level) { return dragError(level, angle, expected); });
-    EXPECT_GT(c.order(), 1.4) << angle;  // the friction jumps at the separation line
-    EXPECT_LT(c.finest(), 2.5e-3) << angle;
-  }
-}
-
-TEST(SkinFriction, BrakesTheSpinOfASphereInPlaceAsInTheClosedForm) {
-  const double expected = reference::sphereFrictionTorque(kBall, kSpin);
-  const test::Convergence c = test::measureConvergence(1, 5, [=](int level) {
-    const FaceTable ball = ballFaces(level);
-    test::Arbitrary arbitrary(4);
-    return test::rootMeanSquare(kDirections, [&](int) {
-      const Vector3 axis = arbitrary.vector().normalized();
-      const FaceLoads loads =
-          computeFaceLoads(ball, kLength, {kSpin * axis, Vector3::Zero()}, ballSettings(1.2));
-      return -loads.friction.torque.dot(axis) / expected - 1;
-    });
-  });
-  EXPECT_NEAR(c.order(), 2, 0.1);  // attached everywhere: no separation line
-  EXPECT_LT(c.finest(), 1.2e-3);   // measured 1.0e-3
-}
-
-TEST(SkinFriction, GrowsWithThePower1Point8OfTheSpeed) {
-  const FaceTable ball = ballFaces(2);
-  const Twist slow{{10, -20, 5}, {3, 1, -2}};
-  const Twist fast{7 * slow.angular, 7 * slow.linear};
-  const Wrench before = computeFaceLoads(ball, kLength, slow, ballSettings(1.2)).friction;
-  const Wrench after = computeFaceLoads(ball, kLength, fast, ballSettings(1.2)).friction;
-  const double factor = std::pow(7, 1.8);
-  EXPECT_LT((after.vector() - factor * before.vector()).norm(), 1e-13 * after.vector().norm());
-}
-
-TEST(SkinFriction, FallsWithTheFifthRootOfTheReynoldsNumber) {
-  const FaceTable ball = ballFaces(2);
-  const Twist x{{10, -20, 5}, {3, 1, -2}};
-  LoadSettings thick = ballSettings(1);
-  thick.viscosity *= 32;
-  const Vector6 thin_load = computeFaceLoads(ball, kLength, x, ballSettings(1)).friction.vector();
-  const Vector6 thick_load = computeFaceLoads(ball, kLength, x, thick).friction.vector();
-  const Vector6 longer = computeFaceLoads(ball, 32 * kLength, x, ballSettings(1)).friction.vector();
-  EXPECT_LT((thick_load - 2 * thin_load).norm(), 1e-13 * thick_load.norm());
-  EXPECT_LT((longer - 0.5 * thin_load).norm(), 1e-13 * longer.norm());
 }
 
 TEST(SkinFriction, IsAbsentWhenSwitchedOffOrWithoutViscosityOrDensity) {

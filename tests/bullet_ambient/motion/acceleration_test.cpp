@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include "bullet_ambient/motion/rows/row_velocity.h"
-#include "demos/integrators/integrators.h"
 #include "tests/reference/full_inertia_accelerations.h"
 #include "tests/support/bodies/free_body.h"
 #include "tests/support/extrapolation.h"
@@ -56,22 +55,6 @@ TEST(Leapfrog, HasTheAccelerationsOfAnotherSimulator) {
     const Vector6 error =
         test::limitAtZero(central_difference, {0.1, 5, 2}) - expectedAcceleration(c);
     EXPECT_LT(error.cwiseAbs().maxCoeff(), 1e-12);
-  }
-}
-
-TEST(RungeKutta, HasTheAccelerationsOfAnotherSimulator) {
-  for (const AccelerationCase& c : reference::fullInertiaAccelerations()) {
-    const auto difference = [&](double h) {
-      FreeBody body = bodyOf(c);
-      body.settings = {1e-3, 1, flyRungeKutta};
-      const Vector6 start = worldVelocity(body);
-      body.advance(h);
-      return Vector6((worldVelocity(body) - start) / h);
-    };
-    const Vector6 error = test::limitAtZero(difference, {0.1, 8, 1}) - expectedAcceleration(c);
-    // Rounding of velocities of some m/s over the smallest step, 0.8 ms, which the extrapolation
-    // enlarges up to eight times.
-    EXPECT_LT(error.cwiseAbs().maxCoeff(), 2e-11);
   }
 }
 

@@ -66,14 +66,6 @@ TEST(DormandPrince, AgreesWithTheLeapfrogWhoseFlowIsExactWithoutLoads) {
   }
 }
 
-TEST(DormandPrince, IsMoreAccurateThanTheLeapfrogWhereFacesSwitch) {
-  const RigidState exact = exactEnd(tumblingEllipsoid, 8000);
-  const FreeBody plate = fliesWith(tumblingEllipsoid, accurate(1e-6));
-  const FreeBody leap = fliesWith(tumblingEllipsoid, {});
-  // Measured: 1.9e-5 and 1.5e-4 m.
-  EXPECT_LT(distance(plate.state, exact), distance(leap.state, exact) / 5);
-}
-
 TEST(DormandPrince, HandsOverToTheLeapfrogWhenItsAttemptsAreSpent) {
   // A light plate at 300 m/s: explicit steps of this length are unstable.
   FreeBody plate = tumblingEllipsoid(accurate(1e-8, 5));

@@ -8,6 +8,7 @@
 #include "bullet_ambient/motion/flight/flight_group.h"
 #include "bullet_ambient/motion/rows/row_velocity.h"
 #include "demos/integrators/integrators.h"
+#include "tests/bullet_ambient/motion/kernel_fixture.h"
 #include "tests/bullet_ambient/motion/loaded_bodies.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/bodies/ellipsoid_body.h"
@@ -91,17 +92,15 @@ bool haveSameBits(const std::vector<double>& a, const std::vector<double>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
 }
 
-class FlightKernels : public ::testing::TestWithParam<InstructionSet> {};
+class FlightKernels : public test::FlightKernelTest {};
 
 TEST_P(FlightKernels, HaveTheBitsOfTheBaseline) {
-  const FlightKernel* kernel = kFlightKernels.of(GetParam());
-  if (!kernel) GTEST_SKIP() << "this processor does not have the instructions";
   for (unsigned seed = 0; seed < 40; ++seed) {
     for (const double time : {1e-3, 1.0 / 60, 3.0}) {
       FlightLanes baseline = arbitraryLanes(seed, time);
       FlightLanes other = baseline;
       substep(kFlightKernelBaseline, baseline);
-      substep(*kernel, other);
+      substep(*kernel_, other);
       for (int i = 0; i < kFlightLanes; ++i) {
         if (!(baseline.active[i] > 0)) continue;
         EXPECT_TRUE(haveSameBits(lane(baseline, i), lane(other, i))) << seed << " over " << time;
@@ -112,17 +111,15 @@ TEST_P(FlightKernels, HaveTheBitsOfTheBaseline) {
 }
 
 TEST_P(FlightKernels, MoveABodyByTheSameBitsWhoeverFliesBesideIt) {
-  const FlightKernel* kernel = kFlightKernels.of(GetParam());
-  if (!kernel) GTEST_SKIP() << "this processor does not have the instructions";
   for (unsigned seed = 0; seed < 40; ++seed) {
     FlightLanes together = arbitraryLanes(seed, 0.1);
     const FlightLanes start = together;
-    substep(*kernel, together);
+    substep(*kernel_, together);
     for (int i = 0; i < kFlightLanes; ++i) {
       FlightLanes alone = start;
       for (int k = 0; k < kFlightLanes; ++k)
         alone.active[k] = k == i && start.active[k] > 0 ? 1 : 0;
-      substep(*kernel, alone);
+      substep(*kernel_, alone);
       EXPECT_TRUE(haveSameBits(lane(together, i), lane(alone, i)) || !(start.active[i] > 0))
           << seed;
     }
@@ -130,22 +127,18 @@ TEST_P(FlightKernels, MoveABodyByTheSameBitsWhoeverFliesBesideIt) {
 }
 
 TEST_P(FlightKernels, LeaveBodiesAloneThatAreNotActive) {
-  const FlightKernel* kernel = kFlightKernels.of(GetParam());
-  if (!kernel) GTEST_SKIP() << "this processor does not have the instructions";
   FlightLanes lanes = arbitraryLanes(1, 0.1);
   for (double& active : lanes.active) active = 0;
   lanes.active[0] = 1;
   const FlightLanes start = lanes;
-  substep(*kernel, lanes);
+  substep(*kernel_, lanes);
   EXPECT_NE(lanes.twist_B[0][0], start.twist_B[0][0]);
   for (int i = 1; i < kFlightLanes; ++i) {
     EXPECT_TRUE(haveSameBits(motion(start, i), motion(lanes, i))) << i;
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, FlightKernels,
-                         ::testing::Values(InstructionSet::kBaseline, InstructionSet::kAvx2,
-                                           InstructionSet::kAvx512));
+INSTANTIATE_TEST_SUITE_P(All, FlightKernels, test::kAllInstructionSets);
 
 // Body `i` of many that differ in speed, loads, integrator and current.
 FreeBody oneOfMany(unsigned i) {

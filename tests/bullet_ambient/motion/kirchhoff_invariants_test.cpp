@@ -81,21 +81,6 @@ TEST(Leapfrog, KeepsEnergyMomentaAndHelicityWithoutLoads) {
   }
 }
 
-TEST(RungeKutta, KeepsMomentaAndHelicityWithoutLoads) {
-  for (unsigned seed = 0; seed < kBodies; ++seed) {
-    FreeBody body = bodyWithCoupledInertia(seed);
-    body.settings.own_flight = flyRungeKutta;
-    setInMotion(body, seed, 6);
-    const Drift drift = measureDrift(body, 1.0 / 240);
-    EXPECT_LT(drift.body_momentum, kRounding) << seed;
-    EXPECT_LT(drift.helicity, kRounding) << seed;
-    EXPECT_LT(drift.world_momentum, kRounding) << seed;
-    EXPECT_LT(drift.angular_momentum, kRounding) << seed;
-    // Scheme of fourth order without conservation: measured 5e-8 at most.
-    EXPECT_LT(drift.energy, 2e-7) << seed;
-  }
-}
-
 // Rotation error [rad] after kSpinDuration against an integrator of order 16 in other unknowns;
 // median body. Single bodies are chaotic and double initial rounding errors many times.
 double medianRotationError(double spin, double step, OwnFlight integrator) {

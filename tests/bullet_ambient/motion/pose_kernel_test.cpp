@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/motion/flight/flight_group.h"
 #include "bullet_ambient/spatial/rotation.h"
+#include "tests/bullet_ambient/motion/kernel_fixture.h"
 #include "tests/support/bodies/random_bodies.h"
 
 namespace ambient {
@@ -15,13 +15,8 @@ namespace {
 
 using test::Arbitrary;
 
-class PoseKernels : public ::testing::TestWithParam<InstructionSet> {
+class PoseKernels : public test::FlightKernelTest {
  protected:
-  void SetUp() override {
-    kernel_ = kFlightKernels.of(GetParam());
-    if (!kernel_) GTEST_SKIP() << "this processor does not have the instructions";
-  }
-
   // Mean twist over a second from one orientation to another.
   Vector3 rotationVector(const Quaternion& from, const Quaternion& to) const {
     ArrivalLanes lanes{};
@@ -31,8 +26,6 @@ class PoseKernels : public ::testing::TestWithParam<InstructionSet> {
     kernel_->arrive(lanes);
     return vectorOf(lanes.mean_W, 3);
   }
-
-  const FlightKernel* kernel_ = nullptr;
 };
 
 TEST_P(PoseKernels, ReadEveryOrientationOfAMatrix) {
@@ -164,9 +157,7 @@ TEST_P(PoseKernels, HaveTheBitsOfTheBaseline) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, PoseKernels,
-                         ::testing::Values(InstructionSet::kBaseline, InstructionSet::kAvx2,
-                                           InstructionSet::kAvx512));
+INSTANTIATE_TEST_SUITE_P(All, PoseKernels, test::kAllInstructionSets);
 
 }  // namespace
 }  // namespace ambient

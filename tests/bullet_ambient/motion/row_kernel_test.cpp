@@ -5,10 +5,10 @@
 #include <cstring>
 #include <vector>
 
-#include "bullet_ambient/motion/flight/flight_group.h"
 #include "bullet_ambient/motion/lanes/flight_lanes.h"
 #include "bullet_ambient/motion/rows/row_velocity.h"
 #include "bullet_ambient/spatial/rotation.h"
+#include "tests/bullet_ambient/motion/kernel_fixture.h"
 #include "tests/bullet_ambient/motion/loaded_bodies.h"
 #include "tests/support/bodies/free_body.h"
 #include "tests/support/bodies/random_bodies.h"
@@ -41,15 +41,7 @@ void setBody(FlightLanes& lanes, int i, const FreeBody& body, double duration) {
   setLane(lanes.twist_B, i, body.state.twist);
 }
 
-class RowKernels : public ::testing::TestWithParam<InstructionSet> {
- protected:
-  void SetUp() override {
-    kernel_ = kFlightKernels.of(GetParam());
-    if (!kernel_) GTEST_SKIP() << "this processor does not have the instructions";
-  }
-
-  const FlightKernel* kernel_ = nullptr;
-};
+class RowKernels : public test::FlightKernelTest {};
 
 TEST_P(RowKernels, HaveTheBitsOfTheBaseline) {
   Arbitrary arbitrary(7);
@@ -87,9 +79,7 @@ TEST_P(RowKernels, HaveTheBitsOfTheBaseline) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, RowKernels,
-                         ::testing::Values(InstructionSet::kBaseline, InstructionSet::kAvx2,
-                                           InstructionSet::kAvx512));
+INSTANTIATE_TEST_SUITE_P(All, RowKernels, test::kAllInstructionSets);
 
 void expectSame(const RowVelocity& a, const RowVelocity& b) {
   EXPECT_EQ(a.change_W.vector(), b.change_W.vector());

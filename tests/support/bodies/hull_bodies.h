@@ -6,6 +6,7 @@
 #include "bullet_ambient/fluid_body/fluid_body.h"
 #include "preprocess/base/surface_form.h"
 #include "tests/support/bodies/geodesic.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace ambient::test {
 
@@ -24,6 +25,13 @@ inline FluidBody hullBody(const Triangulation& mesh) {
   body.area = totalArea(body.faces);
   prepare(body);
   return body;
+}
+
+/// A closed bumpy body beside the origin.
+inline FluidBody bumpyBody(Arbitrary& arbitrary) {
+  Triangulation mesh = geodesicSphere(2);
+  for (Vector3& v : mesh.vertices) v = arbitrary.between(0.7, 1.3) * v + Vector3(0.1, 0.2, -0.3);
+  return hullBody(mesh);
 }
 
 /// A box about the origin; each side has `divisions` squared rectangles of two triangles. The sides

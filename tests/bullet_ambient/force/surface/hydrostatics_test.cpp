@@ -21,13 +21,6 @@ SurfacePlane planeAt(const Vector3& normal, double height) {
   return {normal.normalized(), height, 1, 1};
 }
 
-/// Hull of a closed bumpy body.
-PackedHull arbitraryHull(Arbitrary& arbitrary) {
-  test::Triangulation mesh = test::geodesicSphere(2);
-  for (Vector3& v : mesh.vertices) v = arbitrary.between(0.7, 1.3) * v + Vector3(0.1, 0.2, -0.3);
-  return PackedHull(test::hullBody(mesh));
-}
-
 TEST(Hydrostatics, BothSidesOfThePlaneMakeUpABox) {
   Arbitrary arbitrary(1);
   for (const int divisions : {1, 4}) {
@@ -48,7 +41,7 @@ TEST(Hydrostatics, BothSidesOfThePlaneMakeUpABox) {
 // Twice the way has eight times the error: planes of 1e-2 and 2e-2 beside the first.
 TEST(Hydrostatics, TheEnergyAtANearPlaneErrsToThirdOrder) {
   Arbitrary arbitrary(2);
-  const PackedHull hull = arbitraryHull(arbitrary);
+  const PackedHull hull(test::bumpyBody(arbitrary));
   for (int i = 0; i < 50; ++i) {
     const SurfacePlane plane = planeAt(arbitrary.vector(), arbitrary.between(-0.5, 0.5));
     const WetVolume wet = computeWetVolume(hull, plane);
@@ -133,7 +126,7 @@ TEST(Hydrostatics, MeshOfASphereTendsToIt) {
 TEST(Hydrostatics, WrenchIsTheGradientOfTheEnergy) {
   Arbitrary arbitrary(3);
   for (int i = 0; i < 50; ++i) {
-    const PackedHull hull = arbitraryHull(arbitrary);
+    const PackedHull hull(test::bumpyBody(arbitrary));
     const Vector3 s = arbitrary.vector().normalized();
     const double h = arbitrary.between(-0.8, 0.8);
     const Twist x = arbitrary.twist();

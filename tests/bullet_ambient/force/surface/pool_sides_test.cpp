@@ -24,13 +24,6 @@ SurfacePlane surfaceAt(const Vector3& normal, double height) {
   return {normal.normalized(), height, 1, 1};
 }
 
-/// Hull of a closed bumpy body.
-PackedHull bumpyHull(Arbitrary& arbitrary) {
-  test::Triangulation mesh = test::geodesicSphere(2);
-  for (Vector3& v : mesh.vertices) v = arbitrary.between(0.7, 1.3) * v + Vector3(0.1, 0.2, -0.3);
-  return PackedHull(test::hullBody(mesh));
-}
-
 /// Sides at places along a normal of which only what is across the surface counts.
 PoolSides sidesAt(const Vector3& normal, const std::vector<Vector3>& points) {
   PoolSides sides;
@@ -65,7 +58,7 @@ void expectSum(const WetVolume& a, const WetVolume& b, const WetVolume& whole) {
 
 TEST(PoolSides, BothPartsOfABodyMakeUpTheWhole) {
   Arbitrary arbitrary(1);
-  const PackedHull hull = bumpyHull(arbitrary);
+  const PackedHull hull(test::bumpyBody(arbitrary));
   for (int i = 0; i < 200; ++i) {
     SurfacePlane plane = surfaceAt(arbitrary.vector(), arbitrary.between(-1, 1));
     const WetVolume whole = computeWetVolume(hull, plane);
@@ -108,7 +101,7 @@ TEST(PoolSides, ABoxInACornerIsABox) {
 
 TEST(PoolSides, ThatDoNotCutChangeNothing) {
   Arbitrary arbitrary(2);
-  const PackedHull hull = bumpyHull(arbitrary);
+  const PackedHull hull(test::bumpyBody(arbitrary));
   for (int i = 0; i < 50; ++i) {
     SurfacePlane plane = surfaceAt(arbitrary.vector(), arbitrary.between(-1, 1));
     const WetVolume open = computeWetVolume(hull, plane);
@@ -123,7 +116,7 @@ TEST(PoolSides, ThatDoNotCutChangeNothing) {
 // Force and torque are the gradient of the energy: of moving the side, and of turning the body.
 TEST(PoolSides, PressByTheGradientOfTheEnergy) {
   Arbitrary arbitrary(3);
-  const PackedHull hull = bumpyHull(arbitrary);
+  const PackedHull hull(test::bumpyBody(arbitrary));
   for (int i = 0; i < 20; ++i) {
     const SurfacePlane plane = surfaceAt(arbitrary.vector(), arbitrary.between(-0.3, 0.5));
     const Vector3 m = alongSurface(arbitrary.vector(), plane.normal);
