@@ -10,6 +10,7 @@
 #include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/bullet/members/flight_coupling.h"
 #include "bullet_ambient/immersed/floating_state.h"
+#include "bullet_ambient/motion/flight/flight_group.h"
 #include "bullet_ambient/motion/rows/row_velocity.h"
 #include "bullet_ambient/spatial/cholesky.h"
 #include "bullet_ambient/spatial/rotation.h"
@@ -91,20 +92,10 @@ BoundedTwist keepingMomentum(const BodyModel& model, const RowMotion& rows, cons
   return end;
 }
 
-BodyWithRows bodyWithRows(const SolvedBody& body, const BodyModel& model, const Vector3& flow_W) {
-  Twist velocity_W = solvedVelocity(*body.solver_body);
-  velocity_W.linear -= flow_W;
-  return {model, body.row_body->start.orientation, velocity_W, body.row_body->turning_W,
-          changeByRows(*body.solver_body)};
-}
-
-// Corrects the attitude of a body as Bullet would, by the turn of the rows' split impulses, and
-// leaves Bullet nothing to turn. Returns the attitude that Bullet will move the body from.
-Quaternion correctedAttitude(const SolvedBody& body, double time_step) {
-  btSolverBody& solver_body = *body.solver_body;
-  const Quaternion& start = body.row_body->start.orientation;
-  const Vector3 turn_W =
-      body.turn_share * time_step * toVector3(solver_body.internalGetTurnVelocity());
+// Corrects an attitude as Bullet would, by `turn_W` of the rows' split impulses, and leaves Bullet
+// nothing to turn. Returns the attitude that Bullet will move the body from.
+Quaternion correctedAttitude(const Quaternion& start, const Vector3& turn_W,
+                             btSolverBody& solver_body) {
   if (turn_W.isZero(0)) return start;
   const Quaternion corrected = turnedByBullet(start, turn_W);
   solver_body.m_worldTransform.setRotation(toBullet(corrected));
@@ -112,25 +103,17 @@ Quaternion correctedAttitude(const SolvedBody& body, double time_step) {
   return corrected;
 }
 
-RowMotion rowMotion(const SolvedBody& body, const BodyWithRows& with_rows, const KeptMotion& kept,
-                    double time_step) {
-  const RowBody& row_body = *body.row_body;
-  btSolverBody& solver_body = *body.solver_body;
-  RowMotion rows;
-  rows.is_held = row_body.is_held;
-  rows.orientation = correctedAttitude(body, time_step);
-  rows.position =
-      row_body.start.position + time_step * toVector3(solver_body.internalGetPushVelocity());
-  rows.velocity_W = with_rows.velocity_W;
-  rows.turn = time_step * rows.velocity_W.angular.norm();
-  AMBIENT_ASSERT(!(row_body.extent < 0));
-  double extent = row_body.extent;
-  if (!row_body.is_locked) {
-    rows.momentum_W = kept.momentum_W;
-    extent = std::max(extent, kept.extent);
+// Sets the momentum that the turn of a body keeps, and the bound of its energy, from the results of
+// FlightKernel::keep().
+void setKept(const RowLanes& lanes, int lane, bool is_locked, RowMotion& rows) {
+  const FlightLane* momentum_W = lanes.momentum_W;
+  AMBIENT_ASSERT(!(lanes.extent[lane] < 0));
+  double extent = lanes.extent[lane];
+  if (!is_locked) {
+    rows.momentum_W = {vectorOf(momentum_W, lane), vectorOf(momentum_W + 3, lane)};
+    extent = std::max(extent, lanes.moved_extent[lane]);
   }
-  if (extent > kSlowTurn) rows.energy_bound = std::max(0.0, kept.twice_energy);
-  return rows;
+  if (extent > kSlowTurn) rows.energy_bound = std::max(0.0, lanes.twice_energy[lane]);
 }
 
 // Turns a body that Bullet has moved to where it has come on its way.
@@ -193,23 +176,26 @@ int findArrivals(AmbientBody* const* bodies, int count, double time_step, Arriva
 
 // Computes the twists that keep the momenta, eq. (31), of the bodies that keep one.
 void keepMomenta(const Arrival* arrivals, int count, double time_step, BoundedTwist* ends) {
-  std::optional<CarriedBody> carried[kFlightsTogether];
-  const CarriedBody* all[kFlightsTogether] = {};
+  const BodyModel* models[kFlightsTogether] = {};
   int places[kFlightsTogether] = {}, found = 0;
   for (int i = 0; i < count; ++i) {
-    const RowMotion& rows = arrivals[i].rows();
     ends[i] = {arrivals[i].moved};
-    if (!rows.momentum_W) continue;
-    const Vector3 way_W = arrivals[i].part * time_step * rows.velocity_W.linear;
-    places[found] = i;
-    all[found] = &carried[found].emplace(
-        CarriedBody{**arrivals[i].model, arrivals[i].orientation, *rows.momentum_W, way_W});
-    ++found;
+    if (!arrivals[i].rows().momentum_W) continue;
+    models[found] = &**arrivals[i].model;
+    places[found++] = i;
   }
   if (found == 0) return;
-  Twist twists_B[kFlightsTogether];
-  computeCarriedTwists(all, found, twists_B);
-  for (int i = 0; i < found; ++i) ends[places[i]].twist = twists_B[i].vector();
+  RowLanes lanes;
+  setModels(models, found, lanes);
+  for (int i = 0; i < found; ++i) {
+    const Arrival& arrival = arrivals[places[i]];
+    const RowMotion& rows = arrival.rows();
+    setLane(lanes.orientation, i, arrival.orientation);
+    setLane(lanes.momentum_W, i, *rows.momentum_W);
+    setLane(lanes.way_W, i, Vector3(arrival.part * time_step * rows.velocity_W.linear));
+  }
+  kFlightKernels.fastest()->carry(lanes);
+  for (int i = 0; i < found; ++i) ends[places[i]].twist = twistOf(lanes.twist_B, i).vector();
 }
 
 // Bounds the energy of a fast turn, eq. (31a).
@@ -260,25 +246,36 @@ void setVelocity(const Arrival& arrival, const BoundedTwist& end, double time_st
 
 }  // namespace
 
-void beginRowMotions(const SolvedBody* bodies, int count, double time_step) noexcept {
-  AMBIENT_ASSERT(count > 0 && count <= kFlightsTogether && time_step > 0);
-  std::optional<StepModel> models[kFlightsTogether];
-  std::optional<BodyWithRows> with_rows[kFlightsTogether];
-  const BodyWithRows* all[kFlightsTogether] = {};
-  Vector3 flows_W[kFlightsTogether];
-  for (int i = 0; i < count; ++i) {
-    const AmbientBody& ambient = *bodies[i].ambient;
-    const Medium& medium = ambient.medium;
-    flows_W[i] = medium.velocity + time_step * medium.acceleration;
-    const StepModel& model = models[i].emplace(ambient, time_step);
-    all[i] = &with_rows[i].emplace(bodyWithRows(bodies[i], *model, flows_W[i]));
+void beginRowMotions(RowBatch& batch, RowBodies& row_bodies,
+                     btAlignedObjectArray<btSolverBody>& solver_bodies, double turn_share,
+                     double time_step) noexcept {
+  AMBIENT_ASSERT(batch.count > 0 && batch.count <= kFlightsTogether && time_step > 0);
+  RowLanes& lanes = batch.lanes;
+  for (int i = 0; i < batch.count; ++i) {
+    if (lanes.active[i] == 0) continue;
+    btSolverBody& solver_body = solver_bodies[batch.solver_bodies[i]];
+    RowMotion& rows = batch.bodies[i]->outcome.rows();
+    const Medium& medium = batch.bodies[i]->medium;
+    rows.flow_W = medium.velocity + time_step * medium.acceleration;
+    rows.velocity_W = solvedVelocity(solver_body);
+    rows.velocity_W.linear -= rows.flow_W;
+    setLane(lanes.velocity_W, i, rows.velocity_W);
+    setLane(lanes.by_rows_W, i, changeByRows(solver_body));
   }
-  KeptMotion kept[kFlightsTogether];
-  computeKeptMotions(all, count, time_step, kept);
-  for (int i = 0; i < count; ++i) {
-    RowMotion& rows = bodies[i].ambient->outcome.rows();
-    rows = rowMotion(bodies[i], *with_rows[i], kept[i], time_step);
-    rows.flow_W = flows_W[i];
+  kFlightKernels.fastest()->keep(lanes);
+  for (int i = 0; i < batch.count; ++i) {
+    if (lanes.active[i] == 0) continue;
+    btSolverBody& solver_body = solver_bodies[batch.solver_bodies[i]];
+    const RowBody& row_body = *row_bodies.find(batch.solver_bodies[i]);
+    RowMotion& rows = batch.bodies[i]->outcome.rows();
+    rows.is_held = row_body.is_held;
+    rows.orientation = correctedAttitude(
+        orientationOf(lanes.orientation, i),
+        turn_share * time_step * toVector3(solver_body.internalGetTurnVelocity()), solver_body);
+    rows.position =
+        batch.positions[i] + time_step * toVector3(solver_body.internalGetPushVelocity());
+    rows.turn = time_step * rows.velocity_W.angular.norm();
+    setKept(lanes, i, row_body.is_locked, rows);
   }
 }
 

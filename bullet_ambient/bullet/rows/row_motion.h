@@ -7,6 +7,7 @@
 #include "bullet_ambient/bullet/rows/row_rewriting.h"
 #include "bullet_ambient/immersed/ambient_body.h"
 #include "bullet_ambient/immersed/complaints.h"
+#include "bullet_ambient/motion/lanes/flight_lanes.h"
 
 AMBIENT_BEGIN
 
@@ -20,30 +21,32 @@ AMBIENT_BEGIN
 //   X   part of the turning velocity change in the velocity that rows are solved against, eq. (28)
 //   d   velocity change by the rows
 
-// Functions for up to kFlightsTogether bodies side by side; the bits of a body do not depend on the
-// others.
-
 /// Returns the velocity change by rows after the iterations, world axes.
 inline Twist changeByRows(btSolverBody& b) {
   return {toVector3(b.internalGetDeltaAngularVelocity()),
           toVector3(b.internalGetDeltaLinearVelocity())};
 }
 
-/// A body after the iterations; `solver_body`: velocity changes in world axes.
-struct SolvedBody {
-  AmbientBody* ambient;
-  const RowBody* row_body;
-  btSolverBody* solver_body;
-  double turn_share;  ///< part of the turn by split impulses that Bullet makes
+/// Up to kFlightsTogether ambient bodies of a group that rows may move, from the preparation of
+/// their rows to the end of the iterations. The bits of a body do not depend on the others.
+struct RowBatch {
+  RowLanes lanes;
+  int count = 0;
+  AmbientBody* bodies[kFlightsTogether] = {};
+  int solver_bodies[kFlightsTogether] = {};  ///< indices in the solver's pool
+  Vector3 positions[kFlightsTogether];       ///< centres of mass at the start [m]
 };
 
-/// Stores momentum, energy bound and start in AmbientBody::outcome for endRowMotions(). Makes the
-/// turns by split impulses.
-void beginRowMotions(const SolvedBody* bodies, int count, double time_step) noexcept;
+/// Stores momentum, energy bound and start of the active bodies in AmbientBody::outcome for
+/// endRowMotions(). Makes the turns by split impulses; `turn_share`: the part of them that Bullet
+/// makes. `solver_bodies`: with velocity changes in world axes.
+void beginRowMotions(RowBatch& batch, RowBodies& row_bodies,
+                     btAlignedObjectArray<btSolverBody>& solver_bodies, double turn_share,
+                     double time_step) noexcept;
 
 /// Adds the velocity changes x_(n+1) - xi of eq. (31), in world axes. Call after Bullet has moved
 /// the bodies; turns them to the attitudes of their ways. Does nothing for a body that is not on
-/// its way from the start along xi, because others have moved it.
+/// its way from the start along xi, because others have moved it. At most kFlightsTogether bodies.
 void endRowMotions(AmbientBody* const* bodies, int count, double time_step,
                    Complaints& complaints) noexcept;
 

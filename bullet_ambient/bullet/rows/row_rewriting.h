@@ -78,9 +78,6 @@ struct RowBody {
   btVector3 velocity_change{0, 0, 0};  ///< [m/s]
   btVector3 spin_aside{0, 0, 0};       ///< k' - k of eq. (28b), added while Bullet sets up contacts
   btVector3 velocity_aside{0, 0, 0};   ///< [m/s]
-  RigidState start;                    ///< state at the start of the substep
-  Twist turning_W;                     ///< X of eq. (28)
-  double extent = 0;                   ///< m of eq. (28a)
   bool is_held = false;  ///< true: has a joint, or a contact with a body that cannot move
   int rows = 0;          ///< number of rewritten rows
   int joint_rows = 0;    ///< number of joint rows solved together before the iterations

@@ -89,59 +89,55 @@ class FlightTasks final : public Task {
 
 void SolverGroup::finish(SolverBodies& solver_bodies, btConstraintArray& joints,
                          const btContactSolverInfo& info) noexcept {
-  turn_share_ = static_cast<double>(info.m_splitImpulseTurnErp);
   joint_gaps_->measure(joints, *row_bodies_, solver_bodies, time_step_);
   restoreFeedbackJacobians(joints);
   if (is_held_)
     for (int i = 0; i < solver_bodies.size(); ++i) dropRows(solver_bodies[i]);
   for (const Member& member : members_) {
-    btSolverBody& solver_body = solver_bodies[member.solver_body];
-    const RowBody* row_body = row_bodies_->find(member.solver_body);
-    // Rows were solved against the velocity k + X of eq. (28). In a fast turn the flight goes
-    // elsewhere, and could pass through what the rows keep apart.
-    const bool may_fly = !row_body || (!member.is_locked && row_body->extent <= kSlowTurn);
-    if (row_body) {
-      member.ambient->counters.rows += row_body->rows;
-      member.ambient->counters.joint_rows += row_body->joint_rows;
-      noteGap(*member.ambient, *row_body);
-    }
-    if (may_fly && isUntouched(solver_body)) {
-      flyLater({member.ambient, member.solver_body}, &solver_bodies);
-    } else {
-      // Every body that does not fly here has a RowBody since begin() or rewriteRows().
-      AMBIENT_ASSERT(row_body);
-      if (finishRows(*member.ambient, *row_body, solver_body)) {
-        settleLater(member, solver_bodies);
-      } else {
-        bodies_.complaints.say(Complaint::kNotFinite);
-      }
-    }
+    // Every body that a row has moved has a RowBody since begin() or rewriteRows().
+    if (row_bodies_->find(member.solver_body)) continue;
+    AMBIENT_ASSERT(isUntouched(solver_bodies[member.solver_body]));
+    flyLater({member.ambient, member.solver_body}, &solver_bodies);
   }
-  settleMoved(solver_bodies);
+  for (std::size_t i = 0; i < batch_count_; ++i)
+    finishBatch(batches_[i], static_cast<double>(info.m_splitImpulseTurnErp), solver_bodies);
   flyFreely(&solver_bodies);
   members_.clear();
+  batch_count_ = 0;
 }
 
-// Settles a member as soon as there are kFlightsTogether of them, while their data are in the
-// cache.
-void SolverGroup::settleLater(const Member& member, SolverBodies& solver_bodies) noexcept {
-  moved_members_.push_back(&member);
-  if (moved_members_.size() == kFlightsTogether) settleMoved(solver_bodies);
-}
-
-// Prepares the motion of moved_members_ after the rows, eq. (31).
-void SolverGroup::settleMoved(SolverBodies& solver_bodies) noexcept {
-  if (moved_members_.empty()) return;
-  SolvedBody bodies[kFlightsTogether] = {};
-  int count = 0;
-  for (const Member* member : moved_members_)
-    bodies[count++] = {member->ambient, row_bodies_->find(member->solver_body),
-                       &solver_bodies[member->solver_body], turn_share_};
-  beginRowMotions(bodies, count, time_step_);
-  for (int i = 0; i < count; ++i)
-    if (bodies[i].ambient->reading)
-      readRows(*bodies[i].ambient, changeByRows(*bodies[i].solver_body), time_step_);
-  moved_members_.clear();
+// Ends the work on bodies that rows may have moved: flies those that none has moved, and prepares
+// the motion of the others, eq. (31).
+void SolverGroup::finishBatch(RowBatch& batch, double turn_share,
+                              SolverBodies& solver_bodies) noexcept {
+  bool is_any_moved = false;
+  for (int i = 0; i < batch.count; ++i) {
+    const int id = batch.solver_bodies[i];
+    AmbientBody& ambient = *batch.bodies[i];
+    const RowBody& row_body = *row_bodies_->find(id);
+    btSolverBody& solver_body = solver_bodies[id];
+    ambient.counters.rows += row_body.rows;
+    ambient.counters.joint_rows += row_body.joint_rows;
+    noteGap(ambient, row_body);
+    // Rows were solved against the velocity k + X of eq. (28). In a fast turn the flight goes
+    // elsewhere, and could pass through what the rows keep apart.
+    const bool may_fly = !row_body.is_locked && batch.lanes.extent[i] <= kSlowTurn;
+    bool is_moved = false;
+    if (may_fly && isUntouched(solver_body)) {
+      flyLater({&ambient, id}, &solver_bodies);
+    } else if (finishRows(ambient, row_body, solver_body)) {
+      is_moved = true;
+    } else {
+      bodies_.complaints.say(Complaint::kNotFinite);
+    }
+    batch.lanes.active[i] = is_moved;
+    is_any_moved = is_any_moved || is_moved;
+  }
+  if (!is_any_moved) return;
+  beginRowMotions(batch, *row_bodies_, solver_bodies, turn_share, time_step_);
+  for (int i = 0; i < batch.count; ++i)
+    if (batch.lanes.active[i] != 0 && batch.bodies[i]->reading)
+      readRows(*batch.bodies[i], changeByRows(solver_bodies[batch.solver_bodies[i]]), time_step_);
 }
 
 // Flies a body as soon as there are kFlightsTogether of them, while their data are in the cache; on

@@ -9,6 +9,7 @@
 #include "bullet_ambient/bullet/members/flight_coupling.h"
 #include "bullet_ambient/bullet/rows/joint_chains.h"
 #include "bullet_ambient/bullet/rows/joint_gaps.h"
+#include "bullet_ambient/bullet/rows/row_motion.h"
 #include "bullet_ambient/bullet/rows/row_rewriting.h"
 #include "bullet_ambient/bullet/solver/solver_group.h"
 #include "bullet_ambient/immersed/fluid_reading.h"
@@ -70,6 +71,7 @@ GroupBodies SolverGroup::select(const GroupBodies& bodies, const GroupInput& inp
   time_step_ = static_cast<double>(time_step);
   members_.clear();
   saved_.clear();
+  batch_count_ = 0;
   is_held_ = false;
   if (bodies_.size() == 0) return bodies;
   bodies_.solved.fetch_add(1, std::memory_order_relaxed);
@@ -99,7 +101,9 @@ void SolverGroup::reserve(int bodies) noexcept {
   converted_.reserve(count);
   member_of_solver_body_.reserve(count + 1);
   free_.reserve(bodies_.task_runner ? count : kFlightsTogether);
-  moved_members_.reserve(kFlightsTogether);
+  // One batch of bodies joined to multibodies may be begun besides.
+  const std::size_t batches = count / kFlightsTogether + 2;
+  if (batches_.size() < batches) batches_.resize(batches);
   row_bodies_->reserve(bodies + 1);
   joint_chains_->reserve(bodies);
 }

@@ -8,9 +8,11 @@
 #include "bullet_ambient/bullet/links/multibody_rows.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/bullet/members/flight_coupling.h"
+#include "bullet_ambient/bullet/rows/row_motion.h"
 #include "bullet_ambient/bullet/rows/row_rewriting.h"
 #include "bullet_ambient/bullet/solver/solver_group.h"
 #include "bullet_ambient/immersed/floating_state.h"
+#include "bullet_ambient/motion/flight/flight_group.h"
 #include "bullet_ambient/motion/rows/axis_locks.h"
 #include "bullet_ambient/motion/rows/row_velocity.h"
 #include "bullet_ambient/spatial/rotation.h"
@@ -32,11 +34,10 @@ btVector3 whereZero(const btVector3& v) {
 }
 
 // Sets the basis of eq. (30) and Bullet's factors of locked axes to 1: T contains the locks, which
-// the solver must not apply twice.
-void lock(RowBody& row_body, const btRigidBody& body, const BodyModel& model,
+// the solver must not apply twice. `R`: B to W.
+void lock(RowBody& row_body, const btRigidBody& body, const BodyModel& model, const Matrix3& R,
           btSolverBody& solver_body) {
   const Vector3 inertia = toVector3(body.getInvInertiaDiagLocal()).cwiseInverse();
-  const Matrix3 R = row_body.start.orientation.toRotationMatrix();
   const Matrix3 root = rootInertia(inertia, R);
   row_body.is_locked = true;
   row_body.basis = makeLockedBasis(model, root, R, axisFactors(body));
@@ -64,25 +65,6 @@ void standAll(AmbientBody* const* bodies, const RigidState* states, int count, d
   for (int i = 0; i < found; ++i) warnOfCoarseSwing(*at_surface[i], time_step, complaints);
 }
 
-// Computes the velocity changes that rows are solved against, eq. (28): side by side where all axes
-// are free.
-void computeForRows(const RowTask* const* tasks, const AxisFactors* factors, int count,
-                    RowVelocity* rows) {
-  const RowTask* free[kFlightsTogether] = {};
-  RowVelocity results[kFlightsTogether];
-  int places[kFlightsTogether] = {}, found = 0;
-  for (int i = 0; i < count; ++i) {
-    if (factors[i].areFree()) {
-      places[found] = i;
-      free[found++] = tasks[i];
-    } else {
-      rows[i] = computeLockedVelocity(tasks[i]->task, tasks[i]->start, factors[i]);
-    }
-  }
-  if (found > 0) computeRowVelocities(free, found, results);
-  for (int i = 0; i < found; ++i) rows[places[i]] = results[i];
-}
-
 // Adds the kicks by waves and wind to a velocity change, and counts what it cost. Sets it to zero
 // if it is not finite.
 void complete(AmbientBody& ambient, const RigidState& start, double time_step,
@@ -101,12 +83,11 @@ void complete(AmbientBody& ambient, const RigidState& start, double time_step,
   row.change_W = row.turning_W = row.isotropic_excess_W = {};
 }
 
-// Fills what rows need of a body. @pre the body's inertia tensor fits its orientation
-void fill(const AmbientBody& ambient, const BodyModel& model, const RowVelocity& row,
-          const btSolverBody& solver_body, RowBody& row_body) {
+// Fills what rows need of a body at the orientation R, B to W. @pre the body's inertia tensor fits
+// it
+void fill(const AmbientBody& ambient, const BodyModel& model, const Matrix3& R,
+          const RowVelocity& row, const btSolverBody& solver_body, RowBody& row_body) {
   const btRigidBody& body = *ambient.body;
-  row_body.turning_W = row.turning_W;
-  row_body.extent = row.extent;
   row_body.inverse_inertia_T = body.getInvInertiaTensorWorld().transpose();
   row_body.inverse_mass = body.getInvMass();
   row_body.spin_change = solver_body.m_externalTorqueImpulse;
@@ -114,7 +95,6 @@ void fill(const AmbientBody& ambient, const BodyModel& model, const RowVelocity&
   row_body.spin_aside = toBullet(row.isotropic_excess_W.angular);
   row_body.velocity_aside = toBullet(row.isotropic_excess_W.linear);
   if (row_body.is_locked) return;
-  const Matrix3 R = row_body.start.orientation.toRotationMatrix();
   const bool is_diagonal = model.has_diagonal_inertia;
   row_body.has_coupling = !is_diagonal;
   row_body.basis = is_diagonal ? toWorld(Vector6(ambient.in_medium->basis_B.diagonal()), R)
@@ -151,50 +131,78 @@ void SolverGroup::begin(SolverBodies& solver_bodies) noexcept {
 
 void SolverGroup::prepareForRows(Member* const* members, int count,
                                  SolverBodies& solver_bodies) noexcept {
-  AmbientBody* bodies[kFlightsTogether] = {};
-  AxisFactors factors[kFlightsTogether];
+  AMBIENT_ASSERT(batch_count_ < batches_.size());
+  RowBatch& batch = batches_[batch_count_++];
+  RowLanes& lanes = batch.lanes;
+  batch.count = count;
   for (int i = 0; i < count; ++i) {
-    bodies[i] = members[i]->ambient;
-    AMBIENT_ASSERT(bodies[i]->body->getInvMass() > 0);
+    batch.bodies[i] = members[i]->ambient;
+    batch.solver_bodies[i] = members[i]->solver_body;
+    AMBIENT_ASSERT(batch.bodies[i]->body->getInvMass() > 0);
     // T must fit the inertia tensor; Bullet's setWorldTransform leaves that of the old orientation.
-    bodies[i]->body->updateInertiaTensor();
-    factors[i] = axisFactors(*bodies[i]->body);
+    batch.bodies[i]->body->updateInertiaTensor();
   }
   Departures departures;
-  readDepartures(bodies, count, departures);
-  standAll(bodies, departures.states, count, time_step_, bodies_.complaints);
-  std::optional<StepModel> models[kFlightsTogether];
-  std::optional<RowTask> tasks[kFlightsTogether];
-  const RowTask* all[kFlightsTogether] = {};
+  readDepartures(batch.bodies, count, departures);
+  standAll(batch.bodies, departures.states, count, time_step_, bodies_.complaints);
+  std::optional<StepModel> step_models[kFlightsTogether];
+  const BodyModel* models[kFlightsTogether] = {};
+  for (int i = 0; i < count; ++i)
+    models[i] = &*step_models[i].emplace(*batch.bodies[i], time_step_);
+  setModels(models, count, lanes);
+  const auto taskOf = [&](int i) -> FlightTask {
+    return {*models[i], departures.surroundings[i], batch.bodies[i]->def->flight, time_step_};
+  };
+  FlightCount costs[kFlightsTogether];
+  bool is_any_free = false;
   for (int i = 0; i < count; ++i) {
-    const StepModel& model = models[i].emplace(*bodies[i], time_step_);
-    const FlightTask task{*model, departures.surroundings[i], bodies[i]->def->flight, time_step_};
-    all[i] = &tasks[i].emplace(RowTask{task, departures.states[i]});
+    if (members[i]->is_locked) continue;
+    costs[i] = setStart(taskOf(i), departures.states[i], i, lanes);
+    is_any_free = true;
   }
-  RowVelocity rows[kFlightsTogether];
-  computeForRows(all, factors, count, rows);
+  if (is_any_free) kFlightKernels.fastest()->push(lanes);
   for (int i = 0; i < count; ++i) {
     const Member& member = *members[i];
+    AmbientBody& ambient = *member.ambient;
     const RigidState& start = departures.states[i];
+    const Matrix3 R = start.orientation.toRotationMatrix();
+    RowVelocity row = member.is_locked
+                          ? computeLockedVelocity(taskOf(i), start, axisFactors(*ambient.body))
+                          : rowVelocityOf(lanes, i, costs[i]);
+    complete(ambient, start, time_step_, bodies_.complaints, row);
+    // Those of FlightKernel::keep().
+    batch.positions[i] = start.position;
+    lanes.kick_time[i] = time_step_;
+    lanes.extent[i] = row.extent;
+    setLane(lanes.orientation, i, start.orientation);
+    setLane(lanes.turning_W, i, row.turning_W);
     btSolverBody& solver_body = solver_bodies[member.solver_body];
-    complete(*bodies[i], start, time_step_, bodies_.complaints, rows[i]);
-    setExternalImpulse(solver_body, withoutTraces(rows[i].change_W, time_step_));
+    setExternalImpulse(solver_body, withoutTraces(row.change_W, time_step_));
     RowBody& row_body = row_bodies_->add(member.solver_body);
-    row_body.start = start;
     row_body.is_held = member.is_held;
-    if (member.is_locked) lock(row_body, *bodies[i]->body, **models[i], solver_body);
-    fill(*bodies[i], **models[i], rows[i], solver_body, row_body);
+    if (member.is_locked) lock(row_body, *ambient.body, *models[i], R, solver_body);
+    fill(ambient, *models[i], R, row, solver_body, row_body);
   }
 }
 
 void SolverGroup::prepareJoinedToMultiBodies(SolverBodies& solver_bodies,
                                              const btMultiBodyConstraintArray& joints) noexcept {
+  Member* waiting[kFlightsTogether] = {};
+  int count = 0;
+  const auto prepare = [&] {
+    if (count > 0) prepareForRows(waiting, std::exchange(count, 0), solver_bodies);
+  };
   forEachJoinedBody(joints, [&](int id) {
     Member* member = memberOf(id);
     if (!member) return;
-    if (!row_bodies_->find(id)) prepareForRows(&member, 1, solver_bodies);
-    row_bodies_->find(id)->is_held = true;
+    member->is_held = true;
+    if (RowBody* row_body = row_bodies_->find(id))
+      row_body->is_held = true;
+    else if (!std::exchange(member->has_rows, true))
+      waiting[count++] = member;
+    if (count == kFlightsTogether) prepare();
   });
+  prepare();
 }
 
 AMBIENT_END

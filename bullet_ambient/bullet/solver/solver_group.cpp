@@ -10,6 +10,7 @@
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/bullet/rows/joint_chains.h"
 #include "bullet_ambient/bullet/rows/joint_gaps.h"
+#include "bullet_ambient/bullet/rows/row_motion.h"
 #include "bullet_ambient/bullet/rows/row_rewriting.h"
 
 AMBIENT_BEGIN

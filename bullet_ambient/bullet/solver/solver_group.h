@@ -28,6 +28,7 @@ class AmbientBodies;
 class JointChains;
 class JointGaps;
 class RowBodies;
+struct RowBatch;
 struct RowBody;
 
 /// Bodies of a group.
@@ -133,8 +134,7 @@ class SolverGroup {
   void saveFeedbackJacobians(const btConstraintArray& joints) noexcept;
   void restoreFeedbackJacobians(btConstraintArray& joints) noexcept;
   void noteGap(AmbientBody& ambient, const RowBody& row_body) noexcept;
-  void settleLater(const Member& member, SolverBodies& solver_bodies) noexcept;
-  void settleMoved(SolverBodies& solver_bodies) noexcept;
+  void finishBatch(RowBatch& batch, double turn_share, SolverBodies& solver_bodies) noexcept;
   void flyLater(const FreeBody& body, SolverBodies* solver_bodies) noexcept;
   void flyFreely(SolverBodies* solver_bodies) noexcept;
   void flyTogether(int first, int count, SolverBodies* solver_bodies) const noexcept;
@@ -143,13 +143,13 @@ class SolverGroup {
 
   AmbientBodies& bodies_;
   double time_step_ = 0;
-  double turn_share_ = 0;  // SolvedBody::turn_share
   bool may_hold_slopes_ = false;
   bool is_held_ = false;  // true: the time step is not finite, and no body of the group may move
   std::vector<Member> members_;
   std::vector<btCollisionObject*> converted_;  // bodies that Bullet has to convert
   std::vector<int> member_of_solver_body_;     // index in members_; -1: not ambient
-  std::vector<const Member*> moved_members_;   // members to settle: those that do not fly
+  std::vector<RowBatch> batches_;              // of members that rows may move
+  std::size_t batch_count_ = 0;                // of batches_ in use
   std::vector<FreeBody> free_;                 // bodies to fly
   std::unique_ptr<RowBodies> row_bodies_;
   std::unique_ptr<JointChains> joint_chains_;

@@ -20,14 +20,14 @@ void setSymmetric(FlightLane (&to)[kSymmetricEntries], int body, const Matrix6& 
 
 }  // namespace
 
-void setModel(FlightLanes& lanes, int body, const BodyModel& model) noexcept {
+void setModel(BodyLanes& lanes, int body, const BodyModel& model) noexcept {
   AMBIENT_ASSERT(isSymmetric(model.inertia, 1e-9) && isSymmetric(model.inverse_inertia, 1e-9));
   setSymmetric(lanes.inertia, body, model.inertia, lanes.has_diagonal_inertia);
   setSymmetric(lanes.inverse_inertia, body, model.inverse_inertia, lanes.has_diagonal_inertia);
   setLane(lanes.centre_of_volume_B, body, model.centre_of_volume);
 }
 
-void setForces(FlightLanes& lanes, int body, const FlightTask& task) noexcept {
+void setForces(BodyLanes& lanes, int body, const FlightTask& task) noexcept {
   const BodyModel& model = task.model;
   const Surroundings& s = task.surroundings;
   setLane(lanes.torque_W, body, s.applied.torque);

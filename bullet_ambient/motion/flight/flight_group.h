@@ -12,7 +12,7 @@ extern const Kernels<const FlightKernel*> kFlightKernels;
 /// Sets what the models of all bodies have in common, before setModel(). `modelOf(i)`: model of
 /// body i.
 template <class ModelOf>
-void setKinds(FlightLanes& lanes, int count, const ModelOf& modelOf) noexcept {
+void setKinds(BodyLanes& lanes, int count, const ModelOf& modelOf) noexcept {
   lanes.has_diagonal_inertia = true;
   lanes.has_loads = false;
   for (int i = 0; i < count; ++i) {
@@ -23,10 +23,10 @@ void setKinds(FlightLanes& lanes, int count, const ModelOf& modelOf) noexcept {
 }
 
 /// Writes the model of a body into lane `body`: with has_diagonal_inertia of the lanes, only the
-/// diagonals of K and K^-1. Lanes without a body stay 0, as in FlightLanes{}.
-void setModel(FlightLanes& lanes, int body, const BodyModel& model) noexcept;
+/// diagonals of K and K^-1. Lanes without a body stay 0, as in BodyLanes{}.
+void setModel(BodyLanes& lanes, int body, const BodyModel& model) noexcept;
 /// Writes the wrench on a body without surface loads.
-void setForces(FlightLanes& lanes, int body, const FlightTask& task) noexcept;
+void setForces(BodyLanes& lanes, int body, const FlightTask& task) noexcept;
 /// Writes that wrench, and the scale of its errors.
 void setSurroundings(FlightLanes& lanes, int body, const FlightTask& task) noexcept;
 /// Writes pose and twist of a body; twist in B, relative to the frame that moves with the flow.

@@ -106,7 +106,7 @@ inline Vectors withoutRounding(const Vectors& a, const Vectors& of) {
 
 /// Returns k' - k of docs/theory.md eq. (28b): the response with isotropic added mass to a momentum
 /// K k, minus k.
-inline Spatials beyondEven(const PushLanes& push, int at, const Pairs& kick) {
+inline Spatials beyondEven(const RowLanes& push, int at, const Pairs& kick) {
   const Vectors& m = kick.momentum.angular;
   Lanes spin[3];
   for (int i = 0; i < 3; ++i) {
@@ -123,8 +123,7 @@ inline Spatials beyondEven(const PushLanes& push, int at, const Pairs& kick) {
 /// Implements FlightKernel::push for the lanes from `at` on.
 struct PushStep {
   template <class Matrices>
-  static void act(PushLanes& lanes, int at, const Mask&) {
-    const FlightLanes& bodies = lanes.bodies;
+  static void act(RowLanes& bodies, int at, const Mask&) {
     const Matrices inertia(bodies.inertia, at), inverse(bodies.inverse_inertia, at);
     const Orientations q = orientationOf(bodies, at);
     const Lanes duration = load(bodies.kick_time + at);
@@ -142,42 +141,42 @@ struct PushStep {
     const Lanes share = rest < zero ? zero : (rest > all(0.5) ? all(0.5) : rest);
     const Spatials turning_W = toWorld(q, share * turning.change);
     Spatials change_W = turning_W + toWorld(q, kick);
-    change_W.linear = change_W.linear + duration * load(lanes.acceleration_W, at);
-    store6(lanes.change_W, at, change_W);
-    store6(lanes.turning_W, at, turning_W);
-    store6(lanes.isotropic_excess_W, at, toWorld(q, beyondEven(lanes, at, {kick, inertia * kick})));
-    store(lanes.extent + at, turning.extent);
+    change_W.linear = change_W.linear + duration * load(bodies.acceleration_W, at);
+    store6(bodies.change_W, at, change_W);
+    store6(bodies.turning_W, at, turning_W);
+    store6(bodies.isotropic_excess_W, at,
+           toWorld(q, beyondEven(bodies, at, {kick, inertia * kick})));
+    store(bodies.extent + at, turning.extent);
   }
 };
 
 /// Implements FlightKernel::keep for the lanes from `at` on.
 struct KeepStep {
   template <class Matrices>
-  static void act(RowMotionLanes& lanes, int at, const Mask&) {
-    const FlightLanes& bodies = lanes.bodies;
+  static void act(RowLanes& bodies, int at, const Mask&) {
     const Matrices inertia(bodies.inertia, at), inverse(bodies.inverse_inertia, at);
     const Orientations q = orientationOf(bodies, at);
-    const Spatials x = toBody(q, load6(lanes.velocity_W, at));
-    const Spatials share = toBody(q, load6(lanes.turning_W, at));
-    const Spatials by_rows = toBody(q, load6(lanes.by_rows_W, at));
+    const Spatials x = toBody(q, load6(bodies.velocity_W, at));
+    const Spatials share = toBody(q, load6(bodies.turning_W, at));
+    const Spatials by_rows = toBody(q, load6(bodies.by_rows_W, at));
     const Spatials kept = x - share;
     const Pairs kept_pair{kept, inertia * kept};
-    store6(lanes.momentum_W, at, toWorld(q, kept_pair.momentum));
+    store6(bodies.momentum_W, at, toWorld(q, kept_pair.momentum));
     const Lanes duration = load(bodies.kick_time + at);
-    store(lanes.extent + at, computeTurnings(inertia, inverse, {x, inertia * x}, duration).extent);
+    store(bodies.moved_extent + at,
+          computeTurnings(inertia, inverse, {x, inertia * x}, duration).extent);
     const Lanes on_share = 2 * dot(share, inertia * by_rows);
     const Lanes taken = on_share < Lanes{} ? on_share : Lanes{};
-    store(lanes.twice_energy + at, inner(kept_pair, kept_pair) + taken);
+    store(bodies.twice_energy + at, inner(kept_pair, kept_pair) + taken);
   }
 };
 
 /// Implements FlightKernel::carry for the lanes from `at` on.
 struct CarryStep {
   template <class Matrices>
-  static void act(RowMotionLanes& lanes, int at, const Mask&) {
-    FlightLanes& bodies = lanes.bodies;
+  static void act(RowLanes& bodies, int at, const Mask&) {
     const Orientations q = orientationOf(bodies, at);
-    Spatials m = load6(lanes.momentum_W, at);
+    Spatials m = load6(bodies.momentum_W, at);
     m.angular = m.angular - cross(load(bodies.way_W, at), m.linear);
     const Spatials m_B = toBody(q, m);
     store6(bodies.momentum_B, at, m_B);
@@ -270,24 +269,17 @@ struct BoundStep {
   }
 };
 
-inline FlightLanes& bodiesOf(FlightLanes& bodies) { return bodies; }
-template <class Rows>
-inline FlightLanes& bodiesOf(Rows& lanes) {
-  return lanes.bodies;
-}
-
 // Runs a step for all registers with an active body, with diagonal matrices if all bodies have
 // them.
 template <class Step, class AnyLanes>
-void forAll(AnyLanes& lanes) noexcept {
-  const FlightLanes& bodies = bodiesOf(lanes);
+void forAll(AnyLanes& bodies) noexcept {
   for (int at = 0; at < kFlightLanes; at += kWidth) {
     const Mask active = load(bodies.active + at) > Lanes{};
     if (!anyOf(active)) continue;
     if (bodies.has_diagonal_inertia) {
-      Step::template act<DiagonalMatrices>(lanes, at, active);
+      Step::template act<DiagonalMatrices>(bodies, at, active);
     } else {
-      Step::template act<FullMatrices>(lanes, at, active);
+      Step::template act<FullMatrices>(bodies, at, active);
     }
   }
 }

@@ -5,8 +5,8 @@
 namespace ambient {
 
 // Data and kernels of the passive leapfrog, docs/theory.md eq. (22) to (25), for several bodies
-// side by side, and of motions with rows (row_lanes.h). Plain data only: kernels are compiled once
-// per instruction set, and must share no inline function with the rest of the program.
+// side by side, and of motions with rows. Plain data only: kernels are compiled once per
+// instruction set, and must share no inline function with the rest of the program.
 
 constexpr int kFlightLanes = 8;
 
@@ -29,9 +29,9 @@ struct SpatialsOf {
   VectorsOf<Real> angular, linear;
 };
 
-/// Input and output of the kernels. Vectors are in world axes (_W) or body axes (_B); SI units.
-/// 6-vectors and wrenches: rotation first.
-struct alignas(64) FlightLanes {
+/// Models of bodies, the forces on them, poses and motions. Vectors are in world axes (_W) or body
+/// axes (_B); SI units. 6-vectors and wrenches: rotation first.
+struct alignas(64) BodyLanes {
   FlightLane active;  ///< 1: the body moves; 0: kernels keep its pose, motion and last load
 
   // Constant over the step.
@@ -43,24 +43,28 @@ struct alignas(64) FlightLanes {
                                        ///< mass
   FlightLane buoyancy_W[3];
   FlightLane centre_of_volume_B[3];
-  FlightLane fall_scale;  ///< result of fallScale()
-  FlightLane precision;   ///< largest error of flow(), relative to the motion [1]
 
   // Pose and motion.
   FlightLane orientation[4];  ///< (x, y, z, w), B to W
   FlightLane way_W[3];        ///< displacement since the start of the step [m]
   FlightLane twist_B[6], momentum_B[6];
-  FlightLane energy;  ///< kinetic and potential energy at the last measure(), eq. (25a) [J]
+  FlightLane kick_time;  ///< duration of the next kick, or of the step with rows [s]
+  FlightLane load_B[6];  ///< surface load; 0 for a body without surface loads
+};
 
+/// Input and output of the kernels of free flight.
+struct alignas(64) FlightLanes : BodyLanes {
+  FlightLane fall_scale;  ///< result of fallScale()
+  FlightLane precision;   ///< largest error of flow(), relative to the motion [1]
+
+  FlightLane energy;          ///< kinetic and potential energy at the last measure(), eq. (25a) [J]
   FlightLane flow_time;       ///< duration of the next flow [s]
-  FlightLane kick_time;       ///< duration of the next kick [s]
   FlightLane is_coarse;       ///< flow() sets 1 if it did not reach its precision
   FlightLane energy_removed;  ///< flow() and bound() add the energy they remove [J]
 
-  // Within a kick. Loads are 0 for a body without surface loads.
+  // Within a kick, in which load_B is the load at the sampled twist.
   FlightLane load_W[6];         ///< surface load of the last kick
   FlightLane guess_B[6];        ///< load by which sample() predicts the middle of the kick
-  FlightLane load_B[6];         ///< load at the sampled twist
   FlightLane fall_twist[6];     ///< change of twist in half the kick by all but surface loads
   FlightLane fall_momentum[6];  ///< change of momentum belonging to it
   FlightLane sample_twist[6];
@@ -89,8 +93,7 @@ struct alignas(64) ArrivalLanes {
                           ///< most pi, eq. (29)
 };
 
-struct PushLanes;
-struct RowMotionLanes;
+struct RowLanes;
 
 /// Kernels of one instruction set. depart() and arrive() compute all lanes, others
 /// only active bodies unless their comment says otherwise.
@@ -119,51 +122,41 @@ struct FlightKernel {
   // For bodies that constraint rows may move; for all lanes of a register with an active body.
 
   /// Computes the change of velocity that rows are solved against, eq. (28).
-  void (*push)(PushLanes&) noexcept;
+  void (*push)(RowLanes&) noexcept;
   /// Computes what a body keeps that rows have moved: momentum and energy, eq. (31), (31a).
-  void (*keep)(RowMotionLanes&) noexcept;
+  void (*keep)(RowLanes&) noexcept;
   /// Computes the twist from the kept momentum at the end of the step, eq. (31).
-  void (*carry)(RowMotionLanes&) noexcept;
+  void (*carry)(RowLanes&) noexcept;
 };
 
 /// No operation is fused, and lanes are independent: the bits of a body do not depend on the
 /// instruction set or on the bodies in other lanes.
 extern const FlightKernel kFlightKernelBaseline, kFlightKernelAvx2, kFlightKernelAvx512;
 
-// Data of the kernels for bodies that constraint rows move, docs/theory.md section 7, side by side.
-// Plain data only, as in flight_lanes.h.
-
-/// Input and output of FlightKernel::push(): change of velocity that rows are solved against.
-struct alignas(64) PushLanes {
-  /// Models, surroundings, orientations; kick_time: duration of the step [s]; twist_B: twist
-  /// relative to the flow; load_B: surface load at that twist.
-  FlightLanes bodies;
+/// Bodies that constraint rows may move, docs/theory.md section 7: input and output of push(),
+/// keep() and carry(), one after the other. Twists relative to the flow; momenta about the centre
+/// of mass.
+struct alignas(64) RowLanes : BodyLanes {
+  // Input of push(), with orientations and twist_B at the start of the step, and load_B there.
   FlightLane acceleration_W[3];           ///< acceleration of the flow [m/s^2]
   FlightLane even_inverse_inertia[3][3];  ///< D' of eq. (28b), in B [1/(kg m^2)]
   FlightLane even_inverse_mass;           ///< [1/kg]
 
-  // Results, see RowVelocity.
+  // Results of push(), see RowVelocity.
   FlightLane change_W[6];
-  FlightLane turning_W[6];
+  FlightLane turning_W[6];  ///< X, input of keep(), too
   FlightLane isotropic_excess_W[6];
   FlightLane extent;
-};
 
-/// Input and output of FlightKernel::keep(), which computes the momentum of a body that rows have
-/// moved, and of carry(), which computes the twist of that momentum in the next pose. Twists
-/// relative to the flow; momenta about the centre of mass.
-struct alignas(64) RowMotionLanes {
-  /// Models; kick_time: duration of the step [s]. keep(): orientations at the start of the step.
-  /// carry(): those at its end, way_W; results in twist_B and momentum_B.
-  FlightLanes bodies;
+  // Input of keep(), with orientations at the start of the step.
   FlightLane velocity_W[6];  ///< xi of eq. (31)
-  FlightLane turning_W[6];   ///< X
   FlightLane by_rows_W[6];   ///< d
-  FlightLane momentum_W[6];  ///< P of eq. (31) at the start: result of keep(), input of carry()
 
   // Results of keep().
-  FlightLane extent;        ///< m of eq. (28a) for xi
-  FlightLane twice_energy;  ///< 2 E of eq. (31a) [J]
+  FlightLane momentum_W[6];  ///< P of eq. (31) at the start; input of carry(), with orientations at
+                             ///< the end of the step and way_W, which sets twist_B and momentum_B
+  FlightLane moved_extent;   ///< m of eq. (28a) for xi
+  FlightLane twice_energy;   ///< 2 E of eq. (31a) [J]
 };
 
 }  // namespace ambient

@@ -2,18 +2,18 @@
 
 #include "bullet_ambient/motion/lanes/body_kernel.h"
 
-// Reading of FlightLanes, and steps on them, that several kernels share. For sources that are
+// Reading of BodyLanes, and steps on them, that several kernels share. For sources that are
 // compiled once per instruction set, see spatial_lanes.h.
 
 namespace ambient {
 namespace {
 
-inline Orientations orientationOf(const FlightLanes& bodies, int at) {
+inline Orientations orientationOf(const BodyLanes& bodies, int at) {
   return {load(bodies.orientation, at), load(bodies.orientation[3] + at)};
 }
 
 /// Returns weight, buoyancy and inertial forces of the flow in B, docs/theory.md eq. (18) and (19).
-inline Spatials externalWrench(const FlightLanes& bodies, int at, const Orientations& q) {
+inline Spatials externalWrench(const BodyLanes& bodies, int at, const Orientations& q) {
   const Vectors buoyancy = q.toBody(load(bodies.buoyancy_W, at));
   return {
       q.toBody(load(bodies.torque_W, at)) + cross(load(bodies.centre_of_volume_B, at), buoyancy),

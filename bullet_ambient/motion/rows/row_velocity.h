@@ -2,6 +2,7 @@
 
 #include "bullet_ambient/motion/body/body_model.h"
 #include "bullet_ambient/motion/flight/flight_task.h"
+#include "bullet_ambient/motion/lanes/flight_lanes.h"
 
 namespace ambient {
 
@@ -20,15 +21,20 @@ struct RowVelocity {
   FlightCount count;
 };
 
-/// A body at the start of a step in which rows may move it.
-struct RowTask {
-  FlightTask task;
-  const RigidState& start;
-};
+// Bodies that rows may move are up to kFlightsTogether side by side, in RowLanes: setModels(),
+// setStart() of each free body, FlightKernel::push(); after the rows FlightKernel::keep(), and
+// after the move carry(). The bits of a body do not depend on the others.
 
-/// Computes the changes of up to kFlightsTogether free bodies side by side. The bits of a body do
-/// not depend on the others.
-void computeRowVelocities(const RowTask* const* bodies, int count, RowVelocity* results) noexcept;
+/// Writes models into the first lanes, and makes these active. Others become 0.
+void setModels(const BodyModel* const* models, int count, RowLanes& lanes) noexcept;
+/// Writes the state of a body at the start of a step, and the forces and the load on it there.
+/// Returns what the load cost. @pre setModels()
+FlightCount setStart(const FlightTask& task, const RigidState& start, int lane,
+                     RowLanes& lanes) noexcept;
+/// Reads the result of FlightKernel::push().
+RowVelocity rowVelocityOf(const RowLanes& lanes, int lane, const FlightCount& count) noexcept;
+
+/// Computes the change of one body alone.
 RowVelocity computeRowVelocity(const FlightTask& task, const RigidState& start) noexcept;
 
 /// Returns the mean wrench in B of the kick by a load in fluid that turns with a body,
@@ -38,39 +44,5 @@ Wrench meanLoadInTurningFluid(const FlightTask& task, const BodyModel& model, co
                               const Wrench& load) noexcept;
 /// True if the surroundings have such a fluid.
 inline bool turnsWithFluid(const Surroundings& s) { return s.flow && s.flow->stations == 1; }
-
-// Momentum and energy that a body keeps on the way that Bullet moves it with rows, docs/theory.md
-// eq. (31) and (31a). Functions for up to kFlightsTogether bodies side by side; the bits of a body
-// do not depend on the others. Velocities relative to the flow.
-
-/// A body after the rows of a step, before Bullet moves it; world axes.
-struct BodyWithRows {
-  const BodyModel& model;
-  Quaternion orientation;  ///< B to W
-  Twist velocity_W;        ///< xi: velocity with which Bullet moves it
-  Twist turning_W;         ///< X of eq. (28)
-  Twist by_rows_W;         ///< d: change by the rows
-};
-
-struct KeptMotion {
-  Momentum momentum_W;      ///< P of eq. (31), about the centre of mass at the start
-  double extent = 0;        ///< m of eq. (28a) for xi
-  double twice_energy = 0;  ///< 2 E of eq. (31a) [J]
-};
-
-/// Computes what the bodies keep over a step of `duration` [s].
-void computeKeptMotions(const BodyWithRows* const* bodies, int count, double duration,
-                        KeptMotion* results) noexcept;
-
-/// A body where Bullet has moved it.
-struct CarriedBody {
-  const BodyModel& model;
-  Quaternion orientation;  ///< B to W, at the end of its way
-  Momentum momentum_W;     ///< KeptMotion::momentum_W
-  Vector3 way_W;           ///< way of the centre of mass since the start, relative to the flow [m]
-};
-
-/// Computes the twists in B of bodies from the momenta that they keep.
-void computeCarriedTwists(const CarriedBody* const* bodies, int count, Twist* twists_B) noexcept;
 
 }  // namespace ambient

@@ -32,7 +32,7 @@ FreeBody arbitraryBody(unsigned seed) {
   return body;
 }
 
-void setBody(FlightLanes& lanes, int i, const FreeBody& body, double duration) {
+void setBody(RowLanes& lanes, int i, const FreeBody& body, double duration) {
   lanes.active[i] = 1;
   lanes.kick_time[i] = duration;
   setModel(lanes, i, body.model());
@@ -47,29 +47,26 @@ TEST_P(RowKernels, HaveTheBitsOfTheBaseline) {
   Arbitrary arbitrary(7);
   for (unsigned round = 0; round < 50; ++round) {
     const bool is_diagonal = round % 2 == 0;
-    PushLanes push{};
-    RowMotionLanes rows{};
-    push.bodies.has_loads = true;
-    push.bodies.has_diagonal_inertia = rows.bodies.has_diagonal_inertia = is_diagonal;
+    RowLanes rows{};
+    rows.has_loads = true;
+    rows.has_diagonal_inertia = is_diagonal;
     const double duration = std::pow(10, arbitrary.between(-4, -1));
     for (int i = 0; i < kFlightLanes; ++i) {
       const FreeBody body = arbitraryBody(3 * (round * kFlightLanes + static_cast<unsigned>(i)) +
                                           (is_diagonal ? 0 : 1));
-      setBody(push.bodies, i, body, duration);
-      setBody(rows.bodies, i, body, duration);
-      for (int k = 0; k < 6; ++k) push.bodies.load_B[k][i] = 100 * arbitrary.between(-1, 1);
-      setLane(push.acceleration_W, i, arbitrary.vector());
-      for (FlightLane* row : push.even_inverse_inertia) setLane(row, i, arbitrary.vector());
-      push.even_inverse_mass[i] = arbitrary.between(0, 1);
-      for (FlightLane* twist : {rows.velocity_W, rows.turning_W, rows.by_rows_W})
+      setBody(rows, i, body, duration);
+      for (int k = 0; k < 6; ++k) rows.load_B[k][i] = 100 * arbitrary.between(-1, 1);
+      setLane(rows.acceleration_W, i, arbitrary.vector());
+      for (FlightLane* row : rows.even_inverse_inertia) setLane(row, i, arbitrary.vector());
+      rows.even_inverse_mass[i] = arbitrary.between(0, 1);
+      for (FlightLane* twist : {rows.velocity_W, rows.by_rows_W})
         setLane(twist, i, arbitrary.twist(10, 3));
-      setLane(rows.bodies.way_W, i, arbitrary.vector());
+      setLane(rows.way_W, i, arbitrary.vector());
     }
-    PushLanes other_push = push;
-    RowMotionLanes other_rows = rows;
-    kernel_->push(push);
-    kFlightKernelBaseline.push(other_push);
-    EXPECT_EQ(std::memcmp(&push, &other_push, sizeof push), 0);
+    RowLanes other_rows = rows;
+    kernel_->push(rows);
+    kFlightKernelBaseline.push(other_rows);
+    EXPECT_EQ(std::memcmp(&rows, &other_rows, sizeof rows), 0);
     kernel_->keep(rows);
     kFlightKernelBaseline.keep(other_rows);
     EXPECT_EQ(std::memcmp(&rows, &other_rows, sizeof rows), 0);
@@ -95,17 +92,44 @@ TEST(RowsTogether, GiveABodyTheBitsThatItHasAlone) {
   for (unsigned i = 0; i < kFlightsTogether; ++i) bodies.push_back(arbitraryBody(i));
   bodies[2] = test::tumblingEllipsoid({});
   bodies[5] = test::glidingDisc({});
-  std::vector<RowTask> tasks;
-  const RowTask* all[kFlightsTogether];
-  for (const FreeBody& body : bodies)
-    tasks.push_back({{body.model(), body.surroundings, body.settings, kStep}, body.state});
-  for (int i = 0; i < kFlightsTogether; ++i) all[i] = &tasks[static_cast<std::size_t>(i)];
-  for (const int count : {1, 3, kFlightsTogether}) {
-    RowVelocity together[kFlightsTogether];
-    computeRowVelocities(all, count, together);
-    for (int i = 0; i < count; ++i)
-      expectSame(together[i], computeRowVelocity(all[i]->task, all[i]->start));
+  std::vector<FlightTask> tasks;
+  const BodyModel* models[kFlightsTogether];
+  for (const FreeBody& body : bodies) {
+    models[tasks.size()] = &body.model();
+    tasks.push_back({body.model(), body.surroundings, body.settings, kStep});
   }
+  const auto number = [](int i) { return static_cast<std::size_t>(i); };
+  for (const int count : {1, 3, kFlightsTogether}) {
+    RowLanes lanes;
+    FlightCount costs[kFlightsTogether];
+    setModels(models, count, lanes);
+    for (int i = 0; i < count; ++i)
+      costs[i] = setStart(tasks[number(i)], bodies[number(i)].state, i, lanes);
+    kFlightKernels.fastest()->push(lanes);
+    for (int i = 0; i < count; ++i)
+      expectSame(rowVelocityOf(lanes, i, costs[i]),
+                 computeRowVelocity(tasks[number(i)], bodies[number(i)].state));
+  }
+}
+
+// Velocities in W of a body with rows: xi, X and d of docs/theory.md eq. (31).
+struct Velocities {
+  Twist moving, turning, by_rows;
+};
+
+// Returns the lanes of one body after FlightKernel::keep().
+RowLanes kept(const FreeBody& body, const Quaternion& orientation, const Velocities& velocities,
+              double step) {
+  RowLanes lanes;
+  const BodyModel* const model = &body.model();
+  setModels(&model, 1, lanes);
+  lanes.kick_time[0] = step;
+  setLane(lanes.orientation, 0, orientation);
+  setLane(lanes.velocity_W, 0, velocities.moving);
+  setLane(lanes.turning_W, 0, velocities.turning);
+  setLane(lanes.by_rows_W, 0, velocities.by_rows);
+  kFlightKernels.fastest()->keep(lanes);
+  return lanes;
 }
 
 // A body that is carried nowhere keeps x = xi - X; one that is carried keeps P about the start.
@@ -114,28 +138,26 @@ TEST(KeptMotion, IsCarriedWithTheMomentum) {
     const FreeBody body = arbitraryBody(seed);
     Arbitrary arbitrary(100 + seed);
     const Quaternion start(arbitrary.rotation()), end(arbitrary.rotation());
-    const BodyWithRows with_rows{body.model(), start, arbitrary.twist(), arbitrary.twist(0.1, 0.1),
-                                 arbitrary.twist()};
-    const BodyWithRows* const one = &with_rows;
-    KeptMotion kept;
-    computeKeptMotions(&one, 1, 0.01, &kept);
-    const auto carried = [&](const Quaternion& orientation, const Vector3& way) {
-      const CarriedBody moved{body.model(), orientation, kept.momentum_W, way};
-      const CarriedBody* const moved_one = &moved;
-      Twist twist_B;
-      computeCarriedTwists(&moved_one, 1, &twist_B);
-      return twist_B;
+    const Velocities velocities{arbitrary.twist(), arbitrary.twist(0.1, 0.1), arbitrary.twist()};
+    RowLanes lanes = kept(body, start, velocities, 0.01);
+    const auto carried = [&lanes](const Quaternion& orientation, const Vector3& way) {
+      setLane(lanes.orientation, 0, orientation);
+      setLane(lanes.way_W, 0, way);
+      kFlightKernels.fastest()->carry(lanes);
+      return twistOf(lanes.twist_B, 0);
     };
     const Twist still = turned(start, carried(start, Vector3::Zero()));
-    const Vector6 x = with_rows.velocity_W.vector() - with_rows.turning_W.vector();
+    const Vector6 x = velocities.moving.vector() - velocities.turning.vector();
     EXPECT_LT((still.vector() - x).norm(), 1e-12 * x.norm()) << seed;
 
     const Vector3 way = arbitrary.vector();
     const Twist moved = carried(end, way);
     const Momentum m = Momentum::fromVector(body.model().inertia * moved.vector());
     const Vector3 linear = end * m.linear, angular = end * m.angular + way.cross(linear);
-    EXPECT_LT((linear - kept.momentum_W.linear).norm(), 1e-12 * linear.norm()) << seed;
-    EXPECT_LT((angular - kept.momentum_W.angular).norm(), 1e-11 * (1 + angular.norm())) << seed;
+    const Vector3 kept_angular = vectorOf(lanes.momentum_W, 0);
+    const Vector3 kept_linear = vectorOf(lanes.momentum_W + 3, 0);
+    EXPECT_LT((linear - kept_linear).norm(), 1e-12 * linear.norm()) << seed;
+    EXPECT_LT((angular - kept_angular).norm(), 1e-11 * (1 + angular.norm())) << seed;
   }
 }
 
@@ -147,16 +169,14 @@ TEST(KeptMotion, HasTheEnergyOfItsEquation) {
     const Quaternion q(arbitrary.rotation());
     const Twist velocity = arbitrary.twist(), share = arbitrary.twist(),
                 by_rows = arbitrary.twist();
-    const BodyWithRows with_rows{body.model(), q, velocity, share, by_rows};
-    const BodyWithRows* const one = &with_rows;
-    KeptMotion kept;
-    computeKeptMotions(&one, 1, 0.01, &kept);
+    const RowLanes lanes = kept(body, q, {velocity, share, by_rows}, 0.01);
     const Vector6 x = turned(q.conjugate(), velocity).vector();
     const Vector6 X = turned(q.conjugate(), share).vector();
     const Vector6 d = turned(q.conjugate(), by_rows).vector();
     const Matrix6& K = body.model().inertia;
     const double expected = (x - X).dot(K * (x - X)) + std::min(0.0, 2 * X.dot(K * d));
-    EXPECT_NEAR(kept.twice_energy, expected, 1e-12 * (x.dot(K * x) + X.dot(K * X) + d.dot(K * d)));
+    EXPECT_NEAR(lanes.twice_energy[0], expected,
+                1e-12 * (x.dot(K * x) + X.dot(K * X) + d.dot(K * d)));
   }
 }
 
@@ -169,10 +189,7 @@ TEST(KeptMotion, HasTheExtentOfItsEquation) {
     Arbitrary arbitrary(300 + seed);
     const Quaternion q(arbitrary.rotation());
     const Twist x = arbitrary.twist(3, seed % 2 == 0 ? 0.1 : 30);
-    const BodyWithRows with_rows{body.model(), q, turned(q, x), {}, {}};
-    const BodyWithRows* const one = &with_rows;
-    KeptMotion kept;
-    computeKeptMotions(&one, 1, kStep, &kept);
+    const double extent = kept(body, q, {turned(q, x), {}, {}}, kStep).moved_extent[0];
     const Matrix6& K = body.model().inertia;
     const Momentum m = Momentum::fromVector(K * x.vector());
     const Vector6 wrench =
@@ -181,7 +198,7 @@ TEST(KeptMotion, HasTheExtentOfItsEquation) {
     t.tail<3>() += kStep * x.angular.cross(x.linear);
     const double by_spin = kStep * x.angular.norm() / 0.5;
     const double by_change = std::sqrt(t.dot(K * t) / x.vector().dot(K * x.vector())) / 0.45;
-    EXPECT_NEAR(kept.extent, std::max(by_spin, by_change), 1e-11 * kept.extent) << seed;
+    EXPECT_NEAR(extent, std::max(by_spin, by_change), 1e-11 * extent) << seed;
     is_by_spin |= by_spin > by_change;
     is_by_change |= by_change > by_spin;
   }
