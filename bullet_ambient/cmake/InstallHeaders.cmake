@@ -4,6 +4,7 @@
 #   folder       bullet_ambient or preprocess
 #   destination  of the public headers
 #   details      folder of the others
+cmake_policy(VERSION 3.25)
 file(GLOB public_headers RELATIVE ${source} ${source}/${folder}/*.h)
 set(needed ${public_headers})
 set(unread ${public_headers})
