@@ -11,7 +11,6 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/pi.h"
 #include "preprocess/mesh/geometry.h"
-#include "preprocess/mesh/mesh_topology.h"
 #include "preprocess/potential_flow/results/ellipsoid_added_mass.h"
 
 namespace ambient {

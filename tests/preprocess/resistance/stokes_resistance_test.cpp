@@ -10,7 +10,6 @@
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
-#include "preprocess/mesh/join_meshes.h"
 #include "preprocess/mesh/shapes/primitives.h"
 #include "preprocess/potential_flow/surface/surface_refinement.h"
 #include "preprocess/resistance/stokes_matrix.h"
