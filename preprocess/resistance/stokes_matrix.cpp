@@ -19,6 +19,7 @@ using Eigen::Vector3d;
 // Limits of the distance of centroids over the sum of the radii.
 constexpr double kTouching = 1.1816;  // 2/3 sqrt(pi): up to here sixteen points
 constexpr double kNear = 8;           // six points, beyond one
+constexpr double kNearGroup = 3;      // in place of kNear, where groups have several panels
 
 /// Panels with one force per area, and their extent.
 struct Group {
@@ -94,7 +95,8 @@ void addIntegrals(const Panel& source, const std::vector<Panel>& panels,
                   const std::vector<Group>& groups, std::vector<Matrix3d>& rows) {
   PointBlock block(source, rows);
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    if (!isWithin(kNear, source, groups[g])) {
+    const double limit = groups[g].members.size() > 1 ? kNearGroup : kNear;
+    if (!isWithin(limit, source, groups[g])) {
       block.add(g, groups[g].centroid, groups[g].area);
       continue;
     }
@@ -102,7 +104,7 @@ void addIntegrals(const Panel& source, const std::vector<Panel>& panels,
       const Panel& panel = panels[t];
       if (isWithin(kTouching, source, panel))
         block.add(g, panel, kTriangleRule16);
-      else if (isWithin(kNear, source, panel))
+      else if (isWithin(limit, source, panel))
         block.add(g, panel, kTriangleRule6);
       else
         block.add(g, panel.centroid, panel.area);

@@ -13,10 +13,11 @@ void computeStokeslets(const Panel& panel, const Eigen::Vector3d* points, std::s
                        Eigen::Matrix3d* tensors);
 
 /// Assembles the matrix of the Stokes equation (93) with one force per area on each group of
-/// panels, tested by the same groups: 3 G x 3 G, symmetric [length^3]. Panels nearer than twice the
-/// sum of their radii are integrated over three points and the panel in closed form, others over
-/// one, whole groups that are farther from a panel over one point too; the mean of both orders. The
-/// bits do not depend on the number of threads. Cost: 300 panels take 0.05 s of one core.
+/// panels, tested by the same groups: 3 G x 3 G, symmetric [length^3]. One panel of a pair is
+/// integrated in closed form, the other over sixteen points if they touch, six if they are nearer
+/// than eight times the sum of their radii, else one; with several panels a group three times, and
+/// one for all of a farther group. The mean of both orders. The bits do not depend on threads. 300
+/// panels take 0.05 s of one core.
 /// @param group number of the group of each panel, 0 <= group < count; none is empty
 Eigen::MatrixXd assembleStokesMatrix(const std::vector<Panel>& panels,
                                      const std::vector<int>& group, int count, int threads);

@@ -8,6 +8,7 @@
 
 #include "bullet_ambient/base/pi.h"
 #include "preprocess/mesh/shapes/primitives.h"
+#include "preprocess/mesh/triangle_mesh.h"
 #include "preprocess/potential_flow/results/potential_flow.h"
 
 namespace ambient {
@@ -122,6 +123,38 @@ TEST(MeshSeparation, DoesNotDependOnAttitudePlaceAndSize) {
       EXPECT_NEAR(numbersOf(b.ways[way])[i], numbersOf(a.ways[way])[i],
                   1e-6 * (1 + numbersOf(a.ways[way])[i]))
           << way << " " << i;
+}
+
+TEST(MeshSeparation, OfIrregularMeshesIsNear) {
+  // Vertices moved along the surface by up to a quarter of the edges.
+  TriangleMesh mesh = makeEllipsoidMesh({1, 1, 1}, 2000);
+  const double shift = 0.25 * (mesh.corner(0, 1) - mesh.corner(0, 0)).norm();
+  unsigned state = 1;
+  const auto random = [&] { return (state = state * 1664525 + 1013904223) / 2147483648.0 - 1; };
+  for (Eigen::Index v = 0; v < mesh.vertexCount(); ++v) {
+    const Vector3d move(random(), random(), random());
+    mesh.vertices.col(v) = (Vector3d(mesh.vertices.col(v)) + shift * move).normalized();
+  }
+  mesh.vertices.row(0) *= 2;
+  for (const SeparationWay& way : {solved(mesh).ways[0], solved(mesh).ways[1]})
+    expectNear(way, kSpheroids[2].along, {0.1, 0.2, 0.2, 0.1, 0.1, 0.1, 0.2, 0.03}, 0.02,
+               "irregular");
+}
+
+TEST(MeshSeparation, IsFiniteForAnyBody) {
+  std::vector<TriangleMesh> bodies = {
+      makeBoxMesh({0.5, 0.3, 1}, {1, 1, 1}), makeEllipsoidMesh({1, 1, 0.05}, 80),
+      makeEllipsoidMesh({20, 1, 1}, 20), makeConeMesh(0.5, 0.1, 100)};
+  TriangleMesh beside = makeEllipsoidMesh({1, 1, 1}, 320);
+  beside.vertices.row(0).array() += 5;
+  bodies.push_back(joinMeshes({makeEllipsoidMesh({1, 1, 1}, 320), beside}));
+  for (const TriangleMesh& body : bodies) {
+    const Separation separation = solved(body);
+    for (const SeparationWay& way : separation.ways)
+      for (const double number : numbersOf(way)) EXPECT_TRUE(std::isfinite(number));
+    EXPECT_GE(separation.smooth_base.minCoeff(), 0);
+    EXPECT_LE(separation.smooth_base.maxCoeff(), 1);
+  }
 }
 
 TEST(MeshSeparation, GivesTheSameBitsTwice) {
