@@ -12,10 +12,8 @@
 #include "preprocess/mesh/mass_properties.h"
 
 namespace ambient {
-namespace {
 
-/// Carlson's R_D(x, y, z) = 3/2 int_0^inf dt / (sqrt((t + x) (t + y)) (t + z)^(3/2)). Every step
-/// brings the arguments four times closer together; when they are one, R_D = z^(-3/2).
+// Every step brings the arguments four times closer together; when they are one, R_D = z^(-3/2).
 double integralD(Vector3 arguments) {
   constexpr int kSteps = 32;
   double sum = 0, weight = 1;
@@ -28,8 +26,6 @@ double integralD(Vector3 arguments) {
   }
   return 3 * sum + weight / portable::pow(arguments.z(), 1.5);
 }
-
-}  // namespace
 
 Vector6 ellipsoidAddedMass(const Vector3& semi_axes) {
   AMBIENT_ASSERT(semi_axes.minCoeff() > 0 && semi_axes.allFinite());

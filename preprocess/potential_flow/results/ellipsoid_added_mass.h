@@ -7,6 +7,10 @@
 
 namespace ambient {
 
+/// Carlson's R_D(x, y, z) = 3/2 int_0^inf dt / (sqrt((t + x) (t + y)) (t + z)^(3/2)), to rounding
+/// (Carlson 1979). @pre arguments >= 0, the last one and at most one other not 0
+double integralD(Vector3 arguments);
+
 /// Computes the added mass of an ellipsoid about its centre, per unit density: the diagonal in its
 /// axes, rotation first. Semi-axes [m]. Closed form of Lamb, Hydrodynamics, 6th ed., art. 114 and
 /// 115, its integrals by Carlson's duplication (1979), to rounding.

@@ -142,6 +142,18 @@ Matrix6 extrapolatedAcrossEdges(const Matrix6& fine, const Matrix6& less_thinned
   return fine + kThinnedError / (1 - kThinnedError) * (fine - less_thinned);
 }
 
+/// The flow on panels that a surface was divided into.
+RefinedFlow refinedFrom(const PotentialFlow& flow, const TriangleMesh& surface) {
+  AMBIENT_ASSERT(flow.potential.rows() >= surface.vertexCount());
+  return {flow.added_mass,
+          flow.parts,
+          flow.asymmetry,
+          flow.panels,
+          false,
+          surface,
+          flow.potential.topRows(surface.vertexCount())};
+}
+
 // On up to settings.max_panels.
 RefinedFlow solveOnPanels(const TriangleMesh& mesh, const PotentialFlowSettings& settings) {
   const std::vector<FaceBulge> bulges =
@@ -157,7 +169,7 @@ RefinedFlow solveOnPanels(const TriangleMesh& mesh, const PotentialFlowSettings&
       mesh.triangleCount() > kMostDenseSmoothPanels)
     undivided_settings.solver = FlowSolverKind::Hierarchical;
   const PotentialFlow flow = solvePotentialFlow(levels.fine.mesh, undivided_settings);
-  RefinedFlow refined{flow.added_mass, flow.parts, flow.asymmetry, flow.panels};
+  RefinedFlow refined = refinedFrom(flow, basis);
   if (levels.coarse && (!settings.sheet || hasVerticesInside(*levels.coarse))) {
     const PotentialFlow coarse = solvePotentialFlow(*levels.coarse, undivided_settings);
     refined.added_mass = extrapolated(flow, coarse, kOrder);
@@ -186,12 +198,12 @@ RefinedFlow solveOnPanels(const TriangleMesh& mesh, const PotentialFlowSettings&
 }
 
 RefinedFlow solvePolyhedron(const TriangleMesh& mesh, const PotentialFlowSettings& settings) {
-  const SurfaceLevels levels =
-      refineInLevels(mergePolyhedronSides(mesh), false, settings.max_panels);
+  const TriangleMesh basis = mergePolyhedronSides(mesh);
+  const SurfaceLevels levels = refineInLevels(basis, false, settings.max_panels);
   PotentialFlowSettings undivided = settings;
   undivided.max_panels = 0;
   const PotentialFlow flow = solvePotentialFlow(levels.fine.mesh, undivided);
-  RefinedFlow refined{flow.added_mass, flow.parts, flow.asymmetry, flow.panels};
+  RefinedFlow refined = refinedFrom(flow, basis);
   if (levels.coarse) {
     const PotentialFlow coarse = solvePotentialFlow(*levels.coarse, undivided);
     refined.added_mass = extrapolated(flow, coarse, kPolyhedronOrder);

@@ -35,6 +35,10 @@ struct RefinedFlow {
   /// True: long triangles left too few panels across sharp edges, even after a refinement. Rotation
   /// entries may then be wrong by some, at worst tens of per cent of the largest one.
   bool is_coarse = false;
+  /// The surface without the divisions of its faces, and its potentials as
+  /// PotentialFlow::potential.
+  TriangleMesh surface{};
+  Eigen::Matrix<double, Eigen::Dynamic, 6> potential{};
 };
 
 /// solvePotentialFlow() with corrections that cost next to nothing. Where flat faces with sharp

@@ -26,20 +26,6 @@ PanelNumbers numbersOf(const Panel& panel) {
   return numbers;
 }
 
-/// Views of a panel from up to kMostPanelPoints points.
-PanelViews viewsFrom(const Eigen::Vector3d* points, std::size_t count, const Panel& panel) {
-  static const auto view = kViewPanel.fastest();
-  AMBIENT_ASSERT(count > 0 && count <= kMostPanelPoints);
-  const std::size_t computed = count <= 8 ? 8 : kMostPanelPoints;
-  PanelPoints of_kernel;
-  for (std::size_t k = 0; k < computed; ++k)
-    for (int axis = 0; axis < 3; ++axis)
-      of_kernel.at[axis][k] = points[std::min(k, count - 1)][axis];
-  PanelViews views;
-  view(numbersOf(panel), of_kernel, static_cast<int>(computed), views);
-  return views;
-}
-
 }  // namespace
 
 Panel makePanel(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
@@ -58,9 +44,22 @@ Panel makePanel(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen:
   return p;
 }
 
+PanelViews viewPanel(const Panel& panel, const Eigen::Vector3d* points, std::size_t count) {
+  static const auto view = kViewPanel.fastest();
+  AMBIENT_ASSERT(count > 0 && count <= kMostPanelPoints);
+  const std::size_t computed = count <= 8 ? 8 : kMostPanelPoints;
+  PanelPoints of_kernel;
+  for (std::size_t k = 0; k < computed; ++k)
+    for (int axis = 0; axis < 3; ++axis)
+      of_kernel.at[axis][k] = points[std::min(k, count - 1)][axis];
+  PanelViews views;
+  view(numbersOf(panel), of_kernel, static_cast<int>(computed), views);
+  return views;
+}
+
 void computeNewtonPotentials(const Panel& panel, const Eigen::Vector3d* points, std::size_t count,
                              double* potentials) {
-  const PanelViews v = viewsFrom(points, count, panel);
+  const PanelViews v = viewPanel(panel, points, count);
   for (std::size_t i = 0; i < count; ++i) {
     potentials[i] = -v.height[i] * v.solid_angle[i];
     for (int k = 0; k < 3; ++k) potentials[i] += v.edge_distance[k][i] * v.edge_potential[k][i];
@@ -69,7 +68,7 @@ void computeNewtonPotentials(const Panel& panel, const Eigen::Vector3d* points, 
 
 void computeDoubleLayers(const Panel& panel, const Eigen::Vector3d* points, std::size_t count,
                          Eigen::Vector3d* weights) {
-  const PanelViews v = viewsFrom(points, count, panel);
+  const PanelViews v = viewPanel(panel, points, count);
   std::array<Eigen::Vector3d, 3> gradient;
   for (int a = 0; a < 3; ++a) gradient[a] = panel.hatGradient(a);
   for (std::size_t i = 0; i < count; ++i) {

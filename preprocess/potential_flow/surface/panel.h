@@ -37,6 +37,11 @@ struct Panel {
 /// makePanelSurface() refuses such panels.
 Panel makePanel(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
 
+struct PanelViews;
+
+/// Computes the views of a panel from up to 16 points, see panel_views.h.
+PanelViews viewPanel(const Panel& panel, const Eigen::Vector3d* points, std::size_t count);
+
 /// int_S 1/|x - y| dy [length] at up to 16 points x, exact for every x, on the panel too (Wilton et
 /// al. 1984).
 void computeNewtonPotentials(const Panel& panel, const Eigen::Vector3d* points, std::size_t count,

@@ -1,0 +1,247 @@
+#include "preprocess/resistance/stokes_resistance.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/base/elementary.h"
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/spatial/inertia.h"
+#include "preprocess/base/large_products.h"
+#include "preprocess/base/parallel_for.h"
+#include "preprocess/base/positive_part.h"
+#include "preprocess/mesh/mass_properties.h"
+#include "preprocess/mesh/wrap/mesh_coarsening.h"
+#include "preprocess/mesh/wrap/surface_wrap.h"
+#include "preprocess/potential_flow/results/ellipsoid_added_mass.h"
+#include "preprocess/potential_flow/surface/face_bulges.h"
+#include "preprocess/potential_flow/surface/flat_merging.h"
+#include "preprocess/potential_flow/surface/panel_surface.h"
+#include "preprocess/potential_flow/surface/shape_symmetry.h"
+#include "preprocess/potential_flow/surface/surface_refinement.h"
+#include "preprocess/resistance/stokes_matrix.h"
+
+namespace ambient {
+namespace {
+
+using Eigen::Index;
+using Eigen::Vector3d;
+using MatrixX6 = Eigen::Matrix<double, Eigen::Dynamic, 6>;
+
+constexpr double kMostTriangles =
+    1.5;  // over the number of panels aimed at: so many are taken as they are
+
+/// Panels of a surface and what stands for one unknown force.
+struct PanelGroups {
+  PanelSurface surface;
+  std::vector<int> group;  ///< of each panel
+  int count = 0;
+};
+
+/// Places of panels as points of a space in which neighbours are alike in place and normal:
+/// centroid and normal, one column per panel. Lengths over the size of the body.
+Eigen::Matrix<double, 6, Eigen::Dynamic> placesOf(const PanelSurface& surface) {
+  constexpr double kNormalWeight = 0.5;  // a turn by a right angle counts as 0.7 of the size
+  Eigen::Matrix<double, 6, Eigen::Dynamic> places(6, surface.panelCount());
+  for (Index t = 0; t < surface.panelCount(); ++t)
+    places.col(t) << surface.panels[t].centroid, kNormalWeight * surface.panels[t].normal;
+  return places;
+}
+
+/// Halves the panels [first, last) of `order` across the longest extent of their places until there
+/// are `parts`.
+void halve(const Eigen::Matrix<double, 6, Eigen::Dynamic>& places, std::vector<int>& order,
+           std::size_t first, std::size_t last, int parts, PanelGroups& groups) {
+  if (parts <= 1 || last - first <= 1) {
+    for (std::size_t i = first; i < last; ++i) groups.group[order[i]] = groups.count;
+    ++groups.count;
+    return;
+  }
+  Vector6 low = places.col(order[first]), high = low;
+  for (std::size_t i = first; i < last; ++i) {
+    low = low.cwiseMin(places.col(order[i]));
+    high = high.cwiseMax(places.col(order[i]));
+  }
+  int axis = 0;
+  (high - low).maxCoeff(&axis);
+  std::sort(order.begin() + first, order.begin() + last, [&](int a, int b) {
+    return std::pair(places(axis, a), a) < std::pair(places(axis, b), b);
+  });
+  const std::size_t middle = first + (last - first) * (parts / 2) / parts;
+  halve(places, order, first, middle, parts / 2, groups);
+  halve(places, order, middle, last, parts - parts / 2, groups);
+}
+
+/// Each panel alone, or if there are many more than asked for, groups of panels.
+PanelGroups groupsOf(const TriangleMesh& mesh, const StokesSettings& settings) {
+  PanelGroups groups{makePanelSurface(mesh, settings.sheet), {}, 0};
+  const auto panels = static_cast<std::size_t>(groups.surface.panelCount());
+  groups.group.resize(panels);
+  std::vector<int> order(panels);
+  std::iota(order.begin(), order.end(), 0);
+  if (static_cast<double>(panels) <= kMostTriangles * settings.panels) {
+    groups.group = order;
+    groups.count = static_cast<int>(panels);
+    return groups;
+  }
+  halve(placesOf(groups.surface), order, 0, panels, settings.panels, groups);
+  return groups;
+}
+
+/// Whether all triangles but a few stand for a part of a smooth surface: they are the panels as
+/// they are.
+bool isSmooth(const TriangleMesh& mesh) {
+  constexpr double kFlatShare = 0.05;
+  const std::vector<FaceBulge> bulges = estimateBulges(mesh);
+  const auto flat = std::count(bulges.begin(), bulges.end(), FaceBulge{0, 0, 0});
+  return static_cast<double>(flat) < kFlatShare * static_cast<double>(bulges.size());
+}
+
+/// A fine closed mesh in fewer triangles: as many as asked for, or so many that its parts are not
+/// lost.
+TriangleMesh inPanels(const TriangleMesh& mesh, int panels) {
+  constexpr int kMostPanels = 3000;
+  for (int triangles = panels; triangles <= kMostPanels; triangles *= 3) {
+    if (static_cast<double>(mesh.triangleCount()) <= kMostTriangles * triangles) return mesh;
+    if (auto fewer = inFewerTriangles(mesh, triangles)) return *std::move(fewer);
+  }
+  if (mesh.triangleCount() <= kMostPanels) return mesh;
+  return withVolume(coarsened(mesh, {kMostPanels, kMostPanels, 0}),
+                    computeMassProperties(mesh).volume);
+}
+
+/// Panels of a surface, and larger ones to extrapolate from where it has edges.
+SurfaceLevels panelsOf(const TriangleMesh& mesh, const StokesSettings& settings) {
+  const int most = static_cast<int>(kMostTriangles * settings.panels);
+  const TriangleMesh merged = mergeFlatTriangles(mesh, settings.sheet, most);
+  if (merged.triangleCount() > most && !settings.sheet)
+    return {undivided(inPanels(mesh, settings.panels)), {}, {}};
+  if (!settings.sheet && isSmooth(mesh)) return {undivided(mesh), {}, {}};
+  return refineInLevels(merged, settings.sheet, most);
+}
+
+/// Adds the pressure inside of a closed surface, which moves nothing, to the kernel's eigenvalue 0.
+void fillPressure(const PanelGroups& groups, Eigen::MatrixXd& A) {
+  Eigen::VectorXd z = Eigen::VectorXd::Zero(A.rows());
+  for (Index t = 0; t < groups.surface.panelCount(); ++t)
+    z.segment<3>(3 * groups.group[t]) +=
+        groups.surface.panels[t].area * groups.surface.panels[t].normal;
+  const double square = z.squaredNorm();
+  if (!(square > 0)) return;
+  const double mean = A.trace() / static_cast<double>(A.rows());
+  A += (mean / square) * z * z.transpose();
+}
+
+/// int h g_j of eq. (93): velocities of the six unit motions, per group.
+MatrixX6 motionsOf(const PanelGroups& groups) {
+  MatrixX6 B = MatrixX6::Zero(3 * static_cast<Index>(groups.count), 6);
+  for (Index t = 0; t < groups.surface.panelCount(); ++t) {
+    const Panel& panel = groups.surface.panels[t];
+    auto rows = B.middleRows<3>(3 * groups.group[t]);
+    rows.leftCols<3>() -= panel.area * crossMatrix(panel.centroid);
+    rows.rightCols<3>().diagonal().array() += panel.area;
+  }
+  return B;
+}
+
+/// R about the surface's centre, in the units of the solver.
+Matrix6 solveUnitFlow(const PanelGroups& groups, const StokesSettings& settings) {
+  fixBlocksOfLargeProducts();
+  Eigen::MatrixXd A = assembleStokesMatrix(groups.surface.panels, groups.group, groups.count,
+                                           threadCount(settings.threads));
+  if (!settings.sheet) fillPressure(groups, A);
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factors(A);
+  if (factors.info() != Eigen::Success)
+    throw std::runtime_error(
+        "creeping flow: the linear system of " + std::to_string(groups.count) +
+        " panels is not positive definite; two sides of the surface are too close for the size "
+        "of its triangles: use more triangles, a sheet, or build --wrap");
+  const MatrixX6 B = motionsOf(groups), half = factors.matrixL().solve(B);
+  const Matrix6 R = 8 * kPi * half.transpose() * half;
+  return (R + R.transpose()) / 2;
+}
+
+/// R about the mesh's origin, on the triangles of a mesh.
+Matrix6 solveOnPanels(const TriangleMesh& panels, const StokesSettings& settings) {
+  const PanelGroups groups = groupsOf(panels, settings);
+  const Matrix6 R = scaleResistance(solveUnitFlow(groups, settings), groups.surface.length);
+  return shiftOrigin(R, -groups.surface.centre);
+}
+
+/// To panels of no size: the forces at edges go to infinity, and with them the error goes with the
+/// size of panels to the power of 1.1 (cube, 12 to 480 panels).
+Matrix6 extrapolated(const Matrix6& fine, const Matrix6& coarse, double ratio) {
+  constexpr double kOrder = 1.1;
+  return fine + (fine - coarse) / (portable::pow(ratio, kOrder / 2) - 1);
+}
+
+}  // namespace
+
+Matrix6 scaleResistance(const Matrix6& resistance, double s) {
+  Vector6 units;
+  units << s, s, s, 1, 1, 1;
+  return s * (units.asDiagonal() * resistance * units.asDiagonal());
+}
+
+Matrix6 computeStokesResistance(const TriangleMesh& mesh, const StokesSettings& settings) {
+  if (mesh.triangleCount() == 0)
+    throw std::runtime_error("creeping flow: the mesh has 0 triangles; it needs at least 1");
+  AMBIENT_ASSERT(settings.panels > 0);
+  const SurfaceLevels levels = panelsOf(mesh, settings);
+  Matrix6 R = solveOnPanels(levels.fine.mesh, settings);
+  if (levels.coarse) {
+    const auto fine = static_cast<double>(levels.fine.mesh.triangleCount());
+    const auto coarse = static_cast<double>(levels.coarse->triangleCount());
+    R = extrapolated(R, solveOnPanels(*levels.coarse, settings), fine / coarse);
+  }
+  const MeshProperties properties = computeMassProperties(mesh, settings.sheet);
+  const Vector3 centre = properties.uniform.centre;
+  const double size = std::sqrt(properties.area);
+  Matrix6 unit = scaleResistance(shiftOrigin(R, centre), 1 / size);
+  unit = positivePart(symmetrised(unit, findSymmetries(mesh, centre)));
+  R = shiftOrigin(scaleResistance(unit, size), -centre);
+  return (R + R.transpose()) / 2;  // the shift rounds both halves apart
+}
+
+Vector6 ellipsoidResistance(const Vector3& semi_axes) {
+  AMBIENT_ASSERT(semi_axes.allFinite() && semi_axes.minCoeff() >= 0);
+  const double size = semi_axes.maxCoeff();
+  const Vector3 squares = (semi_axes / size).cwiseAbs2();
+  AMBIENT_ASSERT((squares.array() > 0).count() >= 2);
+  Vector3 alpha = Vector3::Zero();  // a_i^2 alpha_i, 0 of a thin axis
+  for (int i = 0; i < 3; ++i)
+    if (squares[i] > 0)
+      alpha[i] = 2.0 / 3 * squares[i] *
+                 integralD({squares[(i + 1) % 3], squares[(i + 2) % 3], squares[i]});
+  Vector6 R;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    R[i] = 16 * kPi / 3 * (squares[j] + squares[k]) / (alpha[j] + alpha[k]) * size * size * size;
+    R[3 + i] = 16 * kPi / (alpha.sum() + alpha[i]) * size;
+  }
+  return R;
+}
+
+Vector6 sphereResistance(double radius) {
+  AMBIENT_ASSERT(radius > 0);
+  Vector6 R;
+  R << Vector3::Constant(8 * kPi * radius * radius * radius), Vector3::Constant(6 * kPi * radius);
+  return R;
+}
+
+Vector3 centreOfReaction(const Matrix6& resistance) {
+  const Eigen::Matrix3d T = resistance.bottomRightCorner<3, 3>(),
+                        K = resistance.bottomLeftCorner<3, 3>();
+  const Vector3d twice(K(2, 1) - K(1, 2), K(0, 2) - K(2, 0), K(1, 0) - K(0, 1));
+  const Eigen::Matrix3d change = T.trace() * Eigen::Matrix3d::Identity() - T;
+  return -change.inverse() * twice;
+}
+
+}  // namespace ambient
