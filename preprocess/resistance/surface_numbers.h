@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bullet_ambient/fluid_body/form_shape.h"
+#include "preprocess/base/surface_form.h"
 #include "preprocess/mesh/triangle_mesh.h"
 
 namespace ambient {
