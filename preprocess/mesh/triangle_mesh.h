@@ -137,6 +137,7 @@ TriangleMesh makeTriangleMesh(const std::vector<Eigen::Vector3d>& vertices,
 
 /// Makes a mesh of triangles and the vertices that they use, numbered in the order of first use.
 /// @param vertices one per column
+/// @param triangles numbers of columns, counter-clockwise seen from outside
 TriangleMesh withUsedVertices(const Eigen::Matrix3Xd& vertices,
                               const std::vector<Eigen::Vector3i>& triangles);
 
