@@ -12,8 +12,8 @@ struct MotionView {
   Vector3 gravity{0, 0, 0};  ///< [m/s^2]
   double rounding = 0;       ///< relative rounding of Bullet's numbers
 
-  const Vector3& centre_W() const { return state.position; }
-  Matrix3 rotation_WB() const { return state.orientation.toRotationMatrix(); }
+  const Vector3& centre() const { return state.position; }
+  Matrix3 rotation() const { return state.orientation.toRotationMatrix(); }
 };
 
 /// Mass properties of a body or link as Bullet has them. Default: those of bodies that are not

@@ -45,8 +45,8 @@ bool isWaterAt(const Vector3& point_W, const AmbientBody& ambient, const FluidRe
 
 // True if a body outside of a pool, at the height of its bounds, reaches over its rim.
 bool reachesOver(const MotionView& now, const FluidRegion& pool, const SurfaceModel& model) {
-  const Vector3 way = pointIn(pool, now.centre_W()) - now.centre_W();
-  const Matrix3 to_body = now.rotation_WB().transpose();
+  const Vector3 way = pointIn(pool, now.centre()) - now.centre();
+  const Matrix3 to_body = now.rotation().transpose();
   for (int axis = 0; axis < 3; ++axis) {
     if (way[axis] == 0) continue;
     if (!areUpright(now, axis)) return false;
@@ -61,7 +61,7 @@ bool reachesInto(const AmbientBody& ambient, const MotionView& now, const Region
                  const FluidRegions& regions, double duration) {
   const SurfaceModel* model = modelIn(ambient, pool.region);
   if (!model || !reachesOver(now, pool.region, *model)) return false;
-  const Vector3 point = pointIn(pool.region, now.centre_W());
+  const Vector3 point = pointIn(pool.region, now.centre());
   long long asked = 0;
   if (regions.index().find(point, asked) != &pool) return false;
   if (findSides(ambient, now, regions, pool, 0).count == 0) return false;
@@ -87,7 +87,7 @@ Vector3 pointIn(const FluidRegion& region, const Vector3& centre_W) noexcept {
 
 RegionsAround findRegions(const AmbientBody& ambient, const MotionView& now,
                           const FluidRegions& regions, double duration, long long& asked) noexcept {
-  const Vector3& centre = now.centre_W();
+  const Vector3& centre = now.centre();
   const double reach = ambient.models->reach;
   RegionsAround around = regions.index().findAround(centre, reach, asked);
   if (around.is_alone || (around.entry && around.entry->region.surface)) return around;
@@ -101,8 +101,8 @@ PoolSides findSides(const AmbientBody& ambient, const MotionView& now, const Flu
   PoolSides sides;
   const SurfaceModel* model = modelIn(ambient, pool.region);
   if (!model) return sides;
-  const Matrix3 to_body = now.rotation_WB().transpose();
-  const Vector3 centre = now.centre_W() + ahead * now.twist_W.linear;
+  const Matrix3 to_body = now.rotation().transpose();
+  const Vector3 centre = now.centre() + ahead * now.twist_W.linear;
   const FrameOffset& frame = model->fluid_frame;
   for (int wall = 0; wall < 6 && sides.count < PoolSides::kMost; ++wall) {
     const int axis = wall / 2, out = wall % 2 ? 1 : -1;

@@ -43,7 +43,7 @@ RegionSample sampleFor(AmbientBody& ambient, const MotionView& now,
                        const FluidRegions::Entry& entry, const FluidRegions& regions,
                        Complaints& complaints) noexcept {
   RegionCall call(regions);
-  const RegionSample sample = sampleRegion(entry.region, pointIn(entry.region, now.centre_W()),
+  const RegionSample sample = sampleRegion(entry.region, pointIn(entry.region, now.centre()),
                                            regions.time, ambient.def->medium);
   if (sample.is_finite) return sample;
   ++ambient.counters.rejected;
@@ -113,7 +113,7 @@ void followFlow(AmbientBody& ambient, const FlowStep& step, RegionSample& sample
   medium.velocity -= change;
   medium.acceleration += in_step / step.duration;
   const Vector3 position =
-      step.entry ? pointIn(step.entry->region, step.now->centre_W()) : Vector3(Vector3::Zero());
+      step.entry ? pointIn(step.entry->region, step.now->centre()) : Vector3(Vector3::Zero());
   ambient.flow = {step.regions.time + step.duration,
                   position,
                   bare.velocity - (change - in_step),
@@ -174,7 +174,7 @@ void enterOwnMedium(AmbientBody& ambient, const FlowStep& step, const RegionsAro
 SurfaceSide findWaterSide(AmbientBody& ambient, const FlowStep& step, bool is_alone,
                           const RegionSample& sample) noexcept {
   const FluidRegion& region = step.entry->region;
-  const SampleAt at{sample, pointIn(region, step.now->centre_W())};
+  const SampleAt at{sample, pointIn(region, step.now->centre())};
   const NearSurface near = nearSurface(ambient, *step.now, SurfaceKind(region), at, step.duration);
   const bool has_sides = !is_alone && near.side != SurfaceSide::kAbove;
   return enterSurface(

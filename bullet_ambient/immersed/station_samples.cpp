@@ -52,8 +52,8 @@ bool needsStations(const AmbientBody& ambient, const RegionsAround& around) noex
 StationSamples::StationSamples(const AmbientBody& ambient, const MotionView& now,
                                const FluidRegions& regions, const RegionsAround& around,
                                const RegionSample& centre) noexcept
-    : centre_W_(now.centre_W()),
-      to_world_(now.rotation_WB()),
+    : centre_W_(now.centre()),
+      to_world_(now.rotation()),
       centre_(centre),
       still_axis_B_(ambient.models->stations.still_axis_B),
       surface_(bendingSurface(around.entry)),

@@ -119,7 +119,7 @@ WetState inRegion(const AmbientBody& ambient, const MotionView& now, const Regio
   const FluidRegions::Entry& entry = *around.entry;
   if (!entry.region.surface)
     return wholly(ambient, now.state, isWetIn(entry.region.below, ambient));
-  const Vector3 position = pointIn(entry.region, now.centre_W());
+  const Vector3 position = pointIn(entry.region, now.centre());
   const PoolSides sides =
       around.is_alone ? PoolSides{} : findSides(ambient, now, regions, entry, 0);
   RegionCall call(regions);

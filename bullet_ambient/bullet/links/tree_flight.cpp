@@ -34,7 +34,7 @@ void readDepartures(AmbientTree* const* trees, int count, Departures& departures
   for (int i = 0; i < count; ++i) {
     const AmbientLink& base = baseOf(*trees[i]);
     const MotionView& now = base.now;
-    departures.states[i] = {attitudes.orientations[i], now.centre_W(), attitudes.twists_B[i]};
+    departures.states[i] = {attitudes.orientations[i], now.centre(), attitudes.twists_B[i]};
     // That of the flow along it is added below.
     Wrench applied = trees[i]->flight.dynamics().appliedWrench(0);
     applied -= pushByFlow(base.ambient, now.state.orientation);

@@ -63,7 +63,7 @@ Matrix6 inverseInertia(AmbientBody& ambient) {
   const InverseMass mass = inverseMassOf(body);
   if (isModelStale(ambient, mass)) rebuildModels(ambient, mass);
   const MotionView now = motionOf(body);
-  const Matrix3 R = now.rotation_WB();
+  const Matrix3 R = now.rotation();
   const AxisFactors factors = axisFactors(body);
   const BodyModel model = modelNow(ambient, now);
   if (factors.areFree()) return rotateAxes(model.inverse_inertia, R);
