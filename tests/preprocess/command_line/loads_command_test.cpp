@@ -4,6 +4,7 @@
 
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "bullet_ambient/force/loads/face_loads.h"
+#include "preprocess/base/fluid_body_writer.h"
 #include "tests/preprocess/command_line/command_line.h"
 
 namespace ambient {
@@ -106,6 +107,28 @@ TEST_F(CommandLine, BadLoadsAreRefusedByName) {
   const std::string overflow =
       refusal({"polar", path("b.ambient"), "--speed", "1e200", "--attack", "0"});
   EXPECT_NE(overflow.find("speed or reference is too large"), std::string::npos) << overflow;
+}
+
+// A file of an earlier version is written anew as `build` would; one that cannot be read stays.
+TEST_F(CommandLine, UpgradeCompletesFilesInPlace) {
+  resultOf({"build", write("box.json", R"({"type":"box","half_sizes":[1,2,3]})"), "-o",
+            path("new.ambient"), "--panels", "0", "--json"});
+  FluidBody body = readFluidBody(path("new.ambient"));
+  body.form = {};
+  writeFluidBody(body, path("old.ambient"));
+  ASSERT_NE(bytesOfFile("old.ambient"), bytesOfFile("new.ambient"));
+  for (const char* said : {": upgraded\n", ": is up to date\n"}) {
+    const ProgramResult result = run({"upgrade", path("old.ambient")});
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_EQ(result.output, path("old.ambient") + said);
+    EXPECT_EQ(bytesOfFile("old.ambient"), bytesOfFile("new.ambient"));
+  }
+  const std::string half = bytesOfFile("new.ambient").substr(0, 3000);
+  const std::size_t files = fileCount() + 1;
+  EXPECT_NE(refusal({"upgrade", write("half.ambient", half)}).find("half.ambient"),
+            std::string::npos);
+  EXPECT_EQ(bytesOfFile("half.ambient"), half);
+  EXPECT_EQ(fileCount(), files);
 }
 
 }  // namespace
