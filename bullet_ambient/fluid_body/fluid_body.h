@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bullet_ambient/fluid_body/viscous_form.h"
 #include "bullet_ambient/spatial/vector_types.h"
 
 namespace ambient {
@@ -174,6 +175,7 @@ struct FluidBody {
   FaceTable faces;
   Surface surface;
   SurfaceForm form;                    ///< made by prepare(); spheres need none
+  ViscousForm viscous;                 ///< made by prepare(); spheres need none
   std::vector<FormLevel> form_levels;  ///< fewer faces for the form law; may be empty
   /// Radius of a sphere about the centre of volume [m]; 0: the body is no sphere. Loads on a sphere
   /// have a closed form, docs/theory.md section 10; faces and levels are not evaluated.

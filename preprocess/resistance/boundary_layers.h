@@ -2,23 +2,10 @@
 
 #include <vector>
 
+#include "bullet_ambient/fluid_body/viscous_form.h"
 #include "preprocess/resistance/surface_flow.h"
 
 namespace ambient {
-
-/// What boundary layers make of the flow past a body that moves one way; docs/theory.md eq. (97) to
-/// (99). On its frontal area and D_A, without unit. The first four of a state of the layers:
-/// laminar; laminar to its separation and turbulent from there (a bubble); turbulent from the nose,
-/// smooth and rough (four times the growth).
-struct SeparationWay {
-  double wake_laminar = 0, wake_bubble = 0, wake_turbulent = 0,
-         wake_rough = 0;  ///< k_L, k_B, k_1, k_4
-  double thickness =
-      0;  ///< N: momentum thickness where the laminar layer leaves, over D_A Re^(-1/2)
-  double friction_laminar = 0;    ///< f_L, times Re^(-1/2)
-  double friction_bubble = 0;     ///< f_B, times Re^(-1/5)
-  double friction_turbulent = 0;  ///< f_T, times Re^(-1/5)
-};
 
 /// The numbers of one way, and how much of the base separates, on the area seen along the motion.
 struct LayerSums {

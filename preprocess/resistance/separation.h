@@ -1,21 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 
 #include "bullet_ambient/spatial/vector_types.h"
 #include "preprocess/mesh/triangle_mesh.h"
 #include "preprocess/resistance/boundary_layers.h"
 
 namespace ambient {
-
-/// Where boundary layers leave a shape that moves along an axis of its added mass, either way;
-/// docs/theory.md eq. (97) to (100). Without unit: the same for a larger shape.
-struct Separation {
-  Matrix3 axes{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  ///< columns q_j, right-handed
-  std::array<SeparationWay, 6> ways;              ///< of +q_1, -q_1, +q_2, ...
-  Vector3 smooth_base{0, 0, 0};  ///< B_j in [0, 1]: 0 where edges make all of the base
-};
 
 /// Axes q_j of the added mass: eigenvectors of its translation block about the centre of volume, in
 /// ascending order of its eigenvalues; the largest component of the first two is positive, and they

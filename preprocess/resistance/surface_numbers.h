@@ -1,19 +1,10 @@
 #pragma once
 
+#include "bullet_ambient/fluid_body/viscous_form.h"
 #include "preprocess/base/surface_form.h"
 #include "preprocess/mesh/triangle_mesh.h"
 
 namespace ambient {
-
-/// Sizes of a surface that Reynolds numbers, areas and the twist of separated flow are made of;
-/// docs/theory.md eq. (101). Both sides of a sheet count.
-struct SurfaceNumbers {
-  double diameter = 0;       ///< D_A = sqrt(area/pi): of the ball with this area [m]
-  Vector3 frontal{0, 0, 0};  ///< A_j: half of the projected area of all faces along q_j [m^2]
-  Vector3 moments{0, 0, 0};  ///< m_j: mean square of the place along q_j [m^2]
-  Matrix3 gyration =
-      Matrix3::Zero();  ///< G: mean of |r|^2 I - r r^T about the centre of reaction [m^2]
-};
 
 /// Centres of a body in the frame of its mesh [m].
 struct BodyCentres {
