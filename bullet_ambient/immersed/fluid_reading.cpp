@@ -166,7 +166,7 @@ class MiddleWrenches {
     FlowAlongBody in_full;
     if (reading_.surroundings.flow) in_full = *reading_.surroundings.flow;
     in_full.at_rest_B = {};
-    return loadAlong(&in_full, seen_,
+    return loadAlong(&in_full, seen_, nullptr,
                      [&](const Twist& x) -> SurfaceLoad {
                        return {ambient_.load_share * frictionFor(x)};
                      })
@@ -178,7 +178,8 @@ class MiddleWrenches {
     setBuoyancy(model);
     if (!model.loads) return;
     const FrameOffset& frame = model.load_frame;
-    setLoads(computeSurfaceLoad(model, seen_, reading_.surroundings).wrench,
+    setLoads(wholeLoad(computeSurfaceLoad(model, seen_, reading_.surroundings),
+                       model.resistance.get(), seen_),
              frictionAlong([&](const Twist& x) {
                return frame.toB(model.loads->parts(frame.toF(x)).friction);
              }));
@@ -194,7 +195,8 @@ class MiddleWrenches {
         standAtSurface(model, seenFrom(plane_W, to_world_, step_.middle.position));
     setBuoyancy(step_.has_flown ? frozenAt(model, stand) : step_.model);
     if (model.loads_below.loads)
-      setLoads(loadBelow(model, stand, seen_, {s.load_share, s.flow}).wrench,
+      setLoads(wholeLoad(loadBelow(model, stand, seen_, {s.load_share, s.flow}),
+                         model.loads_below.resistance.get(), seen_),
                frictionAlong([&](const Twist& x) { return frictionBelow(model, stand, x); }));
     found_.waves = waveWrench(stand.modes, to_world_, reading_.waves, ambient_.floating->waves);
     if (!model.loads_above.loads) return;

@@ -38,8 +38,9 @@ void TreeNow::applyLoads() {
   for (int i = 0; i < tree_.size(); ++i) {
     Link& link = tree_.links[i];
     if (!link.model || !link.model->loads) continue;
-    const Wrench load =
-        computeSurfaceLoad(*link.model, at_rest.relativeTwist(i), link.surroundings).wrench;
+    const Twist x = at_rest.relativeTwist(i);
+    const Wrench load = wholeLoad(computeSurfaceLoad(*link.model, x, link.surroundings),
+                                  link.model->resistance.get(), x);
     const Matrix3& R = at_rest.rotation(i);
     link.surroundings.applied += {R * load.torque, R * load.force};
   }

@@ -93,7 +93,9 @@ void addOuterWrenches(AmbientTree& tree, double duration) {
         {toVector3(bullet.m_appliedConstraintTorque), toVector3(bullet.m_appliedConstraintForce)};
     Wrench load;
     if (link.model && link.model->loads)
-      load = computeSurfaceLoad(*link.model, dynamics.relativeTwist(i), link.surroundings).wrench;
+      load =
+          wholeLoad(computeSurfaceLoad(*link.model, dynamics.relativeTwist(i), link.surroundings),
+                    link.model->resistance.get(), dynamics.relativeTwist(i));
     if (tree.step.meets_surface) load += 1 / duration * tree.step.impulses[i];
     const Matrix3& R = dynamics.rotation(i);
     link.surroundings.applied += {R * load.torque, R * load.force};

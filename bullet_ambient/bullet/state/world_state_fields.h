@@ -15,7 +15,7 @@ AMBIENT_BEGIN
 // All stored fields, listed once for all operations: write, read, check, copy from Bullet and back
 // to Bullet. Their order is that of the bytes. To add a field, add it to the structure and here,
 // and raise the version.
-constexpr std::uint32_t kStateVersion = 14;
+constexpr std::uint32_t kStateVersion = 15;
 
 /// Condition that each number of a field must meet, and the words of the message if one does not.
 /// The message begins with the name of the object; the value follows if the words end with a blank.
@@ -141,6 +141,8 @@ void fields(V& v, AmbientState& s) {
   fields(v, s.waves);
   v.optional(s.met_B);
   each(v, kAny, s.memory.load_W.torque, s.memory.load_W.force, s.memory.has_load);
+  each(v, finiteNotNegative("growth of a resistance is negative or not finite: "),
+       s.memory.growth.rotation, s.memory.growth.translation);
   v(s.memory.substep, finiteNotNegative("flight has a substep that is negative or not finite: "));
   each(v, kAny, s.wake.velocity_W.angular, s.wake.velocity_W.linear, s.wake.has_begun);
   each(v, kAny, s.left_W.angular, s.left_W.linear);

@@ -143,7 +143,8 @@ void drawFluid(const AmbientBody& ambient, const MotionView& now, const FluidDra
   }
   if (what.total_wrench) {
     Wrench total = lift;
-    if (model.loads) total += computeSurfaceLoad(model, relative, s).wrench;
+    if (model.loads)
+      total += wholeLoad(computeSurfaceLoad(model, relative, s), model.resistance.get(), relative);
     arrows.draw(Vector3::Zero(), what.length_per_force * total.force, fluid_colours::kForce);
     arrows.draw(Vector3::Zero(), what.length_per_torque * total.torque, fluid_colours::kTorque);
   }

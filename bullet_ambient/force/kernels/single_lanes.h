@@ -187,11 +187,10 @@ inline void addEvenPart(const double* even, const double (&x)[6], LoadSums& sums
 /// motion.wing is null.
 struct WingLanes {
   Vectors facing = {}, span = {}, slender = {};
-  Floats pitching_rate = {}, slip_share = {};
+  Floats pitching_rate = {};
 
   // Inlined: else the vectors pass through memory.
   [[gnu::always_inline]] explicit WingLanes(const SingleMotion& motion) {
-    slip_share = slip_share + motion.slip_share;
     if (!motion.wing) return;
     facing = inAllLanes<Floats>(motion.wing->facing);
     span = inAllLanes<Floats>(motion.wing->span);

@@ -160,8 +160,8 @@ template <class Law, bool kRightAngle>
     pitch = plusProduct(pitch, pressure.lift, arm);
     return pressure;
   };
-  const FaceState state{normal_speed, area, strength, wings.slip_share, speed, factors, wing};
-  return {u, normal_speed, slip_sq, strength, Law::template of<kRightAngle>(state).total};
+  const FaceState state{normal_speed, area, strength, speed, factors, wing};
+  return {u, normal_speed, slip_sq, strength, Law::of(state).total};
 }
 
 /// Returns `block` as a reference that the compiler cannot identify with it, so that normals and
@@ -351,19 +351,22 @@ LoadSums sumAll(const FaceBlocks& faces, const SingleMotion& motion) {
 template <class Law, bool kFriction, bool kCut>
 LoadSums sumBlocks(const FaceBlocks& faces, const SingleMotion& motion) {
   constexpr std::size_t kFewest = 12;  // with fewer blocks, choosing costs more than it saves
-  // Beyond a right angle the flow is attached to nearly all faces.
-  if (motion.signed_cosine_sq != 0) return sumAll<Law, false, kFriction, kCut>(faces, motion);
+  if constexpr (Law::kHasFriction) {
+    // Beyond a right angle the flow is attached to nearly all faces.
+    if (motion.signed_cosine_sq != 0) return sumAll<Law, false, kFriction, kCut>(faces, motion);
+  }
   return faces.count < kFewest ? sumAll<Law, true, kFriction, kCut>(faces, motion)
                                : sumWhereAttached<Law, kFriction, kCut>(faces, motion);
 }
 
 template <bool kCut>
 LoadSums sumBlocks(const FaceBlocks& faces, const SingleMotion& motion) {
-  const bool friction = motion.friction > 0;
   return withPressure(motion.law, motion.wing, [&](auto law) {
     using Law = decltype(law);
-    return friction ? sumBlocks<Law, true, kCut>(faces, motion)
-                    : sumBlocks<Law, false, kCut>(faces, motion);
+    if constexpr (Law::kHasFriction) {
+      if (motion.friction > 0) return sumBlocks<Law, true, kCut>(faces, motion);
+    }
+    return sumBlocks<Law, false, kCut>(faces, motion);
   });
 }
 

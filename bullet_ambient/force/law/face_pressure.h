@@ -42,9 +42,8 @@ inline Real formPressure(const Real& normal_speed, const Real& speed,
 }
 
 // Laws of the pressure on a face, for all sums over faces and for single faces. Each law has
-//   of<kRightAngle>(face)
-// which returns the FacePressure of a FaceState. `kRightAngle`: the flow separates at alpha = pi/2.
-// withPressure() must list the law, too.
+//   of(face)
+// which returns the FacePressure of a FaceState. withPressure() must list the law, too.
 
 /// Motion of a face, and further quantities as functions, which only laws that need them call.
 /// `Real`: a number or a vector of numbers.
@@ -53,13 +52,12 @@ struct FaceState {
   Real normal_speed;  ///< n.u, the velocity into the fluid [m/s]
   Real area;          ///< A
   Real strength;      ///< |u_s|^2 A where the flow is attached, else 0
-  Real slip_share;    ///< tau of eq. (43e); not read at a right angle
   Speed speed;        ///< |u|; on a slender body speedAcross()
   Factors factors;    ///< FormFactors of the face
   Wing wing;          ///< takes a function of WingFlow and WingFactors, returns its result
 };
 template <class Real, class Speed, class Factors, class Wing>
-FaceState(Real, Real, Real, Real, Speed, Factors, Wing) -> FaceState<Real, Speed, Factors, Wing>;
+FaceState(Real, Real, Real, Speed, Factors, Wing) -> FaceState<Real, Speed, Factors, Wing>;
 
 /// q A for the pressure rho/2 q on a face of area A: total, and the part that is lift of attached
 /// flow.
@@ -74,10 +72,12 @@ struct PublishedPressure {
       false;  ///< true: faces on the lee side, which the flow has left, feel pressure
   static constexpr bool kIsSlender = false;  ///< `speed` is speedAcross()
   static constexpr bool kLifts = false;
+  static constexpr bool kHasFriction = true;  ///< of faces; the angle of separation may be larger
+                                              ///< than pi/2
   using Windward = PublishedPressure;  ///< the law at a right angle without the lee side, which is
                                        ///< summed separately
 
-  template <bool kRightAngle, class Real, class... Functions>
+  template <class Real, class... Functions>
   static FacePressure<Real> of(const FaceState<Real, Functions...>& face) {
     return {face.strength, Real{}};
   }
@@ -87,20 +87,13 @@ struct PublishedPressure {
 template <bool kSlender>
 struct WindwardFormPressure : PublishedPressure {
   static constexpr bool kIsSlender = kSlender;
+  static constexpr bool kHasFriction = false;
 
-  template <bool kRightAngle, class Real, class... Functions>
+  template <class Real, class... Functions>
   static FacePressure<Real> of(const FaceState<Real, Functions...>& face) {
     return {face.area * windwardPressure(face.normal_speed, face.speed(), face.factors()), Real{}};
   }
 };
-
-/// Adds the pressure of the slip to `separated`, q A at a right angle: eq. (43e).
-template <class Real, class... Functions>
-inline Real withSlip(const FaceState<Real, Functions...>& face, const Real& separated) {
-  const Real zero = {};
-  const Real slip = face.normal_speed > zero ? face.slip_share * face.strength : face.strength;
-  return (separated - face.slip_share * separated) + slip;
-}
 
 /// Form law of eq. (43) and (44) for blocks; `kSlender`: for smooth slender bodies that are no
 /// wings.
@@ -109,12 +102,13 @@ struct FormPressure {
   static constexpr bool kPressesLee = true;
   static constexpr bool kIsSlender = kSlender;
   static constexpr bool kLifts = false;
+  static constexpr bool kHasFriction = false;
   using Windward = WindwardFormPressure<kSlender>;
 
-  template <bool kRightAngle, class Real, class... Functions>
+  template <class Real, class... Functions>
   static FacePressure<Real> of(const FaceState<Real, Functions...>& face) {
     const Real pressure = face.area * formPressure(face.normal_speed, face.speed(), face.factors());
-    return {kRightAngle ? pressure : withSlip(face, pressure), Real{}};
+    return {pressure, Real{}};
   }
 };
 
@@ -125,9 +119,10 @@ struct WingPressure {
   static constexpr bool kPressesLee = kLee;
   static constexpr bool kIsSlender = kSlender;
   static constexpr bool kLifts = true;
+  static constexpr bool kHasFriction = false;
   using Windward = WingPressure<false, kSlender>;
 
-  template <bool kRightAngle, class Real, class... Functions>
+  template <class Real, class... Functions>
   static FacePressure<Real> of(const FaceState<Real, Functions...>& face) {
     return face.wing([&](const auto& flow, const auto& numbers) {
       using Sum = typename std::decay_t<decltype(flow)>::Arithmetic;
@@ -143,8 +138,7 @@ struct WingPressure {
         const Real lee = face.normal_speed < zero ? face.normal_speed : zero;
         pressure = Sum::less(pressure, (face.area * factors.by_lee) * lee, lee);
       }
-      if constexpr (kRightAngle) return FacePressure<Real>{pressure, lift};
-      return FacePressure<Real>{withSlip(face, pressure), lift - face.slip_share * lift};
+      return FacePressure<Real>{pressure, lift};
     });
   }
 

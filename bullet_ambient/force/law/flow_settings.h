@@ -30,16 +30,18 @@ constexpr std::array<std::pair<LoadPrecision, const char*>, 2> kLoadPrecisionNam
 
 /// Settings of the flow around one body.
 struct FlowSettings {
-  double separation_angle =
-      1.5707963267948966;     ///< alpha in [pi/2, pi] [rad]; larger = more attachment
-  bool skin_friction = true;  ///< turbulent 1/5-power law, docs/theory.md eq. (16)
+  /// Height of the roughness of the surface [m], form law: dimples, felt, fouling; 0: smooth.
+  double roughness = 0;
+  /// alpha in [pi/2, pi] [rad], larger = more attachment; the published law alone reads it.
+  double separation_angle = 1.5707963267948966;
+  bool skin_friction = true;  ///< resistance, docs/theory.md eq. (113); published law: eq. (16)
   LoadLaw own_law = nullptr;  ///< empty: this library's pressure and friction
   LoadPrecision precision = LoadPrecision::kSingle;
   /// Allowed error of fewer faces by the form law, FormLevel::p99_error [1]. The level of the fluid
   /// body with the fewest faces within this error stands in for all. 0, or no such level: all
   /// faces.
   double maximum_load_error = 0.01;
-  PressureLaw law = PressureLaw::kForm;  ///< spheres have the same loads by both laws
+  PressureLaw law = PressureLaw::kForm;
   /// Lag lambda of separation behind the incidence, eq. (48): in body lengths over speed; kForm.
   double stall_lag = 4.5;
 };

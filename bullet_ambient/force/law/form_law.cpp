@@ -57,12 +57,6 @@ double ShapeFactors::wakeShare() const {
   return std::max(0.0, 1 - shape.edges / kSharp);
 }
 
-double ShapeFactors::slipShare(double separation_cosine) const {
-  if (!(separation_cosine < 0)) return 0;
-  const double smooth = std::max(1 - 2 * shape.edges, 0.0);
-  return smooth * std::min(1.0, 2 * separation_cosine * separation_cosine);
-}
-
 namespace {
 
 constexpr double kStallIncidence = 0.45;  // scale of xi in eq. (49)
@@ -83,9 +77,8 @@ double grown(double x) noexcept {
 
 }  // namespace
 
-FormLift::FormLift(const FluidBody& body, const ShapeFactors& factors, double stall_lag,
-                   double slip_share)
-    : wing_(factors.shape.wing), kept_(1 - slip_share), centre_(body.centre_of_volume) {
+FormLift::FormLift(const FluidBody& body, const ShapeFactors& factors, double stall_lag)
+    : wing_(factors.shape.wing), centre_(body.centre_of_volume) {
   AMBIENT_ASSERT(stall_lag >= 0);
   AMBIENT_ASSERT(body.volume >= 0 && body.area >= 0);
   const SymmetricEigen<3> eigen = symmetricEigen<3>(body.added_mass.bottomRightCorner<3, 3>());
@@ -101,7 +94,7 @@ FormLift::FormLift(const FluidBody& body, const ShapeFactors& factors, double st
   const Vector3 differences(k[2] - k[1], k[2] - k[0], k[1] - k[0]);
   const double lifting =
       (1 - factors.shape.slender.squaredNorm()) * (1 - wing_ * (1 - attached_) / 2);
-  circulation_ = kept_ * body.volume / 2 * Matrix3::Identity() +
+  circulation_ = body.volume / 2 * Matrix3::Identity() +
                  lifting * (axes * differences.asDiagonal() * axes.transpose());
 }
 
@@ -111,12 +104,12 @@ void FormLift::setWing(const FormShape& shape, double length) {
   stall_sq_ = stallSine(shape.aspect) * stallSine(shape.aspect);
 }
 
-Wrench FormLift::load(const Twist& x, double density) const noexcept {
+Wrench FormLift::load(const Twist& x, double density, double munk_share) const noexcept {
   AMBIENT_ASSERT(density >= 0);
   const Vector3& w = x.angular;
   const Vector3 v = x.at(centre_);
   Wrench about_centre{Vector3::Zero(), (circulation_ * w).cross(v)};
-  addStall(w, v, about_centre);
+  addStall(w, v, munk_share, about_centre);
   const Vector3 force = density * about_centre.force;
   return {density * about_centre.torque + centre_.cross(force), force};
 }
@@ -130,14 +123,15 @@ double FormLift::separatedShare(double phi, double turning) const noexcept {
   return wing_ * of_wings + (1 - wing_) * of_blocks;
 }
 
-void FormLift::addStall(const Vector3& w, const Vector3& v, Wrench& about_centre) const noexcept {
+void FormLift::addStall(const Vector3& w, const Vector3& v, double munk_share,
+                        Wrench& about_centre) const noexcept {
   const double speed = v.norm();
   if (!(largest_ > 0) || !(speed > 0)) return;
   const Vector3 e = v / speed;
   const Vector3 across = direction_ * e;
   const Vector3 munk = across.cross(e);
   const double turning = delay_ * (w.dot(munk) / speed);
-  const double lost = kept_ * separatedShare(e.dot(across), turning) * largest_ * speed;
+  const double lost = munk_share * separatedShare(e.dot(across), turning) * largest_ * speed;
   about_centre.torque -= lost * speed * munk;
   about_centre.force -= lost * across.cross(w);
 }

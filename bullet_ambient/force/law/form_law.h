@@ -19,9 +19,6 @@ struct ShapeFactors {
 
   /// False of blocks: their faces follow eq. (43) without wings and slender hulls.
   bool actOnFaces() const { return shape.isWing() || shape.isSlender(); }
-  /// tau of eq. (43e): share of the published pressure on a smooth body whose separation angle is
-  /// more than pi/2.
-  double slipShare(double separation_cosine) const;
   /// Share of the load that waits for the wake, 1 - epsilon of eq. (51d): 0 of boxes and plates.
   double wakeShare() const;
 
@@ -37,19 +34,20 @@ struct FormShape;
 /// to (50). Frame F.
 class FormLift {
  public:
-  /// slip_share: tau of eq. (43e). Cost: one eigenproblem of 3 rows.
+  /// Cost: one eigenproblem of 3 rows.
   /// @pre stall_lag >= 0, in lengths of the body over its speed.
-  FormLift(const FluidBody& body, const ShapeFactors& factors, double stall_lag, double slip_share);
+  FormLift(const FluidBody& body, const ShapeFactors& factors, double stall_lag);
 
   /// Wrench about F's origin for a twist relative to the ambient flow; density [kg/m^3]. Its power
-  /// is 0. Homogeneous of degree 2 in the twist.
-  Wrench load(const Twist& relative_twist, double density) const noexcept;
+  /// is 0. Homogeneous of degree 2 in the twist. munk_share: factor of eq. (118) on the loss.
+  Wrench load(const Twist& relative_twist, double density, double munk_share = 1) const noexcept;
 
  private:
   void setWing(const FormShape& shape, double length);
   /// 1 - f of eq. (49) and (49a); phi: sin^2 of the incidence, turning: what the lag takes from it.
   double separatedShare(double phi, double turning) const noexcept;
-  void addStall(const Vector3& w, const Vector3& v, Wrench& about_centre) const noexcept;
+  void addStall(const Vector3& w, const Vector3& v, double munk_share,
+                Wrench& about_centre) const noexcept;
 
   Matrix3 circulation_;  ///< B [m^3]
   Matrix3 direction_ =
@@ -59,7 +57,6 @@ class FormLift {
   double wing_;          ///< W
   double attached_ = 1;  ///< f_0: circulation of a wing over that of an endless one
   double stall_sq_ = 1;  ///< sigma^2
-  double kept_;          ///< 1 - tau
   Vector3 centre_;       ///< centre of volume [m]
 };
 

@@ -1,13 +1,14 @@
 #pragma once
 
-#include "bullet_ambient/spatial/spatial_vectors.h"
+#include "bullet_ambient/force/law/resistance.h"
 
 namespace ambient {
 
-/// Surface load whose power is not positive.
+/// Surface load whose power is not positive, as SplitLoad.
 struct SurfaceLoad {
   Wrench wrench;
   bool guarded = false;  ///< true if power was removed
+  Growth growth{};       ///< of the resistance, which acts besides
 };
 
 /// Removes from the surface wrench F (pressure and friction) the part that feeds energy to the

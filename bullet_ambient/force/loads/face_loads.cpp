@@ -38,7 +38,6 @@ PressureOnFace pressureOn(const FaceTable& faces, std::size_t face, const Twist&
   const Vector3 n = faces.normal(face), u = x.at(faces.centroid(face));
   const double normal_speed = n.dot(u), whole_sq = u.squaredNorm();
   const ShapeFactors* const factors = settings.shape;
-  const double slip_share = factors ? factors->slipShare(settings.separation_cosine) : 0;
   const auto speed = [&] {
     if (!factors) return u.norm();
     const Vector3 t = u - normal_speed * n;
@@ -61,11 +60,10 @@ PressureOnFace pressureOn(const FaceTable& faces, std::size_t face, const Twist&
     return pressure;
   };
   const auto of_face = [&] { return formFactors<double>(faces.sharpness[face]); };
-  const FaceState state{normal_speed, 1.0, strength, slip_share, speed, of_face, wing};
+  const FaceState state{normal_speed, 1.0, strength, speed, of_face, wing};
   const bool acts = factors && factors->actOnFaces();
-  const double total =
-      withPressure(settings.law, acts ? &factors->in_double : nullptr,
-                   [&](auto law) { return decltype(law)::template of<false>(state).total; });
+  const double total = withPressure(settings.law, acts ? &factors->in_double : nullptr,
+                                    [&](auto law) { return decltype(law)::of(state).total; });
   return {total, pitch};
 }
 
@@ -120,29 +118,26 @@ FaceLoads computeFaceLoads(const FaceTable& faces, double reference_length,
   return loads;
 }
 
-namespace {
-
-/// Drag coefficient C_j^0 of the form law along an axis, mean of both ways; 0 if edge-on.
-double dragAlong(int axis, const FaceTable& faces, const ShapeFactors& shape) {
+double ownDrag(const FaceTable& faces, const ShapeFactors& shape, const Vector3& direction,
+               double frontal_area) {
   const LoadSettings settings{1, 0, 0, false, PressureLaw::kForm, &shape};
-  double frontal_area = 0, force = 0;
-  for (std::size_t i = 0; i < faces.size(); ++i)
-    frontal_area += 0.5 * faces.area[i] * std::abs(faces.normal(i)[axis]);
+  double force = 0;
   for (const double way : {1.0, -1.0}) {
-    const Twist x{Vector3::Zero(), way * Vector3::Unit(axis)};
-    force -= way * computeFaceLoads(faces, 1, x, settings).pressure.force[axis];
+    const Twist x{Vector3::Zero(), way * direction};
+    force -= way * computeFaceLoads(faces, 1, x, settings).pressure.force.dot(direction);
   }
   return frontal_area > 0 ? force / frontal_area : 0;
 }
-
-}  // namespace
 
 DragScale::DragScale(const FluidBody& body, const FaceTable& faces, const ShapeFactors& shape)
     : is_measured_(!body.drag.isZero(0)), centre_(body.centre_of_volume), length_sq_(body.area) {
   AMBIENT_ASSERT(faces.sharpness.size() == faces.size());
   if (!is_measured_) return;
   for (int axis = 0; axis < 3; ++axis) {
-    const double drag = dragAlong(axis, faces, shape);
+    double frontal_area = 0;
+    for (std::size_t i = 0; i < faces.size(); ++i)
+      frontal_area += 0.5 * faces.area[i] * std::abs(faces.normal(i)[axis]);
+    const double drag = ownDrag(faces, shape, Vector3::Unit(axis), frontal_area);
     AMBIENT_ASSERT(std::isfinite(drag));
     if (drag > 0) scales_[axis] = body.drag[axis] / drag;
   }

@@ -10,6 +10,11 @@ class PackedFaces;
 struct ShapeFactors;
 struct SurfacePlane;
 
+/// Drag coefficient of the form law along a unit vector, mean of both ways, on a frontal area
+/// [m^2]; 0 without one. Cost O(F).
+double ownDrag(const FaceTable& faces, const ShapeFactors& shape, const Vector3& direction,
+               double frontal_area);
+
 /// Cosine of a separation angle [rad]; exactly 0 at pi/2, for which std::cos returns 6e-17.
 double separationCosine(double separation_angle);
 
@@ -22,7 +27,7 @@ struct LoadSettings {
   PressureLaw law = PressureLaw::kPublished;
   /// The shape as the form law sees it. Null: a block, and by the published law. Not owned.
   const ShapeFactors* shape = nullptr;
-  double wake_share = 0;  ///< SurfaceLoads::wakeShare() of loads without a shape
+  double roughness = 0;  ///< height of the roughness of the surface [m]
 
   /// Reynolds number at a slip of 1 m/s, reference_length [m]; 0: no friction.
   double reynoldsPerSpeed(double reference_length) const noexcept {

@@ -11,18 +11,13 @@
 namespace ambient {
 namespace {
 
-using LoadKey =
-    std::tuple<LoadPlace, double, double, double, bool, LoadPrecision, double, PressureLaw, double>;
+using LoadKey = std::tuple<LoadPlace, double, double, double, double, bool, LoadPrecision, double,
+                           PressureLaw, double>;
 
 LoadKey keyOf(const Medium& medium, const FlowSettings& flow, LoadPlace place) {
-  return {place,
-          medium.density,
-          medium.viscosity,
-          flow.separation_angle,
-          flow.skin_friction,
-          flow.precision,
-          flow.maximum_load_error,
-          flow.law,
+  return {place,          medium.density,          medium.viscosity,
+          flow.roughness, flow.separation_angle,   flow.skin_friction,
+          flow.precision, flow.maximum_load_error, flow.law,
           flow.stall_lag};
 }
 

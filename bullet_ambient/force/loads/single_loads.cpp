@@ -66,10 +66,9 @@ inline double frictionAtUnitSpeed(const LoadSettings& settings, const SpeedUnit&
       kFrictionCoefficient * reynoldsPower(reynolds_per_speed) * unit.inverse_fifth_power, 1e30);
 }
 
-/// Adds what the form law asks of a shape, eq. (43d) and (43e). `length`: unit of length [m].
+/// Adds what the form law asks of a shape, eq. (43d). `length`: unit of length [m].
 inline void addShape(const ShapeFactors& factors, const ScaledMotion& motion, double length,
-                     double separation_cosine, SingleMotion& single) noexcept {
-  single.slip_share = static_cast<float>(factors.slipShare(separation_cosine));
+                     SingleMotion& single) noexcept {
   if (!factors.actOnFaces()) return;
   const FormShape& shape = factors.shape;
   const double rate = shape.pitching.dot(motion.angular);
@@ -135,7 +134,7 @@ Wrench computeFaceLoad(const PackedFaces& faces, double reference_length,
   SingleMotion single = singleMotion(motion, settings, reference_length);
   const SingleCut cut = plane ? cutBy(*plane, faces) : SingleCut{};
   if (plane) single.cut = &cut;
-  if (settings.shape) addShape(*settings.shape, motion, length, settings.separation_cosine, single);
+  if (settings.shape) addShape(*settings.shape, motion, length, single);
   LoadSums sums = kSumBlocks.fastest()(faces.blocks(), single);
   if (single.wing)
     for (int axis = 0; axis < 3; ++axis)

@@ -1,13 +1,13 @@
 #include "bullet_ambient/force/loads/surface_loads.h"
 
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/force/law/form_law.h"
 #include "bullet_ambient/force/loads/face_loads.h"
 #include "bullet_ambient/force/loads/load_tables.h"
-#include "bullet_ambient/force/loads/sphere_loads.h"
 #include "bullet_ambient/force/loads/unit_sphere.h"
 
 namespace ambient {
@@ -41,7 +41,6 @@ class SummedLoads : public SurfaceLoads {
   int faces() const noexcept override { return faces_; }
   /// At alpha = pi/2 the power of each face is negative or 0 by both laws.
   bool needsGuard() const noexcept override { return settings_.separation_cosine != 0; }
-  double wakeShare() const noexcept override { return settings_.wake_share; }
 
  protected:
   /// Friction is what the sum lacks without it.
@@ -91,39 +90,120 @@ struct DoubleLoads final : SummedLoads<FaceTable, sumInDouble> {
   }
 };
 
-/// Form law: loads on faces, their drag scaled by DragScale, plus FormLift on the body as a whole.
-class FormLoads final : public SurfaceLoads {
+/// Loads whose parts a derived class computes at once.
+class ViscousLoads : public SurfaceLoads {
  public:
-  /// on_faces: loads on `faces`.
+  Wrench load(const Twist& x) const noexcept override { return total(x, nullptr); }
+  Wrench wetLoad(const Twist& x, const WetPart& wet) const noexcept override {
+    return total(x, &wet);
+  }
+  FaceLoads parts(const Twist& x) const noexcept override { return partsOn(x, nullptr); }
+  FaceLoads wetParts(const Twist& x, const WetPart& wet) const noexcept override {
+    return partsOn(x, &wet);
+  }
+  SplitLoad split(const Twist& x, const WetPart* wet) const noexcept override {
+    const Parts parts = compute(x, wet);
+    return {parts.pressure + parts.layer, parts.growth};
+  }
+  const Resistance* resistance() const noexcept override {
+    return resistance_ ? &*resistance_ : nullptr;
+  }
+  bool needsGuard() const noexcept override { return false; }
+
+ protected:
+  /// Pressure, friction of turbulent layers, and growth of the resistance.
+  struct Parts {
+    Wrench pressure, layer;
+    Growth growth;
+  };
+  /// Computes the parts on the whole body, or on the part of it in the fluid.
+  virtual Parts compute(const Twist& x, const WetPart* wet) const noexcept = 0;
+
+  /// C becomes C times the share of the body in the fluid.
+  static Growth inWater(const Growth& growth, const WetPart* wet) noexcept {
+    const double root = wet ? std::sqrt(wet->share) : 1;
+    return {root * growth.rotation, root * growth.translation};
+  }
+
+  std::optional<Resistance> resistance_;  ///< none: no friction
+
+ private:
+  Wrench total(const Twist& x, const WetPart* wet) const noexcept {
+    return partsOn(x, wet).total();
+  }
+  FaceLoads partsOn(const Twist& x, const WetPart* wet) const noexcept {
+    const Parts parts = compute(x, wet);
+    if (!resistance_) return {parts.pressure, {}};
+    return {parts.pressure, parts.layer + resistance_->load(parts.growth, x)};
+  }
+};
+
+ViscousFluid fluidOf(const LoadSettings& settings) {
+  return {settings.density, settings.viscosity, settings.roughness};
+}
+
+/// Form law: loads on faces, their drag scaled by DragScale, plus FormLift on the body as a whole;
+/// with viscosity by ViscousLaw, docs/theory.md eq. (113).
+class FormLoads final : public ViscousLoads {
+ public:
+  /// on_faces: pressure on `faces`.
   FormLoads(std::shared_ptr<const SurfaceLoads> on_faces, const FaceTable& faces,
             LoadTables::Shape shape, const FluidBody& body, const LoadSettings& settings,
             double stall_lag)
       : on_faces_(std::move(on_faces)),
         shape_(std::move(shape)),
         drag_(body, faces, *shape_),
-        lift_(body, *shape_, stall_lag, shape_->slipShare(settings.separation_cosine)),
-        density_(settings.density) {}
+        lift_(body, *shape_, stall_lag),
+        density_(settings.density),
+        centre_(body.centre_of_volume) {
+    if (!(settings.viscosity > 0)) return;
+    const Matrix3& axes = body.viscous.separation.axes;
+    Vector3 own_drag{0, 0, 0};
+    if (!body.viscous.separation.smooth_base.isZero(0))
+      for (int j = 0; j < 3; ++j)
+        own_drag[j] = ownDrag(faces, *shape_, axes.col(j), body.viscous.surface.frontal[j]);
+    law_.emplace(body, shape_->shape, own_drag, fluidOf(settings));
+    if (settings.skin_friction) resistance_ = law_->resistance();
+  }
 
-  Wrench load(const Twist& x) const noexcept override {
-    return drag_.scaled(on_faces_->load(x), x) + lift_.load(x, density_);
-  }
-  Wrench wetLoad(const Twist& x, const WetPart& wet) const noexcept override {
-    return drag_.scaled(on_faces_->wetLoad(x, wet), x) + wet.share * lift_.load(x, density_);
-  }
-  FaceLoads parts(const Twist& x) const noexcept override {
-    return onBody(x, on_faces_->parts(x), 1);
-  }
-  FaceLoads wetParts(const Twist& x, const WetPart& wet) const noexcept override {
-    return onBody(x, on_faces_->wetParts(x, wet), wet.share);
-  }
   int faces() const noexcept override { return on_faces_->faces(); }
-  bool needsGuard() const noexcept override { return on_faces_->needsGuard(); }
   double wakeShare() const noexcept override { return shape_->wakeShare(); }
 
+ protected:
+  Parts compute(const Twist& x, const WetPart* wet) const noexcept override {
+    const double share = wet ? wet->share : 1;
+    if (!law_) return {drag_.scaled(onFaces(x, wet), x) + share * lift_.load(x, density_), {}, {}};
+    const ViscousLaw::Scalars s = law_->scalars(x);
+    if (!s.moves) return {{}, {}, resistance_ ? inWater(kCreeping, wet) : Growth{}};
+    const Wrench on_faces = drag_.scaled(pressure(s, x, wet), x);
+    const Vector3 &w = x.angular, v = x.at(centre_);
+    Wrench whole = s.pressure * law_->tailLoad(s, w, v);
+    whole.force += law_->spinForce(s, w, v);
+    whole = atCentre(whole) + lift_.load(x, density_, law_->munkShare(s));
+    Parts parts{s.pressure * on_faces + share * whole, {}, {}};
+    if (!resistance_) return parts;
+    parts.layer = share * atCentre({Vector3::Zero(), law_->layerForce(s, v)});
+    parts.growth = inWater(law_->growth(s, -power(on_faces, x)), wet);
+    return parts;
+  }
+
  private:
-  FaceLoads onBody(const Twist& x, const FaceLoads& parts, double share) const noexcept {
-    return {drag_.scaled(parts.pressure, x) + share * lift_.load(x, density_),
-            drag_.scaled(parts.friction, x)};
+  Wrench onFaces(const Twist& x, const WetPart* wet) const noexcept {
+    return wet ? on_faces_->wetLoad(x, *wet) : on_faces_->load(x);
+  }
+  Wrench atCentre(const Wrench& about) const noexcept {
+    return {about.torque + centre_.cross(about.force), about.force};
+  }
+  /// F_P of eq. (111): S P(S x), with S about the centre of volume in the axes q_j.
+  Wrench pressure(const ViscousLaw::Scalars& s, const Twist& x, const WetPart* wet) const noexcept {
+    if (!law_->isSmooth()) return onFaces(x, wet);
+    const Matrix3& axes = law_->axes();
+    const Matrix3 turning = axes * s.turning.asDiagonal() * axes.transpose();
+    const Matrix3 moving = axes * s.moving.asDiagonal() * axes.transpose();
+    Twist seen{turning * x.angular, moving * x.at(centre_)};
+    seen.linear -= seen.angular.cross(centre_);
+    const Wrench load = onFaces(seen, wet);
+    return atCentre({turning * (load.torque - centre_.cross(load.force)), moving * load.force});
   }
 
   std::shared_ptr<const SurfaceLoads> on_faces_;
@@ -131,34 +211,58 @@ class FormLoads final : public SurfaceLoads {
   DragScale drag_;
   FormLift lift_;
   double density_;
+  Vector3 centre_;
+  std::optional<ViscousLaw> law_;  ///< none: no viscosity
 };
 
-class SphereLoads final : public SurfaceLoads {
+/// Form law on a ball in closed form, docs/theory.md eq. (119); on the part of it that is in the
+/// fluid, its pressure by the faces of unitSphere(), with lengths in radii.
+class BallLoads final : public ViscousLoads {
  public:
-  SphereLoads(const FluidBody& body, const LoadSettings& settings)
-      : centre_(body.centre_of_volume),
-        radius_(body.sphere_radius),
-        length_(referenceLength(body)),
-        settings_(settings) {
-    if (needsSphereTable(settings)) table_ = sharedSphereTable(settings.separation_cosine);
+  /// on_unit: pressure on unitSphere(); null for a ball that no surface cuts.
+  BallLoads(std::shared_ptr<const SurfaceLoads> on_unit, const FluidBody& ball,
+            const LoadSettings& settings)
+      : on_unit_(std::move(on_unit)),
+        centre_(ball.centre_of_volume),
+        radius_(ball.sphere_radius),
+        fluid_(fluidOf(settings)) {
+    if (settings.skin_friction && settings.viscosity > 0)
+      resistance_ = ballResistance(radius_, settings.viscosity);
   }
 
-  Wrench load(const Twist& x) const noexcept override { return parts(x).total(); }
-  FaceLoads parts(const Twist& x) const noexcept override {
-    return computeSphereLoads(table_.get(), radius_, length_, x, settings_);
-  }
-  bool needsGuard() const noexcept override { return false; }
-  double wakeShare() const noexcept override { return settings_.wake_share; }
-  /// Frame at the sphere's centre with the axes of B.
+  int faces() const noexcept override { return on_unit_ ? on_unit_->faces() : 0; }
+  double wakeShare() const noexcept override { return 1; }
+  /// Frame at the ball's centre with the axes of F.
   FrameOffset frame(const FrameOffset& fluid_frame) const override {
-    return {Matrix3::Identity(), fluid_frame.rotation * centre_ + fluid_frame.translation};
+    return {fluid_frame.rotation, fluid_frame.rotation * centre_ + fluid_frame.translation};
+  }
+
+ protected:
+  Parts compute(const Twist& x, const WetPart* wet) const noexcept override {
+    const BallLoad ball = computeBallLoad(radius_, fluid_, x);
+    Parts parts{ball.pressure, ball.layer, inWater(ball.growth, wet)};
+    if (wet) {
+      const PlaneInRadii surface(wet->plane, centre_, radius_);
+      const Wrench on_faces =
+          on_unit_->wetLoad({radius_ * x.angular, x.linear}, {surface.plane, wet->share});
+      const double scale =
+          ball.share * ball.suction * ball.suction * ball.suction * radius_ * radius_;
+      parts.pressure = {scale * radius_ * on_faces.torque,
+                        scale * on_faces.force + wet->share * ball.whole};
+      parts.layer = wet->share * parts.layer;
+    }
+    if (!resistance_) {
+      parts.layer = {};
+      parts.growth = {};
+    }
+    return parts;
   }
 
  private:
+  std::shared_ptr<const SurfaceLoads> on_unit_;
   Vector3 centre_;
-  double radius_, length_;
-  LoadSettings settings_;
-  std::shared_ptr<const SphereTable> table_;  ///< null if needsSphereTable() is false
+  double radius_;
+  ViscousFluid fluid_;
 };
 
 /// Published law at alpha = pi for a body that the surface cuts. The pressure of the attached flow
@@ -200,37 +304,11 @@ class AttachedLoads final : public SurfaceLoads {
   FrameOffset whole_frame_;
 };
 
-/// Form law at alpha = pi for a body that the surface cuts. The lee adds the pressure of the slip;
-/// for a part of the body this addition is the wet share of the whole, as in AttachedLoads.
-class AttachedFormLoads final : public SurfaceLoads {
+/// Published law on a sphere, from the loads on unitSphere() in a fluid with the viscosity over R:
+/// with lengths in radii forces grow by R^2, torques by R^3.
+class SphereLoads final : public SurfaceLoads {
  public:
-  /// separated: form law at alpha = pi/2; attached: form law at alpha = pi.
-  AttachedFormLoads(std::shared_ptr<const SurfaceLoads> separated,
-                    std::shared_ptr<const SurfaceLoads> attached)
-      : separated_(std::move(separated)), attached_(std::move(attached)) {}
-
-  Wrench load(const Twist& x) const noexcept override { return attached_->load(x); }
-  Wrench wetLoad(const Twist& x, const WetPart& wet) const noexcept override {
-    const Wrench by_lee = attached_->load(x) + -1.0 * separated_->load(x);
-    return separated_->wetLoad(x, wet) + wet.share * by_lee;
-  }
-  FaceLoads wetParts(const Twist& x, const WetPart& wet) const noexcept override {
-    const Wrench friction = separated_->wetParts(x, wet).friction;
-    return {wetLoad(x, wet) + -1.0 * friction, friction};
-  }
-  int faces() const noexcept override { return 2 * separated_->faces() + attached_->faces(); }
-  bool needsGuard() const noexcept override { return attached_->needsGuard(); }
-  double wakeShare() const noexcept override { return separated_->wakeShare(); }
-
- private:
-  std::shared_ptr<const SurfaceLoads> separated_, attached_;
-};
-
-/// Loads on a sphere that the surface of its fluid may cut, from those on unitSphere() in a fluid
-/// with the viscosity over R: with lengths in radii forces grow by R^2, torques by R^3.
-class WetSphereLoads final : public SurfaceLoads {
- public:
-  WetSphereLoads(std::shared_ptr<const SurfaceLoads> on_unit, const FluidBody& sphere)
+  SphereLoads(std::shared_ptr<const SurfaceLoads> on_unit, const FluidBody& sphere)
       : on_unit_(std::move(on_unit)),
         centre_(sphere.centre_of_volume),
         radius_(sphere.sphere_radius) {}
@@ -294,6 +372,9 @@ void checkFlow(const FluidBody& body, const FlowSettings& flow) {
   if (!(flow.stall_lag >= 0) || !(flow.stall_lag <= kLongestLag)) {
     reject(body, "stall lag [lengths over speed]", flow.stall_lag, "from 0 to 1e6");
   }
+  if (!(flow.roughness >= 0) || !std::isfinite(flow.roughness)) {
+    reject(body, "roughness [m]", flow.roughness, "zero or positive and finite");
+  }
   if (!(flow.maximum_load_error >= 0)) {
     reject(body, "largest error of its loads", flow.maximum_load_error, "zero or positive");
   }
@@ -333,88 +414,92 @@ std::shared_ptr<const SurfaceLoads> loadsOnFaces(const Body& body, LoadSettings 
   requirePrepared(*body);
   const LoadTables::Shape shape = LoadTables(body).shape();
   const LoadTables::Faces faces = chooseFormFaces(body, *shape, flow);
-  settings.shape = shape.get();
-  auto on_faces = loadsOn(body, faces, settings, flow.precision);
+  LoadSettings smooth = settings;  // friction is no sum over faces
+  smooth.shape = shape.get();
+  smooth.skin_friction = false;
+  auto on_faces = loadsOn(body, faces, smooth, flow.precision);
   return std::make_shared<FormLoads>(std::move(on_faces), *faces, shape, *body, settings,
                                      flow.stall_lag);
 }
 
-/// Spheres use the published law, but for the way of their wake.
-LoadSettings ofBall(LoadSettings settings) {
-  if (settings.law == PressureLaw::kForm) settings.wake_share = 1;
-  settings.law = PressureLaw::kPublished;
-  return settings;
-}
-
-/// Loads on faces. `settings` of a sphere: ofBall().
 std::shared_ptr<const SurfaceLoads> waterlineLoadsOnFaces(const Body& body, LoadSettings settings,
                                                           const FlowSettings& flow) {
-  const bool is_sphere = body->sphere_radius > 0;
   auto on_faces = loadsOnFaces(body, settings, flow);
   if (settings.separation_cosine != -1) return on_faces;
-  if (settings.law == PressureLaw::kForm) {
-    settings.separation_cosine = 0;
-    auto separated = loadsOnFaces(body, settings, flow);
-    return std::make_shared<AttachedFormLoads>(std::move(separated), std::move(on_faces));
-  }
   settings.skin_friction = false;
   auto slip = loadsOnFaces(body, settings, flow);
-  auto whole = is_sphere ? std::make_shared<SphereLoads>(*body, settings) : slip;
+  auto whole = slip;
   return std::make_shared<AttachedLoads>(std::move(on_faces), std::move(slip), std::move(whole));
 }
 
-std::shared_ptr<const SurfaceLoads> lawOf(const Body& body, const LoadSettings& settings,
-                                          const FlowSettings& flow) {
-  checkFaces(*body);
-  if (!(settings.density > 0)) return nullptr;
-  if (flow.own_law) return flow.own_law(body, settings);
-  if (body->sphere_radius > 0) return std::make_shared<SphereLoads>(*body, ofBall(settings));
-  return loadsOnFaces(body, settings, flow);
+/// Form law on a ball, which a surface may cut or not.
+std::shared_ptr<const SurfaceLoads> loadsOnBall(const Body& ball, const LoadSettings& settings,
+                                                const FlowSettings& flow, bool is_cut) {
+  std::shared_ptr<const SurfaceLoads> on_unit;
+  if (is_cut) {
+    LoadSettings ideal = settings;
+    ideal.viscosity = 0;
+    on_unit = loadsOnFaces(unitSphere(), ideal, flow);
+  }
+  return std::make_shared<BallLoads>(std::move(on_unit), *ball, settings);
 }
 
-std::shared_ptr<const SurfaceLoads> waterlineLawOf(const Body& body, const LoadSettings& settings,
-                                                   const FlowSettings& flow) {
+/// Published law on the faces of unitSphere().
+std::shared_ptr<const SurfaceLoads> loadsOnSphere(const Body& sphere, LoadSettings settings,
+                                                  const FlowSettings& flow) {
+  settings.viscosity /= sphere->sphere_radius;
+  return std::make_shared<SphereLoads>(waterlineLoadsOnFaces(unitSphere(), settings, flow),
+                                       *sphere);
+}
+
+std::shared_ptr<const SurfaceLoads> lawOf(const Body& body, const LoadSettings& settings,
+                                          const FlowSettings& flow, LoadPlace place) {
   checkFaces(*body);
   if (!(settings.density > 0)) return nullptr;
-  FlowSettings on_all = flow;
-  on_all.maximum_load_error = 0;
-  if (!(body->sphere_radius > 0)) return waterlineLoadsOnFaces(body, settings, on_all);
-  LoadSettings in_radii = ofBall(settings);
-  in_radii.viscosity /= body->sphere_radius;
-  return std::make_shared<WetSphereLoads>(waterlineLoadsOnFaces(unitSphere(), in_radii, on_all),
-                                          *body);
+  const bool is_cut = place == LoadPlace::kWaterline;
+  if (flow.own_law && !is_cut) return flow.own_law(body, settings);
+  FlowSettings chosen = flow;
+  if (is_cut) chosen.maximum_load_error = 0;
+  if (!(body->sphere_radius > 0))
+    return is_cut ? waterlineLoadsOnFaces(body, settings, chosen)
+                  : loadsOnFaces(body, settings, chosen);
+  return settings.law == PressureLaw::kForm ? loadsOnBall(body, settings, chosen, is_cut)
+                                            : loadsOnSphere(body, settings, chosen);
 }
 
 // False for a medium without loads, and for one that later checks reject.
 bool isFluid(const Medium& medium) { return medium.density > 0 && medium.viscosity >= 0; }
 
+std::shared_ptr<const SurfaceLoads> makeLoads(const Body& body, const Medium& medium,
+                                              const FlowSettings& flow, LoadPlace place) {
+  const LoadSettings settings = loadSettings(medium, flow);
+  const auto make = [&] { return lawOf(body, settings, flow, place); };
+  checkFlow(*body, flow);
+  const bool is_shared = isFluid(medium) && !flow.own_law;
+  return is_shared ? LoadTables(body).loads(medium, flow, place, make) : make();
+}
+
 }  // namespace
 
 LoadSettings loadSettings(const Medium& medium, const FlowSettings& flow) {
-  return {medium.density, medium.viscosity, separationCosine(flow.separation_angle),
-          flow.skin_friction, flow.law};
+  const bool is_form = flow.law == PressureLaw::kForm;
+  return {
+      medium.density,     medium.viscosity, is_form ? 0 : separationCosine(flow.separation_angle),
+      flow.skin_friction, flow.law,         nullptr,
+      flow.roughness};
 }
 
 std::shared_ptr<const SurfaceLoads> makeSurfaceLoads(const std::shared_ptr<const FluidBody>& body,
                                                      const Medium& medium,
                                                      const FlowSettings& flow) {
-  const LoadSettings settings = loadSettings(medium, flow);
-  const auto make = [&] { return lawOf(body, settings, flow); };
-  checkFlow(*body, flow);
-  const bool is_shared = isFluid(medium) && !flow.own_law;
-  return is_shared ? LoadTables(body).loads(medium, flow, LoadPlace::kUnbounded, make) : make();
+  return makeLoads(body, medium, flow, LoadPlace::kUnbounded);
 }
 
 std::shared_ptr<const SurfaceLoads> makeWaterlineLoads(const std::shared_ptr<const FluidBody>& body,
                                                        const Medium& medium,
                                                        const FlowSettings& flow) {
   const bool has_places = (body->faces.size() > 0 || body->sphere_radius > 0) && !flow.own_law;
-  if (!has_places) return makeSurfaceLoads(body, medium, flow);
-  const LoadSettings settings = loadSettings(medium, flow);
-  const auto make = [&] { return waterlineLawOf(body, settings, flow); };
-  checkFlow(*body, flow);
-  return isFluid(medium) ? LoadTables(body).loads(medium, flow, LoadPlace::kWaterline, make)
-                         : make();
+  return makeLoads(body, medium, flow, has_places ? LoadPlace::kWaterline : LoadPlace::kUnbounded);
 }
 
 }  // namespace ambient

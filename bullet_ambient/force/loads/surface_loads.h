@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "bullet_ambient/force/law/flow_settings.h"
+#include "bullet_ambient/force/law/viscous_law.h"
 #include "bullet_ambient/force/loads/face_loads.h"
 #include "bullet_ambient/force/medium/medium.h"
 #include "bullet_ambient/force/medium/surface_plane.h"
@@ -14,6 +15,13 @@ namespace ambient {
 struct WetPart {
   SurfacePlane plane;  ///< surface of the fluid, in the frame of the loads
   double share = 1;    ///< share of the body's volume in the fluid
+};
+
+/// Load as a step takes it up: a wrench that is given for the motion, and how the resistance in
+/// creeping flow has grown, which the step solves for.
+struct SplitLoad {
+  Wrench wrench;
+  Growth growth;
 };
 
 /// Loads of a fluid on the surface of one body: a law for a given shape and fluid. Immutable; owns
@@ -31,6 +39,14 @@ class SurfaceLoads {
   virtual Wrench wetLoad(const Twist& relative_twist, const WetPart& wet) const noexcept {
     return wet.share * load(relative_twist);
   }
+  /// load(), or with `wet` wetLoad(), without what resistance() makes of it: the sum is wrench +
+  /// resistance()->load(growth, relative_twist). Default: all is in the wrench.
+  virtual SplitLoad split(const Twist& relative_twist,
+                          const WetPart* wet = nullptr) const noexcept {
+    return {wet ? wetLoad(relative_twist, *wet) : load(relative_twist), {}};
+  }
+  /// Resistance in creeping flow, in frame(); null: none.
+  virtual const Resistance* resistance() const noexcept { return nullptr; }
   /// Load split into pressure and friction, for drawing and reading. Default: all of it is
   /// pressure.
   virtual FaceLoads parts(const Twist& relative_twist) const noexcept {

@@ -40,6 +40,9 @@ FluidBody makeSphere() {
   double sum = 0;
   for (const double area : sphere.faces.area) sum += area;
   for (double& area : sphere.faces.area) area *= sphere.area / sum;
+  sphere.form.faces = sphere.faces;
+  sphere.form.faces.sharpness.assign(sphere.faces.size(), 0);
+  sphere.form.shape.edges = 0;
   return sphere;
 }
 

@@ -145,7 +145,6 @@ BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_fr
   AMBIENT_ASSERT(model.inverse_inertia.diagonal().minCoeff() > 0);
   AMBIENT_ASSERT(isSymmetric(model.inertia));
   AMBIENT_ASSERT(isSymmetric(model.inverse_inertia));
-  model.has_diagonal_inertia = model.inertia.isDiagonal(0) && model.inverse_inertia.isDiagonal(0);
   model.even_response = makeEvenResponse(model.inverse_inertia, mass.inertia);
   model.mass = mass.mass;
   model.displaced_mass = medium.density * fluid_body.volume;
@@ -153,7 +152,14 @@ BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_fr
       fluid_frame.rotation * fluid_body.centre_of_volume + fluid_frame.translation;
   AMBIENT_ASSERT(model.displaced_mass >= 0 && model.centre_of_volume.allFinite());
   checkLever(fluid_body, model);
-  if (loads) model.load_frame = loads->frame(fluid_frame);
+  if (loads) {
+    model.load_frame = loads->frame(fluid_frame);
+    model.resistance = resistanceInB(*loads, model.load_frame);
+  }
+  const Resistance* const resistance = model.resistance.get();
+  model.has_diagonal_inertia =
+      model.inertia.isDiagonal(0) && model.inverse_inertia.isDiagonal(0) &&
+      (!resistance || (resistance->matrix.isDiagonal(0) && resistance->centre.isZero(0)));
   model.loads = std::move(loads);
   model.reference_length = std::sqrt(fluid_body.area);
   model.largest_mass = eigenvalues(model.inertia.bottomRightCorner<3, 3>())[2];
@@ -164,12 +170,22 @@ BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_fr
 SurfaceLoad computeSurfaceLoad(const BodyModel& model, const Twist& relative_twist,
                                double load_share, const FlowAlongBody* flow) noexcept {
   AMBIENT_ASSERT(model.loads);
-  return loadAlong(flow, relative_twist, [&](const Twist& x) -> SurfaceLoad {
-    const Wrench wrench =
-        load_share * model.load_frame.toB(model.loads->load(model.load_frame.toF(x)));
-    if (!model.loads->needsGuard()) return {wrench, false};
+  const Resistance* const resistance = model.resistance.get();
+  return loadAlong(flow, relative_twist, resistance, [&](const Twist& x) -> SurfaceLoad {
+    const SplitLoad split = model.loads->split(model.load_frame.toF(x));
+    const Wrench wrench = load_share * model.load_frame.toB(split.wrench);
+    if (!model.loads->needsGuard()) return {wrench, false, split.growth};
     return removePositivePower(wrench, x, model.inertia);
   });
+}
+
+std::shared_ptr<const Resistance> resistanceInB(const SurfaceLoads& loads,
+                                                const FrameOffset& frame) {
+  const Resistance* const in_F = loads.resistance();
+  if (!in_F) return nullptr;
+  Resistance in_B{in_F->matrix, frame.rotation * in_F->centre + frame.translation};
+  if (!frame.rotation.isIdentity(0)) in_B.matrix = rotateAxes(in_B.matrix, frame.rotation);
+  return std::make_shared<const Resistance>(in_B);
 }
 
 Wrench gyroscopicWrench(const DualPair& motion) {

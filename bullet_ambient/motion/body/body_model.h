@@ -68,12 +68,14 @@ struct FlowAlongBody {
 
 /// Returns the mean of a law over the stations of a body, less FlowAlongBody::at_rest_B.
 /// `loadFor(x)`: SurfaceLoad for a twist relative to the fluid; `relative_twist`: relative to the
-/// mean velocity. Where the fluid moves as one, returns loadFor(relative_twist).
+/// mean velocity, in which the resistance (null: none) acts besides the result. Where the fluid
+/// moves as one, returns loadFor(relative_twist).
 template <class LoadFor>
 SurfaceLoad loadAlong(const FlowAlongBody* flow, const Twist& relative_twist,
-                      const LoadFor& loadFor) noexcept {
+                      const Resistance* resistance, const LoadFor& loadFor) noexcept {
   if (!flow || flow->stations == 0) return loadFor(relative_twist);
   SurfaceLoad mean{};
+  Twist against;  // mean of the fluid's motion, negative
   for (int i = 0; i < flow->stations; ++i) {
     const Twist& of_fluid = flow->twists_B[i];
     const SurfaceLoad load = loadFor(
@@ -81,7 +83,12 @@ SurfaceLoad loadAlong(const FlowAlongBody* flow, const Twist& relative_twist,
     mean.wrench += flow->weights[i] * load.wrench;
     mean.wrench.torque += flow->weights[i] * flow->places_B[i].cross(load.wrench.force);
     mean.guarded = mean.guarded || load.guarded;
+    mean.growth.rotation += flow->weights[i] * load.growth.rotation;
+    mean.growth.translation += flow->weights[i] * load.growth.translation;
+    against.angular -= flow->weights[i] * of_fluid.angular;
+    against.linear -= flow->weights[i] * of_fluid.linear;
   }
+  if (resistance) mean.wrench += resistance->load(mean.growth, against);
   mean.wrench -= flow->at_rest_B;
   return mean;
 }
@@ -104,10 +111,11 @@ struct BodyModel {
   double mass = 0;                    ///< mass of the body without fluid [kg]
   double displaced_mass = 0;          ///< m_f = rho volume [kg]
   Vector3 centre_of_volume;           ///< in B [m]
-  std::shared_ptr<const SurfaceLoads> loads;  ///< null: no surface loads
-  FrameOffset load_frame;                     ///< pose in B of the frame of the loads
-  double reference_length = 0;                ///< sqrt(area) [m]
-  double largest_mass = 0;                    ///< largest eigenvalue of K's translation block [kg]
+  std::shared_ptr<const SurfaceLoads> loads;     ///< null: no surface loads
+  FrameOffset load_frame;                        ///< pose in B of the frame of the loads
+  std::shared_ptr<const Resistance> resistance;  ///< of the loads, in B; null: none
+  double reference_length = 0;                   ///< sqrt(area) [m]
+  double largest_mass = 0;  ///< largest eigenvalue of K's translation block [kg]
 };
 
 /// Throws std::invalid_argument, naming value and limit, if the medium is not physical.
@@ -125,6 +133,15 @@ BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_fr
 /// (51d). `flow`: how the fluid moves along the body, null: as one; see loadAlong().
 SurfaceLoad computeSurfaceLoad(const BodyModel& model, const Twist& relative_twist,
                                double load_share = 1, const FlowAlongBody* flow = nullptr) noexcept;
+
+/// Returns the resistance of loads in B, which sit in a frame there; null: they have none.
+std::shared_ptr<const Resistance> resistanceInB(const SurfaceLoads& loads,
+                                                const FrameOffset& frame);
+
+/// All of a load: with what the resistance (null: none) makes of the twist.
+inline Wrench wholeLoad(const SurfaceLoad& load, const Resistance* resistance, const Twist& x) {
+  return resistance ? load.wrench + resistance->load(load.growth, x) : load.wrench;
+}
 
 /// Pair of a twist x and its momentum K x.
 inline DualPair pairOfTwist(const BodyModel& model, const Vector6& x) {

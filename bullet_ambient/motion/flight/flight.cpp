@@ -36,6 +36,7 @@ struct StepProgress {
   bool is_done;   // true if an attempt was accepted
   bool has_load;  // true if load_W holds a load, from which the next one is predicted
   double error;   // largest error of the substeps of this attempt, eq. (25)
+  Growth growth;  // of the resistance at the last load
 };
 
 // Moves several bodies over one step, one per lane.
@@ -73,7 +74,8 @@ class Leapfrog {
     const int most = maxSubsteps(task);
     AMBIENT_ASSERT(most > 0 && !(flight.body.memory.substep < 0));
     progress_[i] = {&flight, most,  substepsFor(task.duration, flight.body.memory.substep, most),
-                    false,   false, 0};
+                    false,   false, 0,
+                    {}};
     flight.body.count = {};
   }
 
@@ -85,6 +87,7 @@ class Leapfrog {
     progress.has_load = memory.has_load && progress.flight->task.model.loads;
     setLane(lanes_.load_W, i, progress.has_load ? memory.load_W : Wrench{});
     setLane(lanes_.load_B, i, Wrench{});
+    setGrowth(i, progress.has_load ? memory.growth : kCreeping);
     lanes_.error[i] = 0;
     progress.error = 0;
     lanes_.kick_time[i] = progress.flight->task.duration / progress.substeps;
@@ -141,6 +144,11 @@ class Leapfrog {
     }
   }
 
+  void setGrowth(int i, const Growth& growth) {
+    progress_[i].growth = growth;
+    setResistance(lanes_, i, progress_[i].flight->task.model.resistance.get(), growth);
+  }
+
   template <class Condition>
   void evaluate(const FlightLane* twists, FlightLane* loads, const Condition& wants) {
     for (int i = 0; i < count_; ++i) {
@@ -149,6 +157,7 @@ class Leapfrog {
       if (!(lanes_.active[i] > 0) || !model.loads || !wants(progress_[i])) continue;
       const SurfaceLoad load = computeSurfaceLoad(model, twistOf(twists, i), task.surroundings);
       setLane(loads, i, load.wrench);
+      setGrowth(i, load.growth);
       FlightCount& count = progress_[i].flight->body.count;
       ++count.load_evaluations;
       count.guarded += load.guarded;
@@ -165,7 +174,8 @@ class Leapfrog {
     if (!(ratio > kAcceptance) || attempt == kMaxRetries || progress.substeps == progress.most) {
       FlightResult& result = progress.flight->body;
       result.state = stateOf(lanes_, i, result.state.position);
-      result.memory = {wrenchOf(lanes_.load_W, i), progress.has_load, std::min(next, 4 * h)};
+      result.memory = {wrenchOf(lanes_.load_W, i), progress.growth, progress.has_load,
+                       std::min(next, 4 * h)};
       const bool is_flow_coarse = lanes_.is_coarse[i] > 0;
       result.count.coarse = is_flow_coarse || ratio > kAcceptance;
       result.count.energy_removed = lanes_.energy_removed[i];

@@ -27,6 +27,16 @@ void setModel(BodyLanes& lanes, int body, const BodyModel& model) noexcept {
   setLane(lanes.centre_of_volume_B, body, model.centre_of_volume);
 }
 
+void setResistance(BodyLanes& lanes, int body, const Resistance* resistance,
+                   const Growth& growth) noexcept {
+  if (!lanes.has_resistance) return;
+  const bool is_viscous = resistance && growth.translation > 0;
+  lanes.is_viscous[body] = is_viscous ? 1 : 0;
+  setSymmetric(lanes.resistance, body,
+               is_viscous ? resistance->grown(growth) : Matrix6(Matrix6::Zero()),
+               lanes.has_diagonal_inertia);
+}
+
 void setForces(BodyLanes& lanes, int body, const FlightTask& task) noexcept {
   const BodyModel& model = task.model;
   const Surroundings& s = task.surroundings;

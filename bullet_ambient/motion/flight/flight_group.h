@@ -14,17 +14,21 @@ extern const Kernels<const FlightKernel*> kFlightKernels;
 template <class ModelOf>
 void setKinds(BodyLanes& lanes, int count, const ModelOf& modelOf) noexcept {
   lanes.has_diagonal_inertia = true;
-  lanes.has_loads = false;
+  lanes.has_loads = lanes.has_resistance = false;
   for (int i = 0; i < count; ++i) {
     const BodyModel& model = modelOf(i);
     lanes.has_diagonal_inertia = lanes.has_diagonal_inertia && model.has_diagonal_inertia;
     lanes.has_loads = lanes.has_loads || model.loads;
+    lanes.has_resistance = lanes.has_resistance || model.resistance;
   }
 }
 
 /// Writes the model of a body into lane `body`: with has_diagonal_inertia of the lanes, only the
 /// diagonals of K and K^-1. Lanes without a body stay 0, as in BodyLanes{}.
 void setModel(BodyLanes& lanes, int body, const BodyModel& model) noexcept;
+/// Writes the resistance C of a body (null: none) where it has grown. @pre setModel()
+void setResistance(BodyLanes& lanes, int body, const Resistance* resistance,
+                   const Growth& growth) noexcept;
 /// Writes the wrench on a body without surface loads.
 void setForces(BodyLanes& lanes, int body, const FlightTask& task) noexcept;
 /// Writes that wrench, and the scale of its errors.

@@ -10,6 +10,7 @@ namespace ambient {
 /// velocity.
 struct FlightMemory {
   Wrench load_W;  ///< last surface load, world axes
+  Growth growth;  ///< of the resistance then
   bool has_load = false;
   double substep = 0;  ///< substep to try first in the next step [s]; 0: unknown
 };

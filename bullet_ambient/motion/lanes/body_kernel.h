@@ -8,6 +8,46 @@ namespace ambient {
 
 namespace {
 
+/// Drag and lift of a load F at the twist y of its sample, eq. (23).
+template <class Real>
+struct LoadShares {
+  const PairsOf<Real>& at;
+  MaskOf<Real> moves;    ///< at rest relative to the fluid there is no load
+  Real per_n;            ///< 1/|y|
+  Real decay;            ///< d
+  PairsOf<Real> across;  ///< a
+  Real f, per_f;         ///< |a|
+
+  LoadShares(const PairsOf<Real>& sample, const PairsOf<Real>& load) : at(sample) {
+    const Real one = all<Real>(1), zero = Real{};
+    const Real energy = inner(at, at);
+    moves = energy > zero;
+    const Real per_energy = one / (moves ? energy : one);
+    per_n = one / squareRoot(moves ? energy : one);
+    const Real along = inner(at, load) * per_energy;
+    decay = along > zero ? zero : -along;  // NaN of a load that is not finite stays NaN, because
+                                           // NaN > 0 is false
+    // Lift: K^-1 F minus its part along the twist.
+    across = load - along * at;
+    f = squareRoot(larger(inner(across, across), zero));
+    per_f = one / (f > zero ? f : one);
+  }
+  /// |x|/n.
+  Real speedOf(const PairsOf<Real>& x) const {
+    return squareRoot(larger(inner(x, x), Real{})) * per_n;
+  }
+  /// Rot(angle) x. Sine and versine from one tangent: a rotation for any rounding of the tangent.
+  PairsOf<Real> turned(const PairsOf<Real>& x, const Real& angle) const {
+    const Real c1 = inner(x, at) * per_n;
+    const Real c2 = inner(x, across) * per_f;
+    const Real t = tangent<Real>(0.5 * angle);
+    const Real sine = 2 * t / (1 + t * t);
+    const Real versine = t * sine;
+    return x + ((-versine * c1 - sine * c2) * per_n) * at +
+           ((sine * c1 - versine * c2) * per_f) * across;
+  }
+};
+
 /// Returns the motion `x` after `duration` [s] under a load homogeneous of degree 2 in the twist,
 /// docs/theory.md eq. (23):
 ///
@@ -24,33 +64,11 @@ namespace {
 template <class Real>
 inline PairsOf<Real> passiveKick(const PairsOf<Real>& x, const PairsOf<Real>& at,
                                  const PairsOf<Real>& load, const Real& duration) {
-  const Real one = all<Real>(1), zero = Real{};
-  const Real energy = inner(at, at);
-  const MaskOf<Real> moves = energy > zero;  // at rest relative to the fluid there is no load
-  const Real per_energy = one / (moves ? energy : one);
-  const Real n = squareRoot(moves ? energy : one);
-  const Real per_n = one / n;
-  const Real along = inner(at, load) * per_energy;
-  const Real decay = along > zero ? zero : -along;  // NaN of a load that is not finite stays NaN,
-                                                    // because NaN > 0 is false
-
-  // Lift: K^-1 F minus its part along the twist.
-  const PairsOf<Real> across = load - along * at;
-  const Real f = squareRoot(larger(inner(across, across), zero));
-  const Real per_f = one / (f > zero ? f : one);
-
-  const Real speed = squareRoot(larger(inner(x, x), zero)) * per_n;
-  const Real z = decay * duration * speed;
-  const Real angle = duration * f * per_n * logarithmRatio(z) * speed;
-  const Real c1 = inner(x, at) * per_n;
-  const Real c2 = inner(x, across) * per_f;
-  // Sine and versine from one tangent: a rotation for any rounding of the tangent.
-  const Real t = tangent<Real>(0.5 * angle);
-  const Real sine = 2 * t / (1 + t * t);
-  const Real versine = t * sine;
-  const PairsOf<Real> turned = x + ((-versine * c1 - sine * c2) * per_n) * at +
-                               ((sine * c1 - versine * c2) * per_f) * across;
-  return select(moves, one / (1 + z) * turned, x);
+  const LoadShares<Real> shares(at, load);
+  const Real speed = shares.speedOf(x);
+  const Real z = shares.decay * duration * speed;
+  const Real angle = duration * shares.f * shares.per_n * logarithmRatio(z) * speed;
+  return select(shares.moves, all<Real>(1) / (1 + z) * shares.turned(x, angle), x);
 }
 
 /// Returns the error e of a kick, eq. (25). `surprise`: load that was not predicted. `fall_scale`

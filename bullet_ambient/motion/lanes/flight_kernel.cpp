@@ -130,11 +130,21 @@ struct PushStep {
     const Spatials x = load6(bodies.twist_B, at);
     const Pairs motion{x, inertia * x};
 
-    Spatials kick = duration * (inverse * externalWrench(bodies, at, q));
+    const Spatials wrench = externalWrench(bodies, at, q);
+    Spatials kick = duration * (inverse * wrench);
     if (bodies.has_loads) {
       // Equal to dt K^-1 F to first order, but never reverses the motion, for any dt.
       const Spatials load_B = load6(bodies.load_B, at);
-      kick = kick + (passiveKick(motion, motion, {inverse * load_B, load_B}, duration).twist - x);
+      const Pairs response{inverse * load_B, load_B};
+      const Spatials fallen = kick;
+      kick = kick + (passiveKick(motion, motion, response, duration).twist - x);
+      if (bodies.has_resistance) {
+        const Pairs fall{all(0.5) * fallen, 0.5 * duration * wrench};
+        const Pairs settled = withResistance<Matrices>(bodies, at, [&](const auto& terms) {
+          return viscousKick<Lanes>(motion, motion, response, fall, terms, duration);
+        });
+        kick = select(viscousOf(bodies, at), settled.twist - x, kick);
+      }
     }
     const Turnings turning = computeTurnings(inertia, inverse, motion, duration);
     const Lanes zero = Lanes{}, rest = 1 - turning.extent;
@@ -209,7 +219,9 @@ struct GravityStep {
     const Pairs fall = 0.5 * load(bodies.kick_time + at) * Pairs{inverse * wrench, wrench};
     store6(bodies.fall_twist, at, fall.twist);
     store6(bodies.fall_momentum, at, fall.momentum);
-    setMotion(bodies, at, active, motionOf(bodies, at) + fall);
+    // Bodies with a resistance fall in sample() and kick().
+    const Mask falls = bodies.has_resistance ? active & ~viscousOf(bodies, at) : active;
+    setMotion(bodies, at, falls, motionOf(bodies, at) + fall);
     if (!bodies.has_loads) return;
     store6(bodies.guess_B, at, toBody(q, load6(bodies.load_W, at)));
   }
@@ -218,7 +230,7 @@ struct GravityStep {
 struct SampleStep {
   template <class Matrices>
   static void act(FlightLanes& bodies, int at, const Mask&) {
-    sampleLoad<Matrices>(bodies, at, motionOf(bodies, at), 0.5 * load(bodies.kick_time + at));
+    sampleLoad<Matrices>(bodies, at, motionOf(bodies, at), 0.5 * load(bodies.kick_time + at), true);
   }
 };
 
@@ -227,9 +239,10 @@ struct KickStep {
   static void act(FlightLanes& bodies, int at, const Mask& active) {
     Pairs x = motionOf(bodies, at);
     if (bodies.has_loads)
-      x = underLoad<Matrices>(bodies, at, active, x, load(bodies.kick_time + at));
-    setMotion(bodies, at, active,
-              x + Pairs{load6(bodies.fall_twist, at), load6(bodies.fall_momentum, at)});
+      x = underLoad<Matrices>(bodies, at, active, x, load(bodies.kick_time + at), true);
+    Pairs fallen = x + Pairs{load6(bodies.fall_twist, at), load6(bodies.fall_momentum, at)};
+    if (bodies.has_resistance) fallen = select(viscousOf(bodies, at), x, fallen);
+    setMotion(bodies, at, active, fallen);
   }
 };
 

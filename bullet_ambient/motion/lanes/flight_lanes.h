@@ -37,8 +37,11 @@ struct alignas(64) BodyLanes {
   // Constant over the step.
   FlightLane inertia[kSymmetricEntries];          ///< K in B
   FlightLane inverse_inertia[kSymmetricEntries];  ///< K^-1
-  bool has_diagonal_inertia;                      ///< K and K^-1 of all bodies are diagonal
+  FlightLane is_viscous;                          ///< 1: the body has a resistance; else 0
+  FlightLane resistance[kSymmetricEntries];       ///< C of the last load, in B
+  bool has_diagonal_inertia;                      ///< K, K^-1 and C of all bodies are diagonal
   bool has_loads;                                 ///< at least one body has surface loads
+  bool has_resistance;                            ///< at least one body has a resistance
   FlightLane torque_W[3], force_W[3];  ///< wrench without buoyancy and loads, about the centre of
                                        ///< mass
   FlightLane buoyancy_W[3];
@@ -106,13 +109,13 @@ struct FlightKernel {
   /// more than about 500 rad makes the rest of the way in one stride that keeps the world momenta;
   /// is_coarse is set.
   void (*flow)(FlightLanes&) noexcept;
-  /// Applies the first half of the kick by gravity, buoyancy and other forces. Sets guess_B to
-  /// load_W in B.
+  /// Applies the first half of the kick by gravity, buoyancy and other forces; to a body with a
+  /// resistance sample() and kick() do. Sets guess_B to load_W in B.
   void (*applyGravity)(FlightLanes&) noexcept;
   /// Predicts the motion in the middle of the kick from guess_B: sample_twist, sample_momentum.
   void (*sample)(FlightLanes&) noexcept;
-  /// Applies load_B over the whole kick, eq. (23), then the second half of applyGravity(). Sets
-  /// error and load_W.
+  /// Applies load_B over the whole kick, eq. (23), then the second half of applyGravity(); to a
+  /// body with a resistance all of it by eq. (122). Sets error and load_W.
   void (*kick)(FlightLanes&) noexcept;
   /// Sets `energy` to the kinetic and potential energy of the present state.
   void (*measure)(FlightLanes&) noexcept;

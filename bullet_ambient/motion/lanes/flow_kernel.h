@@ -221,7 +221,9 @@ void flow(FlightLanes& bodies, int at, const Mask& active) {
   now.motion = select(moves, scaleWithin(after, energy) * now.motion, start);
   store(bodies.orientation, at, now.orientation.u);
   store(bodies.orientation[3] + at, now.orientation.w);
-  store(bodies.way_W, at, now.way_W);
+  store(bodies.way_W[0] + at, now.way_W.x);
+  store(bodies.way_W[1] + at, now.way_W.y);
+  store(bodies.way_W[2] + at, now.way_W.z);
   store6(bodies.twist_B, at, now.motion.twist);
   store6(bodies.momentum_B, at, now.motion.momentum);
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bullet_ambient/motion/lanes/body_kernel.h"
+#include "bullet_ambient/motion/lanes/viscous_kernel.h"
 
 // Reading of BodyLanes, and steps on them, that several kernels share. For sources that are
 // compiled once per instruction set, see spatial_lanes.h.
@@ -20,21 +20,44 @@ inline Spatials externalWrench(const BodyLanes& bodies, int at, const Orientatio
       q.toBody(load(bodies.force_W, at)) + buoyancy};
 }
 
-/// Predicts the motion x after `duration` [s] from guess_B: sample_twist, sample_momentum.
+/// Bodies of a register that have a resistance.
+inline Mask viscousOf(const BodyLanes& bodies, int at) {
+  return load(bodies.is_viscous + at) > Lanes{};
+}
+
+/// Calls act(Settling or DiagonalSettling) for K and C of the bodies.
+template <class Matrices, class Act>
+auto withResistance(const BodyLanes& bodies, int at, const Act& act) {
+  const Matrices inertia(bodies.inertia, at), inverse(bodies.inverse_inertia, at),
+      resistance(bodies.resistance, at);
+  return act(settlingOf(inertia, inverse, resistance));
+}
+
+/// Predicts the motion x in the middle of a kick from guess_B: sample_twist, sample_momentum.
+/// `duration` [s]: half of the kick. Bodies with a resistance fall on the way.
 template <class Matrices>
-void sampleLoad(FlightLanes& bodies, int at, const Pairs& x, const Lanes& duration) {
+void sampleLoad(FlightLanes& bodies, int at, const Pairs& x, const Lanes& duration, bool falls) {
   const Spatials guess = load6(bodies.guess_B, at);
   const Matrices inverse(bodies.inverse_inertia, at);
-  const Pairs sample = passiveKick(x, x, {inverse * guess, guess}, duration);
+  const Pairs response{inverse * guess, guess};
+  Pairs sample = passiveKick(x, x, response, duration);
+  if (falls && bodies.has_resistance) {
+    const Pairs fall{load6(bodies.fall_twist, at), load6(bodies.fall_momentum, at)};
+    const Pairs settled = withResistance<Matrices>(bodies, at, [&](const auto& terms) {
+      return viscousSample<Lanes>(x, response, fall, terms, 2 * duration);
+    });
+    sample = select(viscousOf(bodies, at), settled, sample);
+  }
   store6(bodies.sample_twist, at, sample.twist);
   store6(bodies.sample_momentum, at, sample.momentum);
 }
 
 /// Returns the motion x after `duration` [s] under load_B, which belongs to the sampled motion; eq.
-/// (23). Sets load_W, and the error of a kick of kick_time, eq. (25).
+/// (23). Sets load_W, and the error of a kick of kick_time, eq. (25). With `falls`, bodies with a
+/// resistance meet it, and fall, on the way: eq. (122).
 template <class Matrices>
 Pairs underLoad(FlightLanes& bodies, int at, const Mask& active, const Pairs& x,
-                const Lanes& duration) {
+                const Lanes& duration, bool falls) {
   const Matrices inverse(bodies.inverse_inertia, at);
   const Spatials load_B = load6(bodies.load_B, at);
   const Spatials surprise = load_B - load6(bodies.guess_B, at);
@@ -44,7 +67,24 @@ Pairs underLoad(FlightLanes& bodies, int at, const Mask& active, const Pairs& x,
   const Spatials load_W = toWorld(orientationOf(bodies, at), load_B);
   store6(bodies.load_W, at, select(active, load_W, load6(bodies.load_W, at)));
   const Pairs sample{load6(bodies.sample_twist, at), load6(bodies.sample_momentum, at)};
-  return passiveKick(x, sample, {inverse * load_B, load_B}, duration);
+  const Pairs response{inverse * load_B, load_B};
+  const Pairs kicked = passiveKick(x, sample, response, duration);
+  if (!falls || !bodies.has_resistance) return kicked;
+  const Pairs fall{load6(bodies.fall_twist, at), load6(bodies.fall_momentum, at)};
+  const Pairs settled = withResistance<Matrices>(bodies, at, [&](const auto& terms) {
+    return viscousKick<Lanes>(x, sample, response, fall, terms, duration);
+  });
+  return select(viscousOf(bodies, at), settled, kicked);
+}
+
+/// Returns the motion x after `duration` [s] under the resistance alone.
+template <class Matrices>
+Pairs underResistance(const FlightLanes& bodies, int at, const Pairs& x, const Lanes& duration) {
+  if (!bodies.has_resistance) return x;
+  const Pairs settled = withResistance<Matrices>(bodies, at, [&](const auto& terms) {
+    return settle<Lanes>(x, noWrench<Lanes>(), terms, Lanes{}, duration);
+  });
+  return select(viscousOf(bodies, at), settled, x);
 }
 
 }  // namespace

@@ -246,6 +246,7 @@ class DiagonalMatrices {
   DiagonalMatrices(const FlightLane (&entries)[kSymmetricEntries], int at) {
     for (int i = 0; i < 6; ++i) m_[i] = load(entries[symmetricEntry(i, i)] + at);
   }
+  const Lanes& at(int i) const { return m_[i]; }
   Spatials operator*(const Spatials& a) const {
     return {{m_[0] * a.angular.x, m_[1] * a.angular.y, m_[2] * a.angular.z},
             {m_[3] * a.linear.x, m_[4] * a.linear.y, m_[5] * a.linear.z}};

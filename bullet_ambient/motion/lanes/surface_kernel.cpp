@@ -4,6 +4,7 @@
 #include "bullet_ambient/motion/lanes/passage_kernel.h"
 #include "bullet_ambient/motion/lanes/spatial_lanes.h"
 #include "bullet_ambient/motion/lanes/surface_lanes.h"
+#include "bullet_ambient/motion/lanes/viscous_kernel.h"
 #include "bullet_ambient/motion/lanes/wave_kernel.h"
 
 // Compiled once per instruction set; AMBIENT_KERNEL() adds its name to that of the kernel.
@@ -11,66 +12,6 @@
 namespace ambient {
 
 namespace {
-
-/// Factors L D L^T of symmetric 6x6 matrices K, one per lane.
-class PositiveFactor {
- public:
-  explicit PositiveFactor(const SymmetricOf<Lanes>& K) {
-    const Lanes one = all(1), zero = Lanes{};
-    Lanes scaled[6];  // a row of L D
-    for (int i = 0; i < 6; ++i) {
-      Lanes pivot = entry(K, i, i);
-      for (int j = 0; j < i; ++j) {
-        scaled[j] = entry(K, i, j);
-        for (int k = 0; k < j; ++k) scaled[j] = scaled[j] - scaled[k] * lower_[j][k];
-        lower_[i][j] = scaled[j] * per_pivot_[j];
-        pivot = pivot - scaled[j] * lower_[i][j];
-      }
-      const Mask is_fine = pivot > zero;
-      is_positive_ = i == 0 ? is_fine : is_positive_ & is_fine;
-      per_pivot_[i] = one / (is_fine ? pivot : one);
-    }
-  }
-
-  /// Returns the lanes whose matrix is positive definite. Results in other lanes are undefined.
-  Mask isPositive() const { return is_positive_; }
-
-  /// Returns K^-1 b.
-  Spatials solve(const Spatials& b) const {
-    Lanes x[6] = {b.angular.x, b.angular.y, b.angular.z, b.linear.x, b.linear.y, b.linear.z};
-    for (int i = 1; i < 6; ++i)
-      for (int j = 0; j < i; ++j) x[i] = x[i] - lower_[i][j] * x[j];
-    for (int i = 5; i >= 0; --i) {
-      x[i] = x[i] * per_pivot_[i];
-      for (int j = i + 1; j < 6; ++j) x[i] = x[i] - lower_[j][i] * x[j];
-    }
-    return {{x[0], x[1], x[2]}, {x[3], x[4], x[5]}};
-  }
-
-  /// Returns K^-1.
-  SymmetricOf<Lanes> inverse() const {
-    Lanes M[6][6];  // L^-1 below its diagonal of ones
-    for (int j = 0; j < 6; ++j)
-      for (int i = j + 1; i < 6; ++i) {
-        Lanes sum = lower_[i][j];
-        for (int k = j + 1; k < i; ++k) sum = sum + lower_[i][k] * M[k][j];
-        M[i][j] = -sum;
-      }
-    SymmetricOf<Lanes> inverse;
-    for (int j = 0; j < 6; ++j)
-      for (int i = 0; i <= j; ++i) {
-        Lanes sum = i == j ? per_pivot_[j] : M[j][i] * per_pivot_[j];
-        for (int k = j + 1; k < 6; ++k) sum = sum + M[k][i] * M[k][j] * per_pivot_[k];
-        entry(inverse, i, j) = sum;
-      }
-    return inverse;
-  }
-
- private:
-  Lanes lower_[6][6];  // L below its diagonal of ones
-  Lanes per_pivot_[6];
-  Mask is_positive_;
-};
 
 Modes modesAt(const StandLanes& stand, int at) {
   Modes modes;
@@ -85,8 +26,8 @@ void store(FlightLane (&to)[kSymmetricEntries], int at, const SymmetricOf<Lanes>
 
 void computeStand(StandLanes& stand, int at) {
   const FullMatrices inertia(stand.inertia, at);
-  store(stand.inverse, at, PositiveFactor(inertia).inverse());
-  const Mask is_fine = PositiveFactor(inertia - FullMatrices(stand.least, at)).isPositive();
+  store(stand.inverse, at, PositiveFactor<Lanes>(inertia).inverse());
+  const Mask is_fine = PositiveFactor<Lanes>(inertia - FullMatrices(stand.least, at)).isPositive();
   store(stand.is_indefinite + at, is_fine ? Lanes{} : all(1));
   Waterplanes section{load(stand.area + at), load(stand.centroid, at), {}};
   for (int i = 0; i < 6; ++i) section.spread[i] = load(stand.spread[i] + at);
@@ -156,7 +97,7 @@ void fall(SurfaceLanes& bodies, int at, const Mask& active) {
   Spatials change = FullMatrices(flight.inverse_inertia, at) * wrench;
   const Mask is_stiff = active & (load(bodies.is_stiff + at) > Lanes{});
   if (anyOf(is_stiff)) {
-    const PositiveFactor stiff(
+    const PositiveFactor<Lanes> stiff(
         stiffened(inertia, modesAt(bodies.stand, at), load(flight.kick_time + at)));
     change = select(is_stiff, stiff.solve(wrench), change);
   }
@@ -186,20 +127,24 @@ void keepLoad(SurfaceLanes& bodies, int at, const Mask& active) {
   const Spatials load_B = toBody(orientationOf(flight, at), load6(flight.load_W, at));
   const Pairs x = motionOf(flight, at);
   const Pairs response{FullMatrices(flight.inverse_inertia, at) * load_B, load_B};
-  setTwist(flight, at, active, passiveKick(x, x, response, halfKick(flight, at)).twist);
+  const Pairs kicked = passiveKick(x, x, response, halfKick(flight, at));
+  setTwist(flight, at, active,
+           underResistance<FullMatrices>(flight, at, kicked, halfKick(flight, at)).twist);
 }
 
 void predictLoad(SurfaceLanes& bodies, int at, const Mask&) {
   FlightLanes& flight = bodies.flight;
   store6(flight.guess_B, at, toBody(orientationOf(flight, at), load6(flight.load_W, at)));
-  sampleLoad<FullMatrices>(flight, at, motionOf(flight, at), halfKick(flight, at));
+  const Lanes time = halfKick(flight, at);
+  const Pairs x = underResistance<FullMatrices>(flight, at, motionOf(flight, at), time);
+  sampleLoad<FullMatrices>(flight, at, x, time, false);
 }
 
 void takeLoad(SurfaceLanes& bodies, int at, const Mask& active) {
   FlightLanes& flight = bodies.flight;
-  const Pairs x = motionOf(flight, at);
-  setTwist(flight, at, active,
-           underLoad<FullMatrices>(flight, at, active, x, halfKick(flight, at)).twist);
+  const Lanes time = halfKick(flight, at);
+  const Pairs x = underResistance<FullMatrices>(flight, at, motionOf(flight, at), time);
+  setTwist(flight, at, active, underLoad<FullMatrices>(flight, at, active, x, time, false).twist);
 }
 
 /// Returns the velocity of the water minus that of the fluid above, in B.

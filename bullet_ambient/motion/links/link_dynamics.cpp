@@ -46,6 +46,11 @@ Wrench dampingWrench(const LinkTree& tree, const Link& link, const Twist& V) {
 
 }  // namespace
 
+InertiaBlocks blocksOf(const Matrix6& matrix) {
+  return {matrixOf(matrix.topLeftCorner<3, 3>()), matrixOf(matrix.topRightCorner<3, 3>()),
+          matrixOf(matrix.bottomRightCorner<3, 3>())};
+}
+
 LinkDynamics::LinkDynamics(const LinkTree& tree) : tree_(tree), kernel_(*kLinkKernels.fastest()) {
   checkTree(tree);
   coordinates_ = coordinateCount(tree);
@@ -92,10 +97,8 @@ void LinkDynamics::takeModel(const Link& link, LinkState& state) noexcept {
   Wrench applied = s.applied;
   if (link.model) {
     const BodyModel& model = *link.model;
-    const auto coupling = model.inertia.topRightCorner<3, 3>();
-    state.inertia = {matrixOf(model.inertia.topLeftCorner<3, 3>()), matrixOf(coupling),
-                     matrixOf(model.inertia.bottomRightCorner<3, 3>())};
-    state.coupling_transposed = matrixOf(coupling.transpose());
+    state.inertia = blocksOf(model.inertia);
+    state.coupling_transposed = matrixOf(model.inertia.bottomLeftCorner<3, 3>());
     applied.force -= model.mass * s.ambient_acceleration;
     state.buoyancy_W = rowOf(-model.displaced_mass * (s.gravity - s.ambient_acceleration));
     state.centre_of_volume = rowOf(model.centre_of_volume);
@@ -132,10 +135,11 @@ Wrench LinkDynamics::appliedWrench(int link) const noexcept {
   return {applied.torque + R * damping.torque, applied.force + R * damping.force};
 }
 
-bool LinkDynamics::factor(const std::vector<double>* drag) noexcept {
+bool LinkDynamics::factor(const std::vector<double>* drag,
+                          const std::vector<InertiaBlocks>* resistance) noexcept {
   AMBIENT_ASSERT(!drag || drag->size() == links_.size());
-  const bool is_positive =
-      kernel_.articulate(links_.data(), count(), drag ? drag->data() : nullptr);
+  const bool is_positive = kernel_.articulate(links_.data(), count(), drag ? drag->data() : nullptr,
+                                              resistance ? resistance->data() : nullptr);
   if (links_[0].is_kept) return is_positive;
   base_ = factorsOf(links_[0].articulated);
   return is_positive && base_.isPositive();

@@ -10,6 +10,9 @@ namespace ambient {
 inline Vector3 vectorOf(const AxisRow& a) { return {a.at[0], a.at[1], a.at[2]}; }
 inline Wrench wrenchOf(const AxisPair& f) { return {vectorOf(f.angular), vectorOf(f.linear)}; }
 
+/// Blocks of a symmetric matrix.
+InertiaBlocks blocksOf(const Matrix6& matrix);
+
 /// Equations of motion of a tree at one pose, docs/theory.md eq. (76) to (79):
 ///
 ///   H(q) du/dt = rhs(q, u),   H = sum over links J_l^T K_l J_l,   V_l = J_l u
@@ -46,8 +49,10 @@ class LinkDynamics {
 
   /// Factors H by articulated inertias, eq. (79), for accelerations and responses. Returns false if
   /// H is not positive definite or not finite. Cost: O(links). With a `drag_l` >= 0 for each link
-  /// [1], factors M = sum (1 + drag_l) J_l^T K_l J_l of eq. (81) in place of H.
-  bool factor(const std::vector<double>* drag = nullptr) noexcept;
+  /// [1], and perhaps a matrix C_l, factors M = sum J_l^T ((1 + drag_l) K_l + C_l) J_l of eq. (81)
+  /// and (123) in place of H.
+  bool factor(const std::vector<double>* drag = nullptr,
+              const std::vector<InertiaBlocks>* resistance = nullptr) noexcept;
 
   /// Returns an estimate of normSquared() from diagonals of the factor, within its order of
   /// magnitude, at almost no cost [J]. @pre factor()

@@ -302,11 +302,16 @@ bool takeOutJoint(LinkState& link, InertiaBlocks& I) {
   return is_positive;
 }
 
-bool articulate(LinkState* links, int count, const double* drag) noexcept {
+bool articulate(LinkState* links, int count, const double* drag,
+                const InertiaBlocks* resistance) noexcept {
   for (int l = 0; l < count; ++l) {
     const InertiaBlocks& K = links[l].inertia;
+    InertiaBlocks& M = links[l].articulated;
     const double s = drag ? 1 + drag[l] : 1;
-    links[l].articulated = {s * K.rotation, s * K.coupling, s * K.translation};
+    M = {s * K.rotation, s * K.coupling, s * K.translation};
+    if (!resistance) continue;
+    const InertiaBlocks& C = resistance[l];
+    M = {M.rotation + C.rotation, M.coupling + C.coupling, M.translation + C.translation};
   }
   bool is_positive = true;
   for (int l = count - 1; l > 0; --l) {

@@ -11,11 +11,11 @@ namespace {
 
 bool isLoaded(const Link& link) { return link.model && link.model->loads; }
 
-Wrench evaluate(const Link& link, const Twist& relative_twist, FlightCount& count) {
+SurfaceLoad evaluate(const Link& link, const Twist& relative_twist, FlightCount& count) {
   const SurfaceLoad load = computeSurfaceLoad(*link.model, relative_twist, link.surroundings);
   ++count.load_evaluations;
   count.guarded += load.guarded;
-  return load.wrench;
+  return load;
 }
 
 }  // namespace
@@ -27,6 +27,7 @@ LinkKick::LinkKick(const LinkTree& tree)
       drag_impulses_(tree.size()),
       lift_impulses_(tree.size()),
       surprises_(tree.size()),
+      resistances_(tree.size()),
       change_(coordinateCount(tree)),
       flow_(coordinateCount(tree)) {}
 
@@ -46,18 +47,25 @@ void LinkKick::sampleAll(LinkDynamics& dynamics, const CoordinatesIn& u,
                          const LoadOn& load_on) noexcept {
   dynamics.setVelocity(u);
   dynamics.measure();
+  has_resistance_ = false;
   for (int l = 0; l < tree_.size(); ++l) {
     Sample& sample = samples_[l];
     const Sample last = sample;
     sample = {};
     if (!isLoaded(tree_.links[l])) continue;
     const Twist y = dynamics.relativeTwist(l);
-    const Wrench load = load_on(l, y);
+    const SurfaceLoad found = load_on(l, y);
+    const Wrench& load = found.wrench;
+    const bool is_viscous = tree_.links[l].model->resistance && found.growth.translation > 0;
+    if (is_viscous) sample.growth = found.growth;
+    has_resistance_ = has_resistance_ || is_viscous;
     const Wrench momentum = dynamics.relativeMomentum(l);
     const double energy = dynamics.relativeEnergy(l);
     if (!(energy > 0)) continue;
     const double along = power(load, y) / energy;
-    sample = {std::max(0.0, -along), std::sqrt(energy), load + -along * momentum, load};
+    sample = {std::max(0.0, -along), std::sqrt(energy), load + -along * momentum, load,
+              sample.growth};
+    if (is_viscous) sample.settling = y.vector().dot(resistanceOf(l) * y.vector()) / energy;
     surprises_[l] = load;
     surprises_[l] -= last.at(momentum, sample.speed);
   }
@@ -76,7 +84,7 @@ FlightCount LinkKick::sampleForRows(LinkDynamics& dynamics, const CoordinatesIn&
     const Link& link = tree_.links[l];
     if (!isLoaded(link) || !turnsWithFluid(link.surroundings)) continue;
     const Wrench load = samples_[l].load;
-    samples_[l] = {};
+    samples_[l] = {0, 0, {}, {}, samples_[l].growth, samples_[l].settling};
     samples_[l].load = meanLoadInTurningFluid({*link.model, link.surroundings, {}, h}, *link.model,
                                               dynamics.relativeTwist(l), load);
   }
@@ -85,11 +93,12 @@ FlightCount LinkKick::sampleForRows(LinkDynamics& dynamics, const CoordinatesIn&
 
 FlightCount LinkKick::recall(LinkDynamics& dynamics, const CoordinatesIn& u) noexcept {
   FlightCount count;
-  sampleAll(dynamics, u, [&](int l, const Twist& y) -> Wrench {
+  sampleAll(dynamics, u, [&](int l, const Twist& y) -> SurfaceLoad {
     const FlightMemory* memory = tree_.links[l].memory;
     if (!memory || !memory->has_load) return evaluate(tree_.links[l], y, count);
     const Matrix3 to_link = dynamics.rotation(l).transpose();
-    return {to_link * memory->load_W.torque, to_link * memory->load_W.force};
+    return {
+        {to_link * memory->load_W.torque, to_link * memory->load_W.force}, false, memory->growth};
   });
   return count;
 }
@@ -101,6 +110,7 @@ void LinkKick::remember(const LinkDynamics& dynamics) const noexcept {
     const Matrix3 R = dynamics.rotation(l);
     const Wrench& load = samples_[l].load;
     link.memory->load_W = {R * load.torque, R * load.force};
+    link.memory->growth = samples_[l].growth;
     link.memory->has_load = true;
   }
 }
@@ -121,6 +131,19 @@ double LinkKick::error(LinkDynamics& dynamics, double h) noexcept {
   return motion > 0 ? h * std::sqrt(dynamics.normSquared(change_) / motion) : 0;
 }
 
+Matrix6 LinkKick::resistanceOf(int link) const noexcept {
+  return tree_.links[link].model->resistance->grown(samples_[link].growth);
+}
+
+void LinkKick::resist(const LinkDynamics& dynamics, int link, double h) noexcept {
+  if (!has_resistance_) return;
+  resistances_[link] = {};
+  if (!(samples_[link].growth.translation > 0)) return;
+  const Matrix6 C = h * resistanceOf(link);
+  resistances_[link] = blocksOf(C);
+  drag_impulses_[link] -= Wrench::fromVector(C * dynamics.relativeTwist(link).vector());
+}
+
 void LinkKick::kick(LinkDynamics& dynamics, double h, CoordinatesOut u) noexcept {
   AMBIENT_ASSERT(h > 0 && u.size() == change_.size());
   dynamics.setVelocity(u);
@@ -130,14 +153,16 @@ void LinkKick::kick(LinkDynamics& dynamics, double h, CoordinatesOut u) noexcept
     drags_[l] = 0;
     drag_impulses_[l] = h * sample.load;
     lift_impulses_[l] = {};
-    if (!(sample.speed > 0)) continue;
-    const Wrench momentum = dynamics.relativeMomentum(l);
-    const double ratio = std::sqrt(dynamics.relativeEnergy(l)) / sample.speed;
-    drags_[l] = h * ratio * sample.drag;
-    drag_impulses_[l] = -drags_[l] * momentum;
-    lift_impulses_[l] = h * ratio * ratio * sample.lift;
+    if (sample.speed > 0) {
+      const Wrench momentum = dynamics.relativeMomentum(l);
+      const double ratio = std::sqrt(dynamics.relativeEnergy(l)) / sample.speed;
+      drags_[l] = h * ratio * sample.drag;
+      drag_impulses_[l] = -drags_[l] * momentum;
+      lift_impulses_[l] = h * ratio * ratio * sample.lift;
+    }
+    resist(dynamics, l, h);
   }
-  dynamics.factor(&drags_);
+  dynamics.factor(&drags_, has_resistance_ ? &resistances_ : nullptr);
   dynamics.respond(drag_impulses_, change_);
   u += change_;
   applyLift(dynamics, u);
@@ -152,7 +177,8 @@ void LinkKick::foresee(LinkDynamics& dynamics, double h, CoordinatesOut u) noexc
     drag_impulses_[l] = {};
     if (!(sample.speed > 0)) continue;
     const double ratio = std::sqrt(dynamics.relativeEnergy(l)) / sample.speed;
-    const double drag = h * ratio * sample.drag, left = 1 / (1 + drag), speed = ratio * left;
+    const double drag = h * (ratio * sample.drag + sample.settling), left = 1 / (1 + drag),
+                 speed = ratio * left;
     drag_impulses_[l] =
         -drag * left * dynamics.relativeMomentum(l) + h * speed * speed * sample.lift;
   }

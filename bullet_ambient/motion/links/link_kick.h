@@ -6,8 +6,9 @@
 
 namespace ambient {
 
-/// Kicks a tree by the surface loads on its links, docs/theory.md eq. (81): drag implicit, link by
-/// link; lift explicit, without work. Only the constructor allocates.
+/// Kicks a tree by the surface loads on its links, docs/theory.md eq. (81) and (123): drag
+/// implicit, link by link, and so is resistance; lift explicit, without work. Only the constructor
+/// allocates.
 class LinkKick {
  public:
   explicit LinkKick(const LinkTree& tree);
@@ -44,10 +45,12 @@ class LinkKick {
  private:
   /// Load of a link at its twist y relative to the flow, in its frame: -drag K y + lift.
   struct Sample {
-    double drag = 0;   ///< [1/s], >= 0
-    double speed = 0;  ///< |y| in the norm of K [sqrt(J)]
-    Wrench lift;       ///< part of the load without power at y
-    Wrench load;       ///< speed 0: whatever the twist
+    double drag = 0;      ///< [1/s], >= 0
+    double speed = 0;     ///< |y| in the norm of K [sqrt(J)]
+    Wrench lift;          ///< part of the load without power at y
+    Wrench load;          ///< speed 0: whatever the twist
+    Growth growth;        ///< of the resistance C
+    double settling = 0;  ///< y.C y over y.K y, without resistance 0 [1/s]
 
     /// Returns the load at another twist y' with momentum K y' and speed |y'|.
     Wrench at(const Wrench& momentum, double its_speed) const;
@@ -56,11 +59,16 @@ class LinkKick {
   template <class LoadOn>
   void sampleAll(LinkDynamics& dynamics, const CoordinatesIn& u, const LoadOn& load_on) noexcept;
   void applyLift(LinkDynamics& dynamics, CoordinatesOut u) noexcept;
+  Matrix6 resistanceOf(int link) const noexcept;
+  /// Adds the resistance of a link over h [s] to its impulse and to the matrix of the kick.
+  void resist(const LinkDynamics& dynamics, int link, double h) noexcept;
 
   const LinkTree& tree_;
   std::vector<Sample> samples_;
   std::vector<double> drags_;
   std::vector<Wrench> drag_impulses_, lift_impulses_, surprises_;
+  std::vector<InertiaBlocks> resistances_;  ///< h C of the links
+  bool has_resistance_ = false;             ///< a link of the last sample has one
   Coordinates change_, flow_;
 };
 

@@ -5,7 +5,7 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/motion/body/body_model.h"
 #include "bullet_ambient/motion/body/one_body.h"
-#include "bullet_ambient/motion/lanes/body_kernel.h"
+#include "bullet_ambient/motion/lanes/viscous_kernel.h"
 #include "bullet_ambient/spatial/cholesky.h"
 #include "bullet_ambient/spatial/inertia.h"
 
@@ -110,6 +110,15 @@ RowVelocity computeLockedVelocity(const FlightTask& task, const RigidState& star
       const PairsOf<double> sample =
           plain(pairOfTwist(model, model.inverse_inertia * load.wrench.vector()));
       forced += (asEigen(passiveKick(motion, motion, sample, dt).twist) - x) / dt;
+    }
+    if (model.resistance && load.growth.translation > 0) {
+      const SymmetricOf<double> K = plain(task.model.inertia);
+      const SymmetricOf<double> inverse = plain(task.model.inverse_inertia);
+      const SymmetricOf<double> C = plain(model.resistance->grown(load.growth));
+      const Settling<double> terms(K, inverse, C);
+      const PairsOf<double> motion = plain(pairOfTwist(model, x));
+      const Vector6 settled = asEigen((settle<double>(motion, noWrench<double>(), terms, 0, dt) - motion).momentum);
+      forced += model.inverse_inertia * settled / dt;
     }
   }
   const LockedRates rates(model.inertia, model.inverse_inertia, forced);

@@ -56,9 +56,11 @@ FlightCount setStart(const FlightTask& task, const RigidState& start, int lane,
   setLane(lanes.orientation, lane, start.orientation);
   setLane(lanes.twist_B, lane, relative);
   setLane(lanes.load_B, lane, Wrench{});
+  setResistance(lanes, lane, nullptr, {});
   FlightCount count;
   if (!task.model.loads) return count;
   const SurfaceLoad load = computeSurfaceLoad(task.model, relative, s);
+  setResistance(lanes, lane, task.model.resistance.get(), load.growth);
   if (turnsWithFluid(s)) {
     const Wrench mean = meanLoadInTurningFluid(task, task.model, relative, load.wrench);
     Surroundings with = s;

@@ -28,6 +28,7 @@ struct Progress {
   int made = 0;                   ///< number of them that are made
   bool is_done = false;           ///< an attempt was accepted
   bool has_load = false;          ///< flight.load_W holds a load
+  Growth growth;                  ///< of the resistance with it
   bool has_gained = false;        ///< more energy of place than it had in all
   double rounding = 0;            ///< energy at the start less that at the stand [J]
   double swing = 0;               ///< the largest natural frequency that was met [1/s]
@@ -58,7 +59,7 @@ class SurfaceFlights {
   SurfaceFlights(SurfaceFlight* const* flights, int count)
       : kernel_(*kSurfaceKernels.fastest()), flow_(*kFlightKernels.fastest()), count_(count) {
     AMBIENT_ASSERT(count > 0 && count <= kFlightLanes);
-    lanes_.flight.has_diagonal_inertia = false;
+    lanes_.flight.has_diagonal_inertia = lanes_.flight.has_resistance = false;
     for (int i = 0; i < count; ++i) begin(i, *flights[i]);
   }
 
@@ -108,6 +109,8 @@ class SurfaceFlights {
     setLane(lanes_.wind_W, i, p.wind_W);
     AMBIENT_ASSERT(task.duration > 0 && isUnit(task.plane_W.normal));
     has_loads_below_ = has_loads_below_ || task.model.loads_below.loads;
+    lanes_.flight.has_resistance =
+        lanes_.flight.has_resistance || task.model.loads_below.resistance;
     has_loads_above_ = has_loads_above_ || task.model.loads_above.loads;
     p.most = task.settings.max_substeps > 0 ? task.settings.max_substeps : kSurfaceSubsteps;
     p.swing = flight.stand.swing;
@@ -134,6 +137,7 @@ class SurfaceFlights {
     const FlightMemory& memory = flight.body.memory;
     p.has_load = memory.has_load && p.model().loads_below.loads;
     setLane(lanes_.flight.load_W, i, p.has_load ? memory.load_W : Wrench{});
+    setGrowth(i, p.has_load ? memory.growth : kCreeping);
     lanes_.flight.is_coarse[i] = lanes_.flight.energy_removed[i] = 0;
     p.error = p.energy_removed = 0;
     p.has_gained = false;
@@ -239,10 +243,16 @@ class SurfaceFlights {
     if (has_loads_below_) takeLoads();
   }
 
+  void setGrowth(int i, const Growth& growth) {
+    progress_[i].growth = growth;
+    setResistance(lanes_.flight, i, progress_[i].model().loads_below.resistance.get(), growth);
+  }
+
   Wrench loadAt(int i, const Twist& x) {
     Progress& p = progress_[i];
     const Surroundings& s = p.flight->task.surroundings;
     const SurfaceLoad load = loadBelow(p.model(), *p.place, x, {s.load_share, s.flow});
+    setGrowth(i, load.growth);
     ++p.count.load_evaluations;
     p.count.guarded += load.guarded;
     return load.wrench;
@@ -357,7 +367,7 @@ class SurfaceFlights {
     p.count.energy_removed = p.energy_removed + lanes_.flight.energy_removed[i];
     FlightResult& body = flight.body;
     body.count = p.count;
-    body.memory = {wrenchOf(lanes_.flight.load_W, i), p.has_load, next_substep};
+    body.memory = {wrenchOf(lanes_.flight.load_W, i), p.growth, p.has_load, next_substep};
     body.state = stateOf(lanes_.flight, i, p.start.position);
     body.state.position += t * s.ambient_velocity + t * t / 2 * s.ambient_acceleration;
     body.state.twist.linear +=

@@ -20,8 +20,9 @@ struct SurfaceModelDef {
 
 /// Loads of one fluid on the part of the body in it.
 struct PartLoads {
-  std::shared_ptr<const SurfaceLoads> loads;  ///< null: there are none
-  FrameOffset frame;                          ///< pose in B of the frame of the loads
+  std::shared_ptr<const SurfaceLoads> loads;     ///< null: there are none
+  FrameOffset frame;                             ///< pose in B of the frame of the loads
+  std::shared_ptr<const Resistance> resistance;  ///< of the loads, in B; null: none
 };
 
 /// Parameters of the motion of one body near a water surface; constant between changes of body or

@@ -11,17 +11,6 @@
 #include "bullet_ambient/spatial/inertia.h"
 
 namespace ambient {
-namespace {
-
-Wrench loadOn(const PartLoads& part, const SurfacePlane& plane_B, double share, const Twist& x) {
-  const FrameOffset& frame = part.frame;
-  AMBIENT_ASSERT(part.loads);
-  if (frame.isIdentity()) return part.loads->wetLoad(x, {plane_B, share});
-  return frame.toB(part.loads->wetLoad(frame.toF(x), {seenFrom(plane_B, frame), share}));
-}
-
-}  // namespace
-
 SurfacePlace placeAt(const SurfaceModel& model, const SurfacePlane& plane_B) noexcept {
   SurfacePlace place;
   place.plane = plane_B;
@@ -110,11 +99,16 @@ BoundedTwist passSurface(const SurfaceMove& move, const Vector6& x) noexcept {
 SurfaceLoad loadBelow(const SurfaceModel& model, const SurfacePlace& place, const Twist& x,
                       const LoadTerms& terms) noexcept {
   const double wet = wetShare(place.immersion_F, model.shape->volume);
-  return loadAlong(terms.flow, x, [&](const Twist& at_station) -> SurfaceLoad {
-    const Wrench wrench = terms.share * loadOn(model.loads_below, place.plane, wet, at_station);
-    if (!model.loads_below.loads->needsGuard()) return {wrench, false};
-    return removePositivePower(wrench, at_station, place.inertia.full());
-  });
+  const PartLoads& below = model.loads_below;
+  AMBIENT_ASSERT(below.loads);
+  const WetPart part{seenFrom(place.plane, below.frame), wet};
+  return loadAlong(terms.flow, x, below.resistance.get(),
+                   [&](const Twist& at_station) -> SurfaceLoad {
+                     const SplitLoad split = below.loads->split(below.frame.toF(at_station), &part);
+                     const Wrench wrench = terms.share * below.frame.toB(split.wrench);
+                     if (!below.loads->needsGuard()) return {wrench, false, split.growth};
+                     return removePositivePower(wrench, at_station, place.inertia.full());
+                   });
 }
 
 Wrench frictionBelow(const SurfaceModel& model, const SurfacePlace& place,
@@ -127,7 +121,10 @@ Wrench frictionBelow(const SurfaceModel& model, const SurfacePlace& place,
 
 Wrench loadAbove(const SurfaceModel& model, const SurfacePlace& place, const Twist& x) noexcept {
   const double share = 1 - wetShare(place.immersion_F, model.shape->volume);
-  return loadOn(model.loads_above, place.plane.flipped(), share, x);
+  const PartLoads& above = model.loads_above;
+  AMBIENT_ASSERT(above.loads);
+  const WetPart dry{seenFrom(place.plane.flipped(), above.frame), share};
+  return above.frame.toB(above.loads->wetLoad(above.frame.toF(x), dry));
 }
 
 Vector6 takeWind(const WindKick& kick, const Vector6& x) noexcept {
