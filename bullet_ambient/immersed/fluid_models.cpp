@@ -137,8 +137,8 @@ Key keyOf(const AttachDef& def) {
   Key key;
   key.reserve(64);
   append(key, FluidKind(def.medium));
-  append(key, def.follow_regions, def.wave_damping, flow.separation_angle, flow.skin_friction,
-         flow.precision, flow.maximum_load_error, flow.law, flow.stall_lag);
+  append(key, def.follow_regions, def.wave_damping, flow.separation_angle, flow.roughness,
+         flow.skin_friction, flow.precision, flow.maximum_load_error, flow.law, flow.stall_lag);
   for (int axis = 0; axis < 3; ++axis) append(key, Vector3(def.fluid_frame.rotation.row(axis)));
   append(key, def.fluid_frame.translation);
   return key;

@@ -163,6 +163,7 @@ std::string FluidPlugin::setSettings(const Command& command) {
   if (fluid_ && fluid_->hasBodies())
     command.fail("comes too late: bodies are in the fluid; give it before the first step");
   flow_.law = lawOr(command.values, flow_.law);
+  flow_.roughness = command.values.value("roughness", flow_.roughness);
   flow_.separation_angle = command.values.value("separation", flow_.separation_angle);
   const std::string folder = command.values.value("folder", folder_);
   if (folder != folder_) shapes_.reset();

@@ -52,6 +52,7 @@ FlowSettings flowFrom(const py::object& settings) {
   if (!law) throw std::invalid_argument("law is \"" + word + "\"; must be form or published");
   flow.law = *law;
   flow.separation_angle = settings.attr("separation_angle").cast<double>();
+  flow.roughness = settings.attr("roughness").cast<double>();
   flow.skin_friction = settings.attr("skin_friction").cast<bool>();
   flow.maximum_load_error = settings.attr("maximum_load_error").cast<double>();
   flow.stall_lag = settings.attr("stall_lag").cast<double>();

@@ -175,6 +175,7 @@ BodyDef toBody(const json& from, const Scene& scene, const std::filesystem::path
   readMassProperties(from, body);
   readMotion(from, body);
   flow.separation_angle = from.value("separation_angle", kPi / 2);
+  flow.roughness = from.value("roughness", flow.roughness);
   flow.stall_lag = from.value("stall_lag", flow.stall_lag);
   flow.skin_friction = from.value("skin_friction", true);
   flow.maximum_load_error = from.value("maximum_load_error", flow.maximum_load_error);

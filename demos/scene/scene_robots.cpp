@@ -58,6 +58,7 @@ std::optional<Medium> namedMedium(const std::string& name) {
 void readFlow(const json& from, PressureLaw law, FlowSettings& flow) {
   flow.law = lawOr(from, law);
   flow.separation_angle = from.value("separation_angle", flow.separation_angle);
+  flow.roughness = from.value("roughness", flow.roughness);
   flow.skin_friction = from.value("skin_friction", flow.skin_friction);
 }
 

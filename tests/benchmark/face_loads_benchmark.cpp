@@ -5,8 +5,8 @@
 #include "bullet_ambient/fluid_body/packed/packed_faces.h"
 #include "bullet_ambient/force/kernels/single_sums.h"
 #include "bullet_ambient/force/law/skin_friction.h"
+#include "bullet_ambient/force/law/viscous_law.h"
 #include "bullet_ambient/force/loads/face_loads.h"
-#include "bullet_ambient/force/loads/sphere_loads.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/mesh/shapes/primitives.h"
@@ -112,21 +112,14 @@ BENCHMARK_CAPTURE(boxLoads, friction, true, PressureLaw::kPublished);
 BENCHMARK_CAPTURE(boxLoads, form_pressure, false, PressureLaw::kForm);
 BENCHMARK_CAPTURE(boxLoads, form_friction, true, PressureLaw::kForm);
 
-void sphereLoads(benchmark::State& state, bool friction, double angle) {
-  const LoadSettings settings{1.204, 1.82e-5, separationCosine(angle * kRightAngle), friction};
-  const auto table = needsSphereTable(settings)
-                         ? std::make_unique<SphereTable>(settings.separation_cosine)
-                         : nullptr;
+void ballLoads(benchmark::State& state) {
   Twist twist = someTwist();
   for (auto _ : state) {
     benchmark::DoNotOptimize(twist);
-    benchmark::DoNotOptimize(computeSphereLoads(table.get(), 0.5, 1, twist, settings));
+    benchmark::DoNotOptimize(computeBallLoad(0.5, {1.204, 1.82e-5, 0}, twist));
   }
 }
-BENCHMARK_CAPTURE(sphereLoads, pressure, false, 1.0);
-BENCHMARK_CAPTURE(sphereLoads, friction, true, 1.0);
-BENCHMARK_CAPTURE(sphereLoads, pressure_1_5, false, 1.5);
-BENCHMARK_CAPTURE(sphereLoads, friction_1_5, true, 1.5);
+BENCHMARK(ballLoads);
 
 void fifthRoot(benchmark::State& state) {
   double x = 1.7;

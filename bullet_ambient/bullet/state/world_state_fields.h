@@ -81,7 +81,7 @@ template <class V>
 void fields(V& v, AttachDef& s) {
   v.fluidBody(s.fluid_body);
   fields(v, s.medium);
-  each(v, kAny, s.follow_regions, s.wave_damping, s.flow.separation_angle);
+  each(v, kAny, s.follow_regions, s.wave_damping, s.flow.separation_angle, s.flow.roughness);
   v.choice(s.flow.law, kPressureLawNames);
   each(v, kAny, s.flow.skin_friction, s.flow.stall_lag);
   v.choice(s.flow.precision, kLoadPrecisionNames);

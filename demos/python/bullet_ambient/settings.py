@@ -57,13 +57,15 @@ class Medium:
 class FlowSettings:
     """Settings of the flow along the surface of a body.
 
-    separation_angle : from pi/2 (default) to pi [rad]; larger: flow stays attached longer
-    skin_friction : False: no skin friction
+    roughness : height of the roughness of the surface with the law "form" [m]; default 0, smooth
+    separation_angle : from pi/2 (default) to pi [rad], with the law "published"; larger: flow stays attached longer
+    skin_friction : False: no friction and no resistance of the viscosity
     law : of the pressure: "form" (default) or "published"
     maximum_load_error : largest relative error of reduced loads, from 0 (sums all faces) to 1; default 0.01
     stall_lag : time by which stall lags with the law "form", in body lengths over speed; 0: none
     """
 
+    roughness: float = 0.0
     separation_angle: float = np.pi / 2
     skin_friction: bool = True
     law: str = "form"

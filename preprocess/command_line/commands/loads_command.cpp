@@ -21,6 +21,7 @@ struct LoadsArguments {
   std::array<double, 6> twist{};      // relative to the fluid, angular velocity first
   double density = 0, viscosity = 0;  // [kg/m^3], [Pa s]
   double separation_angle = kPi / 2;  // [rad]
+  double roughness = 0;  // [m]
   std::string law = "form";
   bool no_friction = false, json = false;
 };
@@ -34,6 +35,8 @@ Medium mediumOf(const LoadsArguments& arguments) {
 FlowSettings flowOf(const LoadsArguments& arguments) {
   FlowSettings flow;
   flow.separation_angle = separationAngleOf(arguments.separation_angle);
+  requireNotNegative("--roughness", arguments.roughness);
+  flow.roughness = arguments.roughness;
   flow.law = lawOf(arguments.law);
   flow.skin_friction = !arguments.no_friction;
   return flow;

@@ -21,6 +21,7 @@ struct PolarArguments {
   std::string file, attack = "-90:90:5", side_slip = "0", forward = "x", up = "z";
   double density = 1, speed = 1, viscosity = 0;  // [kg/m^3], [m/s], [Pa s]
   double separation_angle = kPi / 2;             // [rad]
+  double roughness = 0;  // [m]
   std::string law = "form";
   double reference_area = 0, reference_length = 0;  // [m^2], [m]; 0: those of the body
 };
@@ -85,6 +86,8 @@ void runPolar(const PolarArguments& arguments) {
   checkNumbers(arguments);
   FlowSettings flow;
   flow.separation_angle = separationAngleOf(arguments.separation_angle);
+  requireNotNegative("--roughness", arguments.roughness);
+  flow.roughness = arguments.roughness;
   flow.law = lawOf(arguments.law);
   const Medium medium{arguments.density, arguments.viscosity, Vector3::Zero(), Vector3::Zero()};
   const FluidBody body = readPrepared(arguments.file);
@@ -137,8 +140,10 @@ void addPolar(CLI::App& app) {
             "[m/s] (default 1); matters with viscosity only");
   addOption(command, "--viscosity", arguments->viscosity, "MU",
             "Dynamic viscosity [Pa s] (default 0: no friction)");
+  addOption(command, "--roughness", arguments->roughness, "K",
+            "Height of the roughness of the surface [m] (default 0: smooth)");
   addOption(command, "--separation-angle", arguments->separation_angle, "RAD",
-            "From pi/2 (default) to pi");
+            "From pi/2 (default) to pi, of the published law");
   addLaw(command, arguments->law);
   addOption(command, "--reference-area", arguments->reference_area, "A",
             "[m^2] (default: half the area projected along --up)");

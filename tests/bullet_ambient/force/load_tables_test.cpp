@@ -6,7 +6,6 @@
 #include <thread>
 #include <vector>
 
-#include "bullet_ambient/force/loads/sphere_loads.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "bullet_ambient/force/surface/make_wetted_inertia.h"
 #include "preprocess/base/surface_form.h"
@@ -117,15 +116,6 @@ TEST(LoadTables, PackTheSharpnessForTheFormLawOnly) {
   EXPECT_EQ(tables.packedFaces({body, &body->faces}, nullptr)->blocks().form, nullptr);
   EXPECT_NE(tables.packedFaces({body, &body->form.faces}, tables.shape().get())->blocks().form,
             nullptr);
-}
-
-TEST(SharedSphereTable, IsKeptUnusedUntilTheNextIsMade) {
-  const std::weak_ptr<const SphereTable> first = sharedSphereTable(0);
-  EXPECT_EQ(sharedSphereTable(0), first.lock());
-  const auto used = sharedSphereTable(-0.5);
-  EXPECT_TRUE(first.expired());
-  EXPECT_NE(sharedSphereTable(-0.6), used);
-  EXPECT_EQ(sharedSphereTable(-0.5), used);
 }
 
 }  // namespace
