@@ -44,6 +44,7 @@ const char* sentenceOf(Complaint complaint) {
     case Complaint::kRegion:  // these name the region or the body
     case Complaint::kInertia:
     case Complaint::kEmpty:
+    case Complaint::kAngle:
     case Complaint::kLight:
     case Complaint::kSwing:
     case Complaint::kTooLong:

@@ -27,6 +27,7 @@ enum class Complaint {
   kRungeKutta,
   kInertia,
   kEmpty,
+  kAngle,
   kLight,
   kSwing,
   kTooLong,

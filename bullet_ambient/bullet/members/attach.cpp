@@ -138,8 +138,8 @@ std::vector<FixedLink> carriedBy(const btMultiBody& body, int carrier) {
 
 namespace {
 
-// Reports mass and shape that can be computed with, but were hardly meant.
-void warnOfSuspiciousMass(const AmbientBody& ambient, Complaints& complaints) {
+// Reports mass, shape and settings that can be computed with, but were hardly meant.
+void warnOfDoubts(const AmbientBody& ambient, Complaints& complaints) {
   constexpr double kRounding = 1e-3;
   const FluidBody& shape = *ambient.def->fluid_body;
   const std::string who = "bullet_ambient: " + nameOf(*ambient.def) + ' ';
@@ -150,6 +150,14 @@ void warnOfSuspiciousMass(const AmbientBody& ambient, Complaints& complaints) {
                              std::to_string(largest) + " kg m^2, but no rigid body has one above " +
                              std::to_string(others) + " kg m^2, the sum of the other two";
     complaints.say(Complaint::kInertia, text.c_str());
+  }
+  const FlowSettings& flow = ambient.def->flow;
+  if (flow.law == PressureLaw::kForm && flow.separation_angle != FlowSettings{}.separation_angle) {
+    const std::string text =
+        who +
+        "has a separation angle, which the form law does not read: where the "
+        "flow leaves a body follows from its shape and FlowSettings::roughness";
+    complaints.say(Complaint::kAngle, text.c_str());
   }
   if (ambient.isInFluid() && !ambient.model().loads && !(shape.volume > 0) &&
       shape.added_mass.isZero(0)) {
@@ -198,7 +206,7 @@ AmbientBody& attachBody(AmbientBodies& bodies, btRigidBody& body, AttachDef def)
   ambient.body = &body;
   immerse(ambient, who, std::move(def), inverseMassOf(body), motionOf(body), bodies);
   if (ambient.isInFluid()) body.activate();
-  warnOfSuspiciousMass(ambient, bodies.complaints);
+  warnOfDoubts(ambient, bodies.complaints);
   return bodies.insert(std::move(ambient));
 }
 
