@@ -33,6 +33,39 @@ std::array<Number*, FormShape::kNumbers> numbersOf(Shape& shape) {
   return all;
 }
 
+template <class Number, class Form>
+std::array<Number*, ViscousForm::kNumbers> viscousNumbersOf(Form& form) {
+  std::array<Number*, ViscousForm::kNumbers> all;
+  std::size_t at = 0;
+  const auto add = [&](auto& matrix) {
+    for (Eigen::Index i = 0; i < matrix.size(); ++i) all[at++] = matrix.data() + i;
+  };
+  add(form.resistance);
+  add(form.centre_of_reaction);
+  add(form.separation.axes);
+  for (auto& way : form.separation.ways)
+    for (Number* number :
+         {&way.wake_laminar, &way.wake_bubble, &way.wake_turbulent, &way.wake_rough, &way.thickness,
+          &way.friction_laminar, &way.friction_bubble, &way.friction_turbulent})
+      all[at++] = number;
+  add(form.separation.smooth_base);
+  all[at++] = &form.surface.diameter;
+  add(form.surface.frontal);
+  add(form.surface.moments);
+  add(form.surface.gyration);
+  all[at] = &form.sharp_share;
+  return all;
+}
+
+void scale(ViscousForm& form, double factor) {
+  form.resistance = scaleResistance(form.resistance, factor);
+  form.centre_of_reaction *= factor;
+  form.surface.diameter *= factor;
+  form.surface.frontal *= factor * factor;
+  form.surface.moments *= factor * factor;
+  form.surface.gyration *= factor * factor;
+}
+
 // The mass stays 1 kg, so that the inertia grows with the square.
 void scale(MassDistribution& mass, double factor) {
   mass.centre *= factor;
@@ -65,6 +98,14 @@ std::array<double*, FormShape::kNumbers> FormShape::numbers() { return numbersOf
 
 std::array<const double*, FormShape::kNumbers> FormShape::numbers() const {
   return numbersOf<const double>(*this);
+}
+
+std::array<double*, ViscousForm::kNumbers> ViscousForm::numbers() {
+  return viscousNumbersOf<double>(*this);
+}
+
+std::array<const double*, ViscousForm::kNumbers> ViscousForm::numbers() const {
+  return viscousNumbersOf<const double>(*this);
 }
 
 Eigen::Matrix<double, Eigen::Dynamic, 6> computeSlipMatrix(const FaceTable& faces) {
@@ -101,6 +142,7 @@ FluidBody scaled(const FluidBody& body, double factor) {
   result.form.shape.chord *= factor;
   result.form.shape.centre *= factor;
   scale(result.form.faces, factor);
+  scale(result.viscous, factor);
   result.sphere_radius *= factor;
   for (AddedMassPart& part : result.added_mass_parts) {
     part.centre *= factor;
@@ -163,6 +205,10 @@ std::uint64_t contentHash(const FluidBody& body) {
   if (body.form.faces.size() > 0)
     for (const double* number : body.form.shape.numbers()) append(number, 1);
   appendFaces(body.form.faces);
+  if (body.viscous.isKnown()) {
+    for (const double* number : body.viscous.numbers()) append(number, 1);
+    bytes += body.viscous.is_primitive ? '\1' : '\0';
+  }
   for (const FormLevel& level : body.form_levels) appendFaces(level.faces);
   if (!body.drag.isZero(0)) append(body.drag.data(), 3);
   if (body.sphere_radius > 0) append(&body.sphere_radius, 1);

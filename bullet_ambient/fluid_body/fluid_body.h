@@ -218,9 +218,9 @@ bool isPrepared(const FluidBody& body);
 void requirePrepared(const FluidBody& body);
 
 /// FNV-1a hash of all data that influence motion: added mass, volume, area, centre of volume,
-/// faces, form, levels, drag, sphere radius, surface triangles, parts of the added mass and
-/// waterline table. Name and provenance do not count. Saved states hold the hash to recognise their
-/// fluid body. Detects accidental change, not forgery.
+/// faces, form, viscous form, levels, drag, sphere radius, surface triangles, parts of the added
+/// mass and waterline table. Name and provenance do not count. Saved states hold the hash to
+/// recognise their fluid body. Detects accidental change, not forgery.
 std::uint64_t contentHash(const FluidBody& body);
 
 }  // namespace ambient

@@ -41,6 +41,7 @@ struct SurfaceNumbers {
 
 /// What a shape needs for a fluid with viscosity, docs/theory.md section 18. Frame F.
 struct ViscousForm {
+  static constexpr std::size_t kNumbers = 116;
   /// Resistance in creeping flow about F's origin, rotation first, per unit viscosity: as Re -> 0
   /// the wrench is -mu R (w, v). Symmetric, positive semi-definite [m^3, m^2, m]. 0: not known.
   Matrix6 resistance = Matrix6::Zero();
@@ -50,6 +51,11 @@ struct ViscousForm {
   double sharp_share = 1;  ///< eps': how far edges and thin plates fix where the flow leaves
   /// True if `smooth_base` is that of a simple shape, whose rims are no edges in (J1).
   bool is_primitive = false;
+
+  bool isKnown() const { return !resistance.isZero(0); }
+  /// All numbers in the order above, matrices by columns, which is that of files.
+  std::array<double*, kNumbers> numbers();
+  std::array<const double*, kNumbers> numbers() const;
 };
 
 }  // namespace ambient

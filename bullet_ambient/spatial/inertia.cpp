@@ -33,6 +33,12 @@ Matrix6 scaleShape(const Matrix6& inertia_per_density, double s) {
   return s * s * s * (powers.asDiagonal() * inertia_per_density * powers.asDiagonal());
 }
 
+Matrix6 scaleResistance(const Matrix6& resistance_per_viscosity, double s) {
+  Vector6 units;
+  units << s, s, s, 1, 1, 1;
+  return s * (units.asDiagonal() * resistance_per_viscosity * units.asDiagonal());
+}
+
 Matrix6 rigidBodyInertia(double mass, const Matrix3& rotational_inertia) {
   Matrix6 K = Matrix6::Zero();
   K.topLeftCorner<3, 3>() = rotational_inertia;

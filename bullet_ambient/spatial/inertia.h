@@ -39,6 +39,10 @@ Matrix6 rotateAxes(const Matrix6& inertia, const Matrix3& rotation);
 /// coupling by s^4, the translation block by s^3; docs/theory.md eq. (5).
 Matrix6 scaleShape(const Matrix6& inertia_per_density, double s);
 
+/// Resistance in creeping flow per unit viscosity (6x6, rotation first) of a shape s times as
+/// large: the blocks grow by s^3, s^2 and s.
+Matrix6 scaleResistance(const Matrix6& resistance_per_viscosity, double s);
+
 /// 6x6 inertia diag(J, m I) of a rigid body about its centre of mass: mass m [kg], rotational
 /// inertia J [kg m^2].
 Matrix6 rigidBodyInertia(double mass, const Matrix3& rotational_inertia);

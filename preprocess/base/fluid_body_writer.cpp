@@ -55,15 +55,25 @@ Offset<file::Surface> pack(FlatBufferBuilder& builder, const Surface& surface) {
   return file::CreateSurface(builder, vertices, triangles);
 }
 
+template <std::size_t kCount>
+Offset<flatbuffers::Vector<double>> packNumbers(FlatBufferBuilder& builder,
+                                                const std::array<const double*, kCount>& numbers) {
+  return builder.CreateVector<double>(kCount, [&](std::size_t i) { return *numbers[i]; });
+}
+
 Offset<file::SurfaceForm> pack(FlatBufferBuilder& builder, const SurfaceForm& form) {
   if (form.faces.size() == 0 && form.hull.empty()) return 0;
-  std::vector<double> numbers;
-  for (const double* number : form.shape.numbers()) numbers.push_back(*number);
-  const auto shape = builder.CreateVector(numbers);
+  const auto shape = packNumbers(builder, form.shape.numbers());
   const auto faces = pack(builder, form.faces, false);
   const auto sharpness = builder.CreateVector(form.faces.sharpness);
   const auto hull = builder.CreateVector(form.hull);
   return file::CreateSurfaceForm(builder, shape, faces, sharpness, hull);
+}
+
+Offset<file::ViscousForm> pack(FlatBufferBuilder& builder, const ViscousForm& form) {
+  if (!form.isKnown()) return 0;
+  const auto numbers = packNumbers(builder, form.numbers());
+  return file::CreateViscousForm(builder, numbers, form.is_primitive);
 }
 
 Offset<flatbuffers::Vector<Offset<file::FormLevel>>> pack(FlatBufferBuilder& builder,
@@ -122,6 +132,7 @@ void packInto(FlatBufferBuilder& builder, const FluidBody& body) {
   const auto parts = pack(builder, body.added_mass_parts);
   const auto waterline = pack(builder, body.waterline);
   const auto form = pack(builder, body.form);
+  const auto viscous = pack(builder, body.viscous);
   const auto added_mass = packMatrix<file::Matrix6>(body.added_mass);
   const auto centre_of_volume = packMatrix<file::Vector3>(body.centre_of_volume);
   const auto origin = packMatrix<file::Vector3>(body.origin);
@@ -129,11 +140,11 @@ void packInto(FlatBufferBuilder& builder, const FluidBody& body) {
   if (body.sphere_radius > 0) sphere_radius = body.sphere_radius;
   const auto drag = packMatrix<file::Vector3>(body.drag);
   file::FinishFluidBodyBuffer(
-      builder,
-      file::CreateFluidBody(builder, name, provenance, &added_mass, body.asymmetry, body.volume,
-                            body.area, &centre_of_volume, &origin, uniform_mass, surface_mass,
-                            faces, surface, sphere_radius, form_levels,
-                            body.drag.isZero(0) ? nullptr : &drag, parts, waterline, form));
+      builder, file::CreateFluidBody(builder, name, provenance, &added_mass, body.asymmetry,
+                                     body.volume, body.area, &centre_of_volume, &origin,
+                                     uniform_mass, surface_mass, faces, surface, sphere_radius,
+                                     form_levels, body.drag.isZero(0) ? nullptr : &drag, parts,
+                                     waterline, form, viscous));
 }
 
 std::size_t numbersIn(const FaceTable& faces) {
@@ -146,7 +157,7 @@ std::size_t numbersIn(const FaceTable& faces) {
 std::size_t payloadBound(const FluidBody& body) {
   constexpr std::size_t kFixedPart = 4096;
   std::size_t doubles = body.surface.vertices.size() + numbersIn(body.faces) +
-                        numbersIn(body.form.faces) + FormShape::kNumbers;
+                        numbersIn(body.form.faces) + FormShape::kNumbers + ViscousForm::kNumbers;
   std::size_t level_bytes = 0;
   for (const FormLevel& level : body.form_levels)
     level_bytes += kFixedPart + numbersIn(level.faces) * sizeof(double);

@@ -3,22 +3,233 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <stdexcept>
 #include <utility>
+#include <vector>
 
+#include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/elementary.h"
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/fluid_body/fluid_body.h"
 #include "bullet_ambient/fluid_body/packed/packed_faces.h"
 #include "bullet_ambient/force/law/form_law.h"
 #include "bullet_ambient/force/loads/face_loads.h"
+#include "bullet_ambient/spatial/vector_types.h"
 #include "preprocess/base/large_products.h"
 #include "preprocess/base/surface_form.h"
-#include "preprocess/reduced_loads/centred_faces.h"
-#include "preprocess/reduced_loads/face_clusters.h"
-#include "preprocess/reduced_loads/face_mirrors.h"
-#include "preprocess/reduced_loads/motion_sampler.h"
 
 namespace ambient {
 namespace {
+
+/// Pseudo-random numbers, the same on every machine.
+class ArbitraryNumbers {
+ public:
+  explicit ArbitraryNumbers(std::uint64_t seed) : state_(seed) {}
+  /// Returns a number in [0, 1).
+  double uniform() {  // SplitMix64, Steele et al. 2014
+    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
+  }
+  Vector3 direction() {
+    for (;;) {
+      const double x = 2 * uniform() - 1, y = 2 * uniform() - 1, z = 2 * uniform() - 1;
+      const double length_sq = x * x + y * y + z * z;
+      if (length_sq <= 1 && length_sq > 1e-4) return Vector3(x, y, z) / std::sqrt(length_sq);
+    }
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+/// Samples a motion (w, v) with |w|^2 + |v|^2 = 1 in units of a level: v and w in independent
+/// directions, uniform over the sphere, and atan(|w| / |v|) uniform from 0 to pi/2.
+Vector6 sampleMotion(ArbitraryNumbers& numbers) {
+  const double angle = kPi / 2 * numbers.uniform();
+  Vector6 x;
+  x << portable::sin(angle) * numbers.direction(), portable::cos(angle) * numbers.direction();
+  return x;
+}
+
+/// Faces relative to the centroid of the surface, in units of their root mean square distance from
+/// it.
+struct CentredFaces {
+  Vector3 centre{0, 0, 0};  ///< in the frame of the source [m]
+  double length = 0;        ///< [m]
+  FaceTable faces;          ///< with the sharpness of the source, where it has one
+
+  /// @throws std::invalid_argument naming the body, if no faces that are apart have an area.
+  CentredFaces(const FluidBody& body, const FaceTable& source) {
+    double area = 0, moment = 0;
+    for (std::size_t i = 0; i < source.size(); ++i) {
+      area += source.area[i];
+      centre += source.area[i] * source.centroid(i);
+    }
+    if (area > 0) centre /= area;
+    for (std::size_t i = 0; i < source.size(); ++i)
+      moment += source.area[i] * (source.centroid(i) - centre).squaredNorm();
+    if (area > 0) length = std::sqrt(moment / area);
+    if (!(length > 0)) {
+      throw std::invalid_argument("fluid body '" + body.name +
+                                  "': reduced loads need faces that are apart and have an area");
+    }
+    for (std::size_t i = 0; i < source.size(); ++i)
+      faces.add(source.normal(i), (source.centroid(i) - centre) / length,
+                source.area[i] / (length * length));
+    faces.sharpness = source.sharpness;
+  }
+
+  /// Converts faces of a level from these units to the frame of the source.
+  void moveBack(FaceTable& of_level) const {
+    FaceTable moved;
+    for (std::size_t i = 0; i < of_level.size(); ++i)
+      moved.add(of_level.normal(i), centre + length * of_level.centroid(i),
+                length * length * of_level.area[i]);
+    moved.sharpness = std::move(of_level.sharpness);
+    of_level = std::move(moved);
+  }
+};
+
+void addImage(const FaceTable& faces, std::size_t i, const Vector3& signs, double area,
+              FaceTable& to) {
+  to.add(signs.cwiseProduct(faces.normal(i)), signs.cwiseProduct(faces.centroid(i)), area);
+  to.sharpness.push_back(faces.sharpness[i]);
+}
+
+/// Group of mirrors across planes through the origin, perpendicular to axes of the frame.
+class FaceMirrors {
+ public:
+  /// Bit 0, 1, 2 of `axes`: the mirror that turns x, y, z round.
+  explicit FaceMirrors(unsigned axes) {
+    for (unsigned image = 0; image < 8; ++image) {
+      if ((image & axes) != image) continue;
+      signs_.emplace_back((image & 1) ? -1 : 1, (image & 2) ? -1 : 1, (image & 4) ? -1 : 1);
+    }
+  }
+
+  /// Number of images of a face, itself among them: 1, 2, 4 or 8.
+  int images() const { return static_cast<int>(signs_.size()); }
+  /// Returns the faces on the positive sides of all mirrors, each for all of its images.
+  FaceTable folded(const FaceTable& faces) const {
+    FaceTable result;
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      Vector3 signs = Vector3::Ones();
+      for (int axis = 0; axis < 3; ++axis)
+        if (faces.centroid(i)[axis] < 0) signs[axis] = signs_.back()[axis];
+      addImage(faces, i, signs, faces.area[i], result);
+    }
+    return result;
+  }
+  /// Unfolds faces: every face with its images, which share its area.
+  FaceTable unfolded(const FaceTable& faces) const {
+    FaceTable result;
+    for (std::size_t i = 0; i < faces.size(); ++i)
+      for (const Vector3& signs : signs_)
+        addImage(faces, i, signs, faces.area[i] / images(), result);
+    return result;
+  }
+  /// Returns all faces mirrored by all mirrors at once.
+  FaceTable mirrored(const FaceTable& faces) const {
+    FaceTable result;
+    for (std::size_t i = 0; i < faces.size(); ++i)
+      addImage(faces, i, signs_.back(), faces.area[i], result);
+    return result;
+  }
+
+ private:
+  std::vector<Vector3> signs_;  // of coordinates, for each image
+};
+
+/// Indices of faces, cluster by cluster; none is empty.
+using FaceClusters = std::vector<std::vector<std::size_t>>;
+
+using Features = std::vector<Vector6>;
+
+Features featuresOf(const FaceTable& faces) {
+  Features features(faces.size());
+  for (std::size_t i = 0; i < faces.size(); ++i) features[i] << faces.normal(i), faces.centroid(i);
+  return features;
+}
+
+std::size_t largestFace(const FaceTable& faces) {
+  std::size_t largest = 0;
+  for (std::size_t i = 1; i < faces.size(); ++i)
+    if (faces.area[i] > faces.area[largest]) largest = i;
+  return largest;
+}
+
+Features farthestFirst(const FaceTable& faces, const Features& features, int count) {
+  Features seeds{features[largestFace(faces)]};
+  std::vector<double> distance(features.size(), std::numeric_limits<double>::infinity());
+  while (static_cast<int>(seeds.size()) < count) {
+    std::size_t farthest = 0;
+    for (std::size_t i = 0; i < features.size(); ++i) {
+      distance[i] = std::min(distance[i], (features[i] - seeds.back()).squaredNorm());
+      if (faces.area[i] > 0 && distance[i] > distance[farthest]) farthest = i;
+    }
+    if (!(distance[farthest] > 0)) break;
+    seeds.push_back(features[farthest]);
+  }
+  return seeds;
+}
+
+std::size_t nearest(const Features& means, const Vector6& feature) {
+  std::size_t best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < means.size(); ++k) {
+    const double distance = (means[k] - feature).squaredNorm();
+    if (distance < least) {
+      least = distance;
+      best = k;
+    }
+  }
+  return best;
+}
+
+void moveToMeans(const FaceTable& faces, const Features& features,
+                 const std::vector<std::size_t>& owner, Features& means) {
+  Features sums(means.size(), Vector6::Zero());
+  std::vector<double> weights(means.size(), 0);
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    const double weight = std::sqrt(faces.area[i]);
+    sums[owner[i]] += weight * features[i];
+    weights[owner[i]] += weight;
+  }
+  for (std::size_t k = 0; k < means.size(); ++k)
+    if (weights[k] > 0) means[k] = sums[k] / weights[k];
+}
+
+/// At most `count` clusters of faces that are alike in normal and place: k-means on (n, c) with
+/// weights sqrt(A), started from the faces that are farthest from each other. Deterministic.
+/// Centroids in units of the body's size. @pre 0 < count <= faces.size().
+FaceClusters clusterFaces(const FaceTable& faces, int count) {
+  constexpr int kRounds = 30;
+  AMBIENT_ASSERT(count > 0 && static_cast<std::size_t>(count) <= faces.size());
+  const Features features = featuresOf(faces);
+  Features means = farthestFirst(faces, features, count);
+  std::vector<std::size_t> owner(features.size(), 0);
+  for (int round = 0; round < kRounds; ++round) {
+    bool changed = round == 0;
+    for (std::size_t i = 0; i < features.size(); ++i) {
+      const std::size_t now = nearest(means, features[i]);
+      changed |= now != owner[i];
+      owner[i] = now;
+    }
+    if (!changed) break;
+    moveToMeans(faces, features, owner, means);
+  }
+  FaceClusters clusters(means.size());
+  for (std::size_t i = 0; i < features.size(); ++i)
+    if (faces.area[i] > 0) clusters[owner[i]].push_back(i);
+  FaceClusters kept;
+  for (std::vector<std::size_t>& cluster : clusters)
+    if (!cluster.empty()) kept.push_back(std::move(cluster));
+  return kept;
+}
 
 constexpr std::uint64_t kErrorSeed = 3, kFitSeed = 4;
 constexpr int kErrorMotions = 1000, kFitMotions = 200, kFitTranslations = 50;

@@ -184,12 +184,6 @@ Matrix6 extrapolated(const Matrix6& fine, const Matrix6& coarse, double ratio) {
 
 }  // namespace
 
-Matrix6 scaleResistance(const Matrix6& resistance, double s) {
-  Vector6 units;
-  units << s, s, s, 1, 1, 1;
-  return s * (units.asDiagonal() * resistance * units.asDiagonal());
-}
-
 Matrix6 computeStokesResistance(const TriangleMesh& mesh, const StokesSettings& settings) {
   if (mesh.triangleCount() == 0)
     throw std::runtime_error("creeping flow: the mesh has 0 triangles; it needs at least 1");

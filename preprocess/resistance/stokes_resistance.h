@@ -38,9 +38,6 @@ Vector6 ellipsoidResistance(const Vector3& semi_axes);
 /// Computes R of a ball about its centre: 8 pi R^3, 6 pi R. @pre radius > 0 [m]
 Vector6 sphereResistance(double radius);
 
-/// Returns R of a shape s times as large; the inverse powers of the added mass: s^3, s^2, s.
-Matrix6 scaleResistance(const Matrix6& resistance, double s);
-
 /// Finds the centre of reaction [m], the point about which the coupling of R is symmetric (Brenner
 /// 1964); eq. (96). @pre the translation block is positive definite
 Vector3 centreOfReaction(const Matrix6& resistance);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "bullet_ambient/bullet/core/conversions.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
 #include "bullet_ambient/immersed/fluid_reading.h"
 

@@ -41,6 +41,11 @@ class Checker {
     if (value < 0) fail(what, " is ", value, ", but must not be negative");
   }
 
+  void share(double value, const char* what) const {
+    if (!(value >= 0) || !(value <= 1 + kRounding))
+      fail(what, " is ", value, ", but must be between 0 and 1");
+  }
+
   /// Fails if a point is farther from the origin than kFarthest sizes; size 0: no check.
   void near(const Vector3& point, double size, const char* what) const {
     const double distance = point.stableNorm();
@@ -82,17 +87,18 @@ class Checker {
   std::string source_;
 };
 
-void checkAddedMass(const FluidBody& body, const Checker& check) {
-  check.finiteMatrix(body.added_mass, "added mass");
+/// Checks a matrix of rotations and translations, which is symmetric and positive semi-definite.
+void checkMotionMatrix(const Matrix6& matrix, const Checker& check, const char* what) {
+  check.finiteMatrix(matrix, what);
   // With the body's size as unit of length all entries have one unit and one tolerance.
-  const double translation = body.added_mass.diagonal().tail<3>().cwiseAbs().maxCoeff();
-  const double rotation = body.added_mass.diagonal().head<3>().cwiseAbs().maxCoeff();
+  const double translation = matrix.diagonal().tail<3>().cwiseAbs().maxCoeff();
+  const double rotation = matrix.diagonal().head<3>().cwiseAbs().maxCoeff();
   const double length = rotation > 0 && translation > 0 ? std::sqrt(rotation / translation) : 1;
   Vector6 units;
   units << Vector3::Constant(1 / length), Vector3::Ones();
-  const Matrix6 scaled = units.asDiagonal() * body.added_mass * units.asDiagonal();
-  check.finiteMatrix(scaled, "added mass over its own length scale");
-  check.positiveSemiDefinite(scaled, "added mass");
+  const Matrix6 scaled = units.asDiagonal() * matrix * units.asDiagonal();
+  check.finiteMatrix(scaled, (std::string(what) + " over its own length scale").c_str());
+  check.positiveSemiDefinite(scaled, what);
 }
 
 void checkMassDistribution(const MassDistribution& mass, const Checker& check, const char* centre,
@@ -175,9 +181,7 @@ void checkForm(const FluidBody& body, const Checker& check) {
   constexpr double kLongest = 1 + kRounding;  // of directions and of lengths of at most 1
   const FormShape& shape = body.form.shape;
   for (const double* number : shape.numbers()) check.finite(*number, "a number of the form");
-  for (const double share : {shape.wing, shape.edges})
-    if (!(share >= 0) || !(share <= kLongest))
-      check.fail("a share of the form is ", share, ", but must be between 0 and 1");
+  for (const double share : {shape.wing, shape.edges}) check.share(share, "a share of the form");
   if (!(shape.aspect >= 1 - kRounding))
     check.fail("aspect of the form is ", shape.aspect, ", but must be at least 1");
   check.notNegative(shape.chord, "chord of the form");
@@ -188,6 +192,35 @@ void checkForm(const FluidBody& body, const Checker& check) {
   if (body.form.faces.sharpness.size() != body.form.faces.size())
     check.fail("the faces of the form law have no sharpness");
   checkTriangles(body.form.hull, body.surface, "hull triangle", check);
+}
+
+void checkViscousForm(const ViscousForm& form, double size, const Checker& check) {
+  checkMotionMatrix(form.resistance, check, "resistance in creeping flow");
+  for (const double* number : form.numbers()) check.finite(*number, "a number of the viscous form");
+  check.near(form.centre_of_reaction, size, "centre of reaction");
+  const Separation& separation = form.separation;
+  const double turn =
+      (separation.axes.transpose() * separation.axes - Matrix3::Identity()).cwiseAbs().maxCoeff();
+  if (!(turn <= kRounding))
+    check.fail("the axes of separation are off orthonormal by ", turn, ", limit ", kRounding);
+  for (const SeparationWay& way : separation.ways) {
+    for (const double wake :
+         {way.wake_laminar, way.wake_bubble, way.wake_turbulent, way.wake_rough})
+      check.notNegative(wake, "wake of a separation");
+    check.notNegative(way.thickness, "thickness of a separation");
+    for (const double friction :
+         {way.friction_laminar, way.friction_bubble, way.friction_turbulent})
+      check.notNegative(friction, "friction of a separation");
+  }
+  for (const double base : separation.smooth_base) check.share(base, "smooth share of a base");
+  check.share(form.sharp_share, "sharp share");
+  for (const double area : form.surface.frontal) check.notNegative(area, "a frontal area");
+  for (const double moment : form.surface.moments)
+    check.notNegative(moment, "a mean square of the surface");
+  check.positiveSemiDefinite(form.surface.gyration, "gyration of the surface");
+  if (form.isKnown() && !(form.surface.diameter > 0))
+    check.fail("diameter of the ball with the area of the surface is ", form.surface.diameter,
+               " m, but must be above 0 where the resistance is known");
 }
 
 void checkFormLevel(const FormLevel& level, const Checker& check) {
@@ -245,7 +278,7 @@ void checkFluidBody(const FluidBody& body, const std::string& source) {
     check.fail("a measured drag coefficient is 0, but must be positive where another one is given");
   check.finiteMatrix(body.centre_of_volume, "centre of volume");
   check.finiteMatrix(body.origin, "origin");
-  checkAddedMass(body, check);
+  checkMotionMatrix(body.added_mass, check, "added mass");
   checkMassDistribution(body.uniform_mass, check, "centre of uniform mass",
                         "inertia of uniform mass");
   checkMassDistribution(body.surface_mass, check, "centre of surface mass",
@@ -253,6 +286,7 @@ void checkFluidBody(const FluidBody& body, const std::string& source) {
   checkFaces(body.faces, check);
   checkSurface(body.surface, check);
   checkForm(body, check);
+  checkViscousForm(body.viscous, sizeOf(body), check);
   for (const FormLevel& level : body.form_levels) checkFormLevel(level, check);
   for (const AddedMassPart& part : body.added_mass_parts) checkPart(part, sizeOf(body), check);
   checkWaterline(body, check);

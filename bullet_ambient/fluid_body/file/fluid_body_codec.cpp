@@ -58,16 +58,29 @@ Surface unpack(const file::Surface& packed) {
   return {unpackVector(*packed.vertices()), unpackVector(*packed.triangles())};
 }
 
+/// @param what has the numbers, for messages
+template <std::size_t kCount>
+void unpackNumbers(const flatbuffers::Vector<double>& packed, const std::string& what,
+                   const std::array<double*, kCount>& numbers) {
+  if (packed.size() != kCount)
+    throw std::runtime_error(what + " has " + std::to_string(packed.size()) +
+                             " numbers, but must have " + std::to_string(kCount));
+  for (std::size_t i = 0; i < kCount; ++i) *numbers[i] = elementOf(packed, i);
+}
+
 SurfaceForm unpack(const file::SurfaceForm& packed, const std::string& source) {
   SurfaceForm form;
-  if (packed.shape()->size() != FormShape::kNumbers)
-    throw std::runtime_error(source + ": its form has " + std::to_string(packed.shape()->size()) +
-                             " numbers, but must have " + std::to_string(FormShape::kNumbers));
-  std::size_t at = 0;
-  for (double* number : form.shape.numbers()) *number = elementOf(*packed.shape(), at++);
+  unpackNumbers(*packed.shape(), source + ": its form", form.shape.numbers());
   form.faces = unpack(*packed.faces());
   form.faces.sharpness = unpackVector(*packed.sharpness());
   form.hull = unpackVector(*packed.hull());
+  return form;
+}
+
+ViscousForm unpack(const file::ViscousForm& packed, const std::string& source) {
+  ViscousForm form;
+  unpackNumbers(*packed.numbers(), source + ": its viscous form", form.numbers());
+  form.is_primitive = packed.is_primitive();
   return form;
 }
 
@@ -136,6 +149,7 @@ FluidBody unpack(const file::FluidBody& packed, const std::string& source) {
     body.added_mass_parts = unpackParts(*packed.added_mass_parts(), source);
   if (packed.waterline()) body.waterline = unpack(*packed.waterline(), source);
   if (packed.form()) body.form = unpack(*packed.form(), source);
+  if (packed.viscous()) body.viscous = unpack(*packed.viscous(), source);
   return body;
 }
 

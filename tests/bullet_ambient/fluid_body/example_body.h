@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Geometry>
+
 #include "bullet_ambient/fluid_body/fluid_body.h"
 #include "preprocess/base/surface_form.h"
 #include "tests/support/bodies/geodesic.h"
@@ -31,6 +33,19 @@ inline FluidBody exampleBody(int level = 1) {
   for (const Eigen::Vector3i& t : mesh.triangles)
     body.surface.triangles.insert(body.surface.triangles.end(), {t[0], t[1], t[2]});
   prepare(body);
+  return body;
+}
+
+/// The example with a different value in each number of its viscous form, as far as these can
+/// differ.
+inline FluidBody viscousBody() {
+  FluidBody body = exampleBody();
+  double value = 0;
+  for (double* number : body.viscous.numbers()) *number = value += 1.0 / 128;
+  body.viscous.resistance = body.added_mass;
+  body.viscous.separation.axes = Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitY()).matrix();
+  body.viscous.surface.gyration = body.surface_mass.inertia;
+  body.viscous.is_primitive = true;
   return body;
 }
 

@@ -13,8 +13,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// Returns the sentence of checkFluidBody() for the example after a change.
 template <class Change>
-std::string refusalAfter(const Change& change) {
-  FluidBody body = test::exampleBody();
+std::string refusalAfter(const Change& change, FluidBody body = test::exampleBody()) {
   change(body);
   return test::refusalOf([&] { checkFluidBody(body, "b"); });
 }
@@ -81,6 +80,45 @@ TEST(FluidBodyCheck, NamesWhatNoBodyHas) {
        "inertia of uniform mass is not positive semi-definite"}};
   for (const auto& [spoil, says] : beginnings)
     EXPECT_EQ(refusalAfter(spoil).find(std::string("b: ") + says), 0u) << refusalAfter(spoil);
+}
+
+TEST(FluidBodyCheck, NamesWhatNoViscousFormHas) {
+  const Damage damages[] = {
+      {[](FluidBody& b) { b.viscous.resistance(1, 2) = kNan; },
+       "resistance in creeping flow is nan, but must be finite"},
+      {[](FluidBody& b) { b.viscous.resistance(0, 3) += 1; },
+       "resistance in creeping flow is not symmetric: off by "},
+      {[](FluidBody& b) { b.viscous.resistance(3, 3) = -1; },
+       "resistance in creeping flow is not positive semi-definite: lowest eigenvalue "},
+      {[](FluidBody& b) { b.viscous.sharp_share = kNan; },
+       "a number of the viscous form is nan, but must be finite"},
+      {[](FluidBody& b) { b.viscous.sharp_share = 1.5; },
+       "sharp share is 1.5, but must be between 0 and 1"},
+      {[](FluidBody& b) { b.viscous.centre_of_reaction.x() = 1e15; },
+       "centre of reaction lies 1e+15 m from the origin, limit 1e+12 times the size"},
+      {[](FluidBody& b) { b.viscous.separation.axes(1, 1) += 0.5; },
+       "the axes of separation are off orthonormal by "},
+      {[](FluidBody& b) { b.viscous.separation.ways[4].wake_rough = -2; },
+       "wake of a separation is -2, but must not be negative"},
+      {[](FluidBody& b) { b.viscous.separation.ways[1].thickness = -1; },
+       "thickness of a separation is -1, but must not be negative"},
+      {[](FluidBody& b) { b.viscous.separation.ways[5].friction_turbulent = -1; },
+       "friction of a separation is -1, but must not be negative"},
+      {[](FluidBody& b) { b.viscous.separation.smooth_base.z() = 1.25; },
+       "smooth share of a base is 1.25, but must be between 0 and 1"},
+      {[](FluidBody& b) { b.viscous.surface.frontal.y() = -3; },
+       "a frontal area is -3, but must not be negative"},
+      {[](FluidBody& b) { b.viscous.surface.moments.y() = -3; },
+       "a mean square of the surface is -3, but must not be negative"},
+      {[](FluidBody& b) { b.viscous.surface.gyration(0, 1) += 1; },
+       "gyration of the surface is not symmetric: off by "},
+      {[](FluidBody& b) { b.viscous.surface.diameter = 0; },
+       "diameter of the ball with the area of the surface is 0 m, but must be above 0"}};
+  EXPECT_EQ(refusalAfter([](FluidBody&) {}, test::viscousBody()), "");
+  for (const auto& [spoil, says] : damages) {
+    const std::string refusal = refusalAfter(spoil, test::viscousBody());
+    EXPECT_EQ(refusal.find(std::string("b: ") + says), 0u) << refusal;
+  }
 }
 
 TEST(FluidBodyCheck, RefusesPlacesBeyondAnyBody) {

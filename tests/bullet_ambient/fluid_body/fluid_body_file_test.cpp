@@ -64,6 +64,21 @@ TEST(FluidBodyFile, TheFormKeepsItsBits) {
   EXPECT_FALSE(isPrepared(decodeFluidBody(encodeFluidBody(body, "a"), "a")));
 }
 
+TEST(FluidBodyFile, TheViscousFormKeepsItsBitsInTheSameVersion) {
+  const FluidBody body = test::viscousBody();
+  const std::string bytes = encodeFluidBody(body, "a");
+  const FluidBody back = decodeFluidBody(bytes, "a");
+  for (std::size_t i = 0; i < ViscousForm::kNumbers; ++i)
+    EXPECT_EQ(*back.viscous.numbers()[i], *body.viscous.numbers()[i]) << i;
+  EXPECT_TRUE(back.viscous.is_primitive);
+  EXPECT_EQ(contentHash(back), contentHash(body));
+  FluidBody other = body;
+  other.viscous = {};
+  const std::string without = encodeFluidBody(other, "a");
+  EXPECT_EQ(bytes.substr(0, 16), without.substr(0, 16));  // magic and version
+  EXPECT_FALSE(decodeFluidBody(without, "a").viscous.isKnown());
+}
+
 TEST(FluidBodyFile, KeepsPartsOfTheAddedMassInSinglePrecisionAndInTheSameVersion) {
   FluidBody body = test::exampleBody();
   for (int i = 0; i < 3; ++i) {

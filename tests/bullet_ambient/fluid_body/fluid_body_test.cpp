@@ -58,6 +58,15 @@ TEST(FluidBody, AWaterlineTableIsPartOfItsContent) {
   EXPECT_NE(contentHash(body), with);
 }
 
+TEST(FluidBody, EachNumberOfItsViscousFormIsPartOfItsContent) {
+  const FluidBody body = test::viscousBody();
+  for (std::size_t i = 0; i < ViscousForm::kNumbers; ++i) {
+    FluidBody other = body;
+    *other.viscous.numbers()[i] += 1;
+    EXPECT_NE(contentHash(other), contentHash(body)) << i;
+  }
+}
+
 TEST(FluidBody, WhatTheSurfaceOfWaterAndTheFormLawNeedIsPartOfItsContent) {
   const FluidBody body = test::exampleBody();
   const std::uint64_t hash = contentHash(body);

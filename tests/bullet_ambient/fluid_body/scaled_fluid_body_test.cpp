@@ -42,6 +42,21 @@ TEST(ScaledFluidBody, ScalesCouplingMassDistributionAndSurface) {
   EXPECT_EQ(body.provenance.settings, unit.provenance.settings + "; scaled by 2");
 }
 
+TEST(ScaledFluidBody, ScalesTheViscousForm) {
+  const FluidBody unit = viscousBody(), body = scaled(unit, 2);
+  const ViscousForm& from = unit.viscous;
+  const ViscousForm& to = body.viscous;
+  EXPECT_EQ(to.resistance(0, 1), 8 * from.resistance(0, 1));
+  EXPECT_EQ(to.resistance(1, 4), 4 * from.resistance(1, 4));
+  EXPECT_EQ(to.resistance(5, 5), 2 * from.resistance(5, 5));
+  EXPECT_EQ(to.centre_of_reaction, Vector3(2 * from.centre_of_reaction));
+  EXPECT_EQ(to.surface.diameter, 2 * from.surface.diameter);
+  EXPECT_EQ(to.surface.frontal, Vector3(4 * from.surface.frontal));
+  EXPECT_EQ(to.surface.moments, Vector3(4 * from.surface.moments));
+  EXPECT_EQ(to.surface.gyration, Matrix3(4 * from.surface.gyration));
+  EXPECT_EQ(to.separation.ways[3].thickness, from.separation.ways[3].thickness);
+}
+
 TEST(ScaledFluidBody, ScalesThePartsOfTheAddedMass) {
   FluidBody unit = exampleBody();
   unit.added_mass_parts.push_back({{1, 2, 3}, Vector6::Ones(), unit.added_mass});
