@@ -30,8 +30,6 @@ constexpr std::array<std::pair<LoadPrecision, const char*>, 2> kLoadPrecisionNam
 
 /// Settings of the flow around one body.
 struct FlowSettings {
-  /// Height of the roughness of the surface [m], form law: dimples, felt, fouling; 0: smooth.
-  double roughness = 0;
   /// alpha in [pi/2, pi] [rad], larger = more attachment; the published law alone reads it.
   double separation_angle = 1.5707963267948966;
   bool skin_friction = true;  ///< resistance, docs/theory.md eq. (113); published law: eq. (16)
@@ -44,6 +42,8 @@ struct FlowSettings {
   PressureLaw law = PressureLaw::kForm;
   /// Lag lambda of separation behind the incidence, eq. (48): in body lengths over speed; kForm.
   double stall_lag = 4.5;
+  /// Height of the roughness of the surface [m], form law: dimples, felt, fouling; 0: smooth.
+  double roughness = 0;
 };
 
 }  // namespace ambient

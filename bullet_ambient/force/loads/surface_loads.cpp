@@ -156,7 +156,7 @@ class FormLoads final : public ViscousLoads {
         lift_(body, *shape_, stall_lag),
         density_(settings.density),
         centre_(body.centre_of_volume) {
-    if (!(settings.viscosity > 0) || !(body.viscous.surface.diameter > 0)) return;
+    if (!(settings.viscosity > 0) || !body.viscous.isKnown()) return;
     const Matrix3& axes = body.viscous.separation.axes;
     Vector3 own_drag{0, 0, 0};
     if (!body.viscous.separation.smooth_base.isZero(0))

@@ -183,14 +183,15 @@ class Fluid:
         """Removes a body, or one link of it (-1: the base), from the fluid for good; it then moves as in stock PyBullet."""
         self._give("exclude", body=body, link=link)
 
-    def settings(self, *, law: Optional[str] = None, separation: Optional[float] = None,
-                 folder: Optional[str] = None) -> None:
+    def settings(self, *, law: Optional[str] = None, roughness: Optional[float] = None,
+                 separation: Optional[float] = None, folder: Optional[str] = None) -> None:
         """Changes settings of all bodies; call before the first step.
 
-        `law` of the pressure, "form" or "published". `separation`: separation angle [rad]. `folder`: all computed shapes
-        are stored there for other runs; default: those that took long, in the user's folder.
+        `law`, "form" or "published". `roughness` of all surfaces [m]. `separation`: separation angle of the law
+        "published" [rad]. `folder`: all computed shapes are stored there for other runs; default: those that took long, in
+        the user's folder.
         """
-        self._give("settings", law=law, separation=separation, folder=folder)
+        self._give("settings", law=law, roughness=roughness, separation=separation, folder=folder)
 
     def inertia(self, body: int, link: int = -1) -> npt.NDArray[np.float64]:
         """Returns the total inertia (6, 6) of a body or link, rotation first, in its frame at its centre of mass."""

@@ -263,7 +263,8 @@ TEST_F(PyBulletPlugin, RefusesInOneLineWhatItDoesNotUnderstand) {
       "integer");
   expectRefusal(R"({"settings": {"law": "any"}})", "settings.law is \"any\"; must be one of");
   expectRefusal(R"({"settings": {"quality": "instant"}})",
-                "unknown key \"quality\" in settings, which has folder, law, separation");
+                "unknown key \"quality\" in settings, which has folder, law, roughness, "
+                "separation");
   expectRefusal(R"({"inertia": {}})", "key \"body\" is missing");
   expectRefusal(R"({"remove": {"name": "pool"}})", "there is no such region");
   server.command(kWater);

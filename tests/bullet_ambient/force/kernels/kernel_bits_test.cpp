@@ -74,7 +74,6 @@ std::vector<SingleMotion> motions(const SingleMotion& law) {
                        law.law});
         all.back().wing = law.wing;
         all.back().pitching_rate = law.pitching_rate;
-        all.back().slip_share = law.slip_share;
       }
   return all;
 }
@@ -101,7 +100,6 @@ TEST(KernelBits, OfSumsOverFacesAreThoseOfTheBaseline) {
       const ShapeFactors factors(shape);
       law.wing = &factors.in_single;
       law.pitching_rate = 0.4f;
-      law.slip_share = 0.25f;
       compareFaceSums(PackedFaces(faces, shape), law);
     }
   }
