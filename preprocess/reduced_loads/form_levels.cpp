@@ -235,10 +235,9 @@ constexpr std::uint64_t kErrorSeed = 3, kFitSeed = 4;
 constexpr int kErrorMotions = 1000, kFitMotions = 200, kFitTranslations = 50;
 constexpr double kTranslationWeight = 3;  // of a translation in the fit, over a motion with spin
 
-/// Pressure and friction at a Reynolds number of 1000, where the law of friction has most of it; in
-/// single precision, which is 1e-6 off.
+/// Pressure on the faces; in single precision, which is 1e-6 off.
 Vector6 loadOn(const PackedFaces& faces, const ShapeFactors& shape, const Vector6& motion) {
-  const LoadSettings settings{1, 1e-3, 0, true, PressureLaw::kForm, &shape};
+  const LoadSettings settings{1, 0, 0, false, PressureLaw::kForm, &shape};
   return computeFaceLoad(faces, 1, Twist::fromVector(motion), settings).vector();
 }
 

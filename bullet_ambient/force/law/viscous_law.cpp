@@ -279,14 +279,13 @@ Vector3 ViscousLaw::spinForce(const Scalars& s, const Vector3& w, const Vector3&
   constexpr double kLeastSpin = 1e-4;
   const double crisis = S > kLeastSpin ? 0.75 * of.crisis / S : 0;
   const double lambda = 0.75 * of.fresh - crisis;
-  const Vector3 seen = axes_.transpose() * across;
   Vector3 even;
   for (int i = 0; i < 3; ++i) even[i] = s.smooth * square(square(1 - uneven_[i]));
-  const double mass = fluid_.density * half_volume_;
-  const Vector3 lift = mass * lambda * even.cwiseProduct(seen);
-  const Vector3 less = mass * (lambda - 1) * even.cwiseProduct(seen);
+  const Vector3 spin = axes_ * even.cwiseProduct(axes_.transpose() * w);
+  const Vector3 fresh = fluid_.density * half_volume_ * spin.cross(v);
+  const Vector3 lift = lambda * fresh;
   const double drag = kLiftDrag * lift.squaredNorm() / (fluid_.density / 8 * area_ * speed * speed);
-  return axes_ * less - drag / speed * v;
+  return (lambda - 1) * fresh - drag / speed * v;
 }
 
 Resistance ballResistance(double radius, double viscosity) noexcept {

@@ -67,7 +67,7 @@ class ViscousLaw {
   Growth growth(const Scalars& s, double power) const noexcept;
   /// Friction of the smooth share's layer, eq. (114), about O for the velocity there.
   Vector3 layerForce(const Scalars& s, const Vector3& v) const noexcept;
-  /// Lift of the tail, eq. (115); its drag is part of it. About O, for the motion there.
+  /// c times the lift of the tail, eq. (115), and its drag. About O, for the motion there.
   Wrench tailLoad(const Scalars& s, const Vector3& w, const Vector3& v) const noexcept;
   /// What eq. (116) and (117) add to the lift of the rotation (47) at O: less lift, more drag.
   Vector3 spinForce(const Scalars& s, const Vector3& w, const Vector3& v) const noexcept;

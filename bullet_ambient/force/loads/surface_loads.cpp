@@ -177,7 +177,7 @@ class FormLoads final : public ViscousLoads {
     if (!s.moves) return {{}, {}, resistance_ ? inWater(kCreeping, wet) : Growth{}};
     const Wrench on_faces = drag_.scaled(pressure(s, x, wet), x);
     const Vector3 &w = x.angular, v = x.at(centre_);
-    Wrench whole = s.pressure * law_->tailLoad(s, w, v);
+    Wrench whole = law_->tailLoad(s, w, v);
     whole.force += law_->spinForce(s, w, v);
     whole = atCentre(whole) + lift_.load(x, density_, law_->munkShare(s));
     Parts parts{s.pressure * on_faces + share * whole, {}, {}};
@@ -284,6 +284,10 @@ class AttachedLoads final : public SurfaceLoads {
   }
   Wrench wetLoad(const Twist& x, const WetPart& wet) const noexcept override {
     return on_faces_->wetLoad(x, wet) + -1.0 * slip_->wetLoad(x, wet) + wet.share * wholeLoad(x);
+  }
+  FaceLoads parts(const Twist& x) const noexcept override {
+    const Wrench friction = on_faces_->parts(x).friction;
+    return {load(x) + -1.0 * friction, friction};
   }
   FaceLoads wetParts(const Twist& x, const WetPart& wet) const noexcept override {
     const Wrench friction = on_faces_->wetParts(x, wet).friction;

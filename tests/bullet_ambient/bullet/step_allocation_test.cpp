@@ -58,7 +58,7 @@ TEST(Attachment, OfAnEqualBodyTakesOneOrTwoKilobytes) {
       def.flow.law = PressureLaw::kForm;
       scene.fluid.add(*bodies[i], def);
     }
-    EXPECT_LT((heldBytes() - before) / kBodies, has_surface ? 2100U : 850U);
+    EXPECT_LT((heldBytes() - before) / kBodies, has_surface ? 2150U : 880U);
   }
 }
 

@@ -50,7 +50,8 @@ TEST(BallLaw, RoughnessBringsTheCrisisForward) {
 }
 
 TEST(BallLaw, StateOfTheLayersHasItsNumbers) {
-  const LayerState at_crisis = layerState(0.3578988, 3.3e5, 0), rough = layerState(0.3578988, 1e5, 5e-3);
+  const LayerState at_crisis = layerState(0.3578988, 3.3e5, 0),
+                   rough = layerState(0.3578988, 1e5, 5e-3);
   EXPECT_NEAR(at_crisis.turbulent, 0.51745, 1e-5);
   EXPECT_NEAR(at_crisis.from_nose, 0.02779, 1e-5);
   EXPECT_NEAR(rough.turbulent, 0.99650, 1e-5);

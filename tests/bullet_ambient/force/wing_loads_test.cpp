@@ -116,22 +116,6 @@ TEST(WingLoads, NeverFeedEnergy) {
   EXPECT_GE(hulls, 20);
 }
 
-TEST(WingLoads, OfSmoothHullsWithAWideSeparationAngleTakeWhatTheGuardLeaves) {
-  // tau of eq. (43e): at alpha = 135 degrees and beyond a smooth body has the published pressure.
-  const FluidBody hull = test::smoothHull({4, 1, 1});
-  FlowSettings flow = formLaw(LoadPrecision::kDouble);
-  flow.separation_angle = 3 * kPi / 4;
-  const auto body = std::make_shared<FluidBody>(hull);
-  const auto form = makeSurfaceLoads(body, {1.3, 0, {}, {}}, flow);
-  flow.law = PressureLaw::kPublished;
-  const auto published = makeSurfaceLoads(body, {1.3, 0, {}, {}}, flow);
-  for (const Vector3& v : {Vector3(1, 0, 0), Vector3(1, 0.3, 0), Vector3(0, 1, 0.2)}) {
-    const Twist x{Vector3::Zero(), v};
-    EXPECT_LT((form->load(x).force - published->load(x).force).norm(),
-              1e-9 * published->load(x).force.norm());
-  }
-}
-
 TEST(WingLoads, AreHomogeneousOfDegreeTwo) {
   test::Arbitrary arbitrary(72);
   for (int shape = 0; shape < 40; ++shape) {

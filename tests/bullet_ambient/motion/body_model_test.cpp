@@ -136,6 +136,7 @@ TEST(SurfaceLoad, OnAConeMovingBaseFirstHasNoPositivePower) {
     const Vector3 normal = Vector3(std::cos(angle), std::sin(angle), -0.3).normalized();
     input.shape.faces.add(normal, {0.05 * std::cos(angle), 0.05 * std::sin(angle), 0}, 0.01);
   }
+  input.flow.law = PressureLaw::kPublished;
   input.flow.separation_angle = 2.5;
   const BodyModel model = input.make();
   const Twist x{{0, 0, 0}, {0, 0, 1}};

@@ -152,7 +152,7 @@ TEST(Settling, IsOfSecondOrder) {
     return y;
   };
   const Vector6 exact = after(4096);
-  const double coarse = (after(32) - exact).norm(), fine = (after(64) - exact).norm();
+  const double coarse = (after(128) - exact).norm(), fine = (after(256) - exact).norm();
   EXPECT_NEAR(coarse / fine, 4, 0.2);
 }
 
