@@ -18,8 +18,8 @@
 #include "bullet_ambient/spatial/rotation.h"
 #include "demos/pybullet/server_world.h"
 #include "demos/scene/scene_parts.h"
-#include "preprocess/base/surface_form.h"
 #include "preprocess/polar/polar.h"
+#include "preprocess/resistance/prepare.h"
 
 namespace ambient::pybullet {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <stdexcept>
 
-#include "preprocess/base/surface_form.h"
 #include "preprocess/mesh/input_error.h"
+#include "preprocess/resistance/prepare.h"
 
 AMBIENT_BEGIN
 namespace {

@@ -8,10 +8,10 @@
 
 #include "bullet_ambient/fluid_body/displaced_mass.h"
 #include "bullet_ambient/force/medium/medium.h"
-#include "preprocess/base/surface_form.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/fluid_body_report.h"
 #include "preprocess/floating/floating_body.h"
+#include "preprocess/resistance/prepare.h"
 
 namespace ambient {
 namespace {
