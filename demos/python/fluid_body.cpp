@@ -10,7 +10,7 @@
 #include "demos/python/bindings.h"
 #include "preprocess/base/fluid_body_writer.h"
 #include "preprocess/base/surface_form.h"
-#include "preprocess/hand_over/export_fluid_body.h"
+#include "preprocess/hand_over/handed_body.h"
 #include "preprocess/polar/polar.h"
 
 namespace ambient {

@@ -4,7 +4,7 @@
 #include "preprocess/base/surface_form.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/option_values.h"
-#include "preprocess/hand_over/export_fluid_body.h"
+#include "preprocess/hand_over/handed_body.h"
 #include "preprocess/polar/polar.h"
 
 namespace ambient {
