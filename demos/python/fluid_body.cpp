@@ -9,7 +9,7 @@
 #include "demos/python/arrays.h"
 #include "demos/python/bindings.h"
 #include "preprocess/base/fluid_body_writer.h"
-#include "preprocess/hand_over/export_fluid_body.h"
+#include "preprocess/hand_over/handed_body.h"
 #include "preprocess/polar/polar.h"
 #include "preprocess/resistance/prepare.h"
 
