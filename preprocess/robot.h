@@ -2,5 +2,4 @@
 
 // Robots from URDF files as btMultiBody in a fluid.
 #include "preprocess/robot/robot.h"
-#include "preprocess/robot/robot_fluid.h"
 #include "preprocess/robot/urdf_reader.h"

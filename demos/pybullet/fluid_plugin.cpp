@@ -13,7 +13,7 @@
 
 #include "bullet_ambient/reading.h"
 #include "bullet_ambient/robot_dynamics.h"
-#include "demos/pybullet/server_world.h"
+#include "demos/pybullet/world_fluid.h"
 #include "demos/scene/scene_parts.h"
 
 namespace ambient::pybullet {

@@ -9,9 +9,9 @@
 #include "demos/python/arrays.h"
 #include "demos/python/bindings.h"
 #include "preprocess/base/fluid_body_writer.h"
-#include "preprocess/base/surface_form.h"
-#include "preprocess/hand_over/export_fluid_body.h"
+#include "preprocess/hand_over/handed_body.h"
 #include "preprocess/polar/polar.h"
+#include "preprocess/resistance/prepare.h"
 
 namespace ambient {
 namespace {
@@ -287,7 +287,7 @@ Frame F: axes of the mesh, origin at the centre of volume unless chosen otherwis
       .def(py::pickle([](const FluidBody& b) { return py::bytes(encodeFluidBody(b, b.name)); },
                       [](const py::bytes& bytes) {
                         FluidBody body = decodeFluidBody(std::string(bytes), "pickle");
-                        if (!isPrepared(body)) prepare(body);  // an earlier version's
+                        if (!isComplete(body)) prepare(body);  // an earlier version's
                         return std::make_shared<FluidBody>(std::move(body));
                       }));
 }

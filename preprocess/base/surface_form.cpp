@@ -1,8 +1,5 @@
 #include "preprocess/base/surface_form.h"
 
-#include <stdexcept>
-
-#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "preprocess/base/surface_triangles.h"
 
 namespace ambient {
@@ -32,23 +29,13 @@ std::vector<std::int32_t> hullOf(const Surface& surface) {
 
 }  // namespace
 
-void prepare(FluidBody& body) {
+void makeSurfaceForm(FluidBody& body) {
   body.form = {};
   if (body.sphere_radius > 0) return;
   body.form.shape = formShapeOf(body);
   const FaceTable faces = formLawFaces(body, body.form.shape);
   body.form.faces = faces;  // a copy has no room to spare
   body.form.hull = hullOf(body.surface);
-}
-
-FluidBody readPrepared(const std::filesystem::path& file) {
-  FluidBody body = readFluidBody(file);
-  try {
-    if (!isPrepared(body)) prepare(body);
-  } catch (const std::invalid_argument& error) {
-    throw std::runtime_error(file.string() + ": " + error.what());
-  }
-  return body;
 }
 
 }  // namespace ambient

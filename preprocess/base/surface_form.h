@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <vector>
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
@@ -35,14 +34,9 @@ FormShape formShapeOf(const FluidBody& body);
 /// @throws std::invalid_argument as computeSharpness().
 FaceTable formLawFaces(const FluidBody& body, const FormShape& shape);
 
-/// Makes FluidBody::form from the other fields, also where it is there already: a program that
-/// fills a fluid body by hand, or changes one, calls this before it attaches the body. Spheres get
-/// none. Cost O(F log F), 2 us per face.
+/// Makes FluidBody::form from the other fields, also where it is there already; a part of
+/// prepare(). Spheres get none. Cost O(F log F), 2 us per face.
 /// @throws std::invalid_argument as computeSharpness().
-void prepare(FluidBody& body);
-
-/// Reads a .ambient file like readFluidBody(), and prepares what was written by earlier versions.
-/// @throws std::runtime_error as readFluidBody(), also if the faces are not those of the surface.
-FluidBody readPrepared(const std::filesystem::path& file);
+void makeSurfaceForm(FluidBody& body);
 
 }  // namespace ambient

@@ -15,6 +15,7 @@
 #include "preprocess/potential_flow/results/refined_flow.h"
 #include "preprocess/potential_flow/results/solver_revision.h"
 #include "preprocess/potential_flow/surface/surface_refinement.h"
+#include "preprocess/resistance/separation.h"
 #include "preprocess/waterline/waterline_builder.h"
 
 namespace ambient {
@@ -101,6 +102,14 @@ void tellStage(const BuildSettings& settings, const std::string& stage) {
   if (settings.begin) settings.begin(stage);
 }
 
+void complete(FluidBody& body, const KnownViscousFlow& known, const BuildSettings& settings) {
+  try {
+    prepare(body, known, settings.flow.threads);
+  } catch (const std::runtime_error& error) {
+    raiseInputError(sourceOf(settings), error.what());
+  }
+}
+
 WaterlineTable waterlineOf(const FluidBody& body, const BuildSettings& settings) {
   WaterlineSettings waterline;
   waterline.subdivisions = settings.waterline_subdivisions;
@@ -142,6 +151,9 @@ FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& se
   mesh.vertices.colwise() -= origin;
 
   FluidBody body;
+  KnownViscousFlow viscous_flow = settings.viscous_flow;
+  if (viscous_flow.resistance)
+    viscous_flow.resistance = shiftOrigin(*viscous_flow.resistance, origin);
   body.name = settings.name;
   body.provenance = settings.provenance;
   if (body.provenance.generator.empty()) body.provenance.generator = libraryVersion();
@@ -160,6 +172,9 @@ FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& se
     body.added_mass = flow.added_mass;
     body.added_mass_parts = flow.parts;
     body.asymmetry = flow.asymmetry;
+    if (!settings.flow.sheet)
+      viscous_flow.separation = computeSeparation(flow.surface, flow.potential.rightCols<3>(),
+                                                  translationAxes(flow.added_mass));
   }
   requireFinite(body.added_mass, mesh, sourceOf(settings));
   body.volume = properties.volume;
@@ -176,7 +191,7 @@ FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& se
   AMBIENT_ASSERT(body.faces.sharpness.size() == body.faces.size());
   AMBIENT_ASSERT(settings.sphere_radius >= 0);
   if (settings.sphere_radius > 0) setSphere(settings.sphere_radius, body);
-  prepare(body);
+  complete(body, viscous_flow, settings);
   if (settings.waterline_subdivisions == 0) return body;
   tellStage(settings, "waterline table");
   body.waterline = waterlineOf(body, settings);

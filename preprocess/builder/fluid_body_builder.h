@@ -7,6 +7,7 @@
 #include "bullet_ambient/fluid_body/fluid_body.h"
 #include "preprocess/mesh/triangle_mesh.h"
 #include "preprocess/potential_flow/results/potential_flow.h"
+#include "preprocess/resistance/prepare.h"
 
 namespace ambient {
 
@@ -50,6 +51,9 @@ struct BuildSettings : CommonBuildSettings {
   std::optional<Matrix6> added_mass;
   /// Parts of that added mass, about the mesh's origin; may be empty.
   std::vector<AddedMassPart> added_mass_parts;
+  /// What is known besides in a fluid with viscosity, about the mesh's origin. Where the flow is
+  /// solved, so is the separation; where it is not, what is missing stays unknown.
+  KnownViscousFlow viscous_flow;
   Provenance provenance;  ///< copied; an empty generator becomes this library and its version
   /// Receives warnings about the result, one line each; null: no warnings.
   std::function<void(const std::string&)> warn = nullptr;
@@ -57,7 +61,8 @@ struct BuildSettings : CommonBuildSettings {
 
 /// Makes a fluid body from a mesh: mass properties, added mass, faces. The axes of F are those of
 /// the mesh. Both sides of a sheet are faces, first the front of all triangles, then the back; both
-/// count in its area; its volume is 0. Cost: that of solvePotentialFlow().
+/// count in its area; its volume is 0. Cost: those of
+/// solvePotentialFlow() and prepare().
 /// @pre the mesh passed checkMesh() as a body or as a sheet.
 /// @throws std::runtime_error in one line that begins with the source, if the mesh is smaller than
 /// 1e-9 m or larger than 1e9 m or too narrow, the flow cannot be solved or needs more memory

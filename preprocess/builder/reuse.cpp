@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "bullet_ambient/base/fnv1a.h"
-#include "preprocess/base/surface_form.h"
+#include "preprocess/resistance/prepare.h"
 
 namespace ambient {
 

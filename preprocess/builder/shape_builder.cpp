@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "bullet_ambient/base/fnv1a.h"
-#include "preprocess/base/surface_form.h"
 #include "preprocess/mesh/defects/topology_defects.h"
 #include "preprocess/mesh/geometry.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/potential_flow/results/ellipsoid_added_mass.h"
 #include "preprocess/potential_flow/surface/flat_merging.h"
+#include "preprocess/resistance/prepare.h"
 #include "preprocess/shape/json_schema.h"
 #include "preprocess/shape/shape_mesh.h"
 

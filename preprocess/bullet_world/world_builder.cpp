@@ -266,7 +266,7 @@ void dropLostNames(ParsedFile& file) {
 }
 
 struct WorldImporter : btBulletWorldImporter {
-  ~Importer() override { deleteAllData(); }
+  ~WorldImporter() override { deleteAllData(); }
 
   bool convertAllObjects(bParse::btBulletFile* file) override {
     dropLostNames(static_cast<ParsedFile&>(*file));

@@ -1,48 +1,95 @@
 #include "preprocess/command_line/fluid_body_report.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
-#include <iomanip>
-#include <nlohmann/json.hpp>
-#include <sstream>
+#include <map>
 
 #include "bullet_ambient/base/fnv1a.h"
 #include "bullet_ambient/base/plain_text.h"
-#include "preprocess/mesh/mass_properties.h"
 
 namespace ambient {
-
 namespace {
 
 using nlohmann::ordered_json;
 
-std::string compact(const ordered_json& value) {
-  return value.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+/// Units for people, by key.
+const std::map<std::string, const char*, std::less<>> kUnits{
+    {"added_mass", "m^5, m^4; m^4, m^3, per unit density, rotation first"},
+    {"area", "m^2"},
+    {"barycentre", "m"},
+    {"centre", "m"},
+    {"centre_of_volume", "m"},
+    {"draught", "m"},
+    {"friction", "N m, N"},
+    {"height", "m"},
+    {"height_of_mass", "m"},
+    {"inertia", "m^2"},
+    {"origin", "m in the mesh's frame"},
+    {"period", "s"},
+    {"pressure", "N m, N"},
+    {"seconds", "s"},
+    {"size", "m"},
+    {"smallest_angle", "rad"},
+    {"thickness", "m"},
+    {"total", "N m, N: torque about the origin of F, force"},
+    {"volume", "m^3"},
+    {"waterplane_area", "m^2"}};
+
+std::string numberText(const ordered_json& number, const char* format) {
+  char text[40];
+  std::snprintf(text, sizeof text, format, number.get<double>());
+  return text;
 }
 
-std::string valueText(const ordered_json& value) {
-  const bool is_matrix = value.is_array() && !value.empty() && value.front().is_array();
-  if (!is_matrix) return compact(value);
-  std::string text = "[";
-  for (std::size_t row = 0; row < value.size(); ++row) {
-    text += (row > 0 ? ",\n    " : "\n    ") + compact(value[row]);
+/// A value on one line; of long lists the length. Rounding beside larger numbers becomes 0.
+std::string plainValue(const ordered_json& value) {
+  constexpr std::size_t kMostShown = 8;
+  constexpr double kRounding = 1e-9;
+  if (value.is_string()) return plainLine(value.get<std::string>());
+  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+  if (value.is_number_float()) return numberText(value, "%.9g");
+  if (!value.is_array()) return value.dump();
+  if (value.size() > kMostShown) return std::to_string(value.size());
+  double largest = 0;
+  for (const ordered_json& item : value) largest = std::max(largest, std::abs(item.get<double>()));
+  std::string text;
+  for (const ordered_json& item : value) {
+    const bool is_zero = std::abs(item.get<double>()) <= kRounding * largest;
+    text += (text.empty() ? "" : ", ") + (is_zero ? "0" : plainValue(item));
   }
-  return text + "\n  ]";
+  return text;
 }
 
-}  // namespace
-
-std::string jsonText(const ordered_json& object) {
-  std::string text = "{";
-  for (const auto& entry : object.items()) {
-    text += text.size() > 1 ? ",\n  " : "\n  ";
-    text += compact(entry.key()) + ": " + valueText(entry.value());
+/// A row for each fact with a value, the parts of a fact indented.
+std::string rowsText(const ordered_json& facts, const std::string& indent) {
+  constexpr std::size_t kWidth = 18;
+  const std::string inside = indent + "  ";
+  std::string text;
+  for (const auto& [key, value] : facts.items()) {
+    if (value.empty() || value == "") continue;
+    std::string title = indent + key;
+    std::replace(title.begin(), title.end(), '_', ' ');
+    const std::string label = title + std::string(kWidth - std::min(kWidth - 1, title.size()), ' ');
+    const auto found = kUnits.find(key);
+    const std::string unit = found == kUnits.end() ? "\n" : std::string(" ") + found->second + "\n";
+    if (!value.is_structured() || (value.is_array() && value.front().is_number())) {
+      text += label + plainValue(value) + unit;
+    } else if (value.is_array() && value.front().is_array()) {
+      text += label + unit;
+      for (const ordered_json& row : value) {
+        text += inside;
+        for (const ordered_json& number : row) text += numberText(number, " %14.6e");
+        text += "\n";
+      }
+    } else {
+      for (const ordered_json& part : value.is_object() ? ordered_json::array({value}) : value)
+        text += part.is_object() ? title + "\n" + rowsText(part, inside)
+                                 : label + plainValue(part) + unit;
+    }
   }
-  return text + "\n}\n";
+  return text;
 }
-
-namespace {
-
-using nlohmann::ordered_json;
 
 ordered_json massJson(const MassDistribution& mass) {
   return {{"centre", vectorJson(mass.centre)}, {"inertia", matrixJson(mass.inertia)}};
@@ -57,91 +104,36 @@ ordered_json levelsJson(const std::vector<FormLevel>& levels) {
 
 bool isSheet(const FluidBody& body) { return body.volume == 0; }
 
-/// Rows "label  value" of a table.
-class Table {
- public:
-  explicit Table(const std::string& title) { text_ << std::setprecision(9) << title << "\n"; }
-
-  template <class... Parts>
-  void row(const std::string& label, const Parts&... parts) {
-    text_ << "  " << std::left << std::setw(18) << label;
-    (text_ << ... << parts) << "\n";
-  }
-
-  void matrix(const std::string& label, const Matrix6& matrix) {
-    text_ << "  " << label << "\n";
-    for (int i = 0; i < 6; ++i) {
-      text_ << "  ";
-      for (int j = 0; j < 6; ++j) {
-        char number[32];
-        std::snprintf(number, sizeof number, " %14.6e", matrix(i, j));
-        text_ << number;
-      }
-      text_ << "\n";
-    }
-  }
-
-  std::string text() const { return text_.str(); }
-
- private:
-  std::ostringstream text_;
-};
-
-std::string vectorText(const Vector3& v) {
-  std::ostringstream text;
-  text << std::setprecision(9) << v.x() << ", " << v.y() << ", " << v.z();
-  return text.str();
-}
-
 }  // namespace
 
-std::string reportJson(const FluidBody& body, std::optional<double> seconds) {
-  ordered_json report{{"name", body.name},
-                      {"vertices", body.surface.vertices.size() / 3},
-                      {"faces", body.surface.triangles.size() / 3},
-                      {"sheet", isSheet(body)},
-                      {"size", vectorJson(extentsOf(body))},
-                      {"volume", body.volume},
-                      {"area", body.area},
-                      {"origin", vectorJson(body.origin)},
-                      {"centre_of_volume", vectorJson(body.centre_of_volume)},
-                      {"added_mass", matrixJson(body.added_mass)},
-                      {"asymmetry", body.asymmetry},
-                      {"uniform_mass", massJson(body.uniform_mass)},
-                      {"surface_mass", massJson(body.surface_mass)},
-                      {"source", body.provenance.source},
-                      {"source_hash", hashText(body.provenance.source_hash)},
-                      {"settings", body.provenance.settings},
-                      {"generator", body.provenance.generator}};
-  if (!body.form_levels.empty()) report["form_levels"] = levelsJson(body.form_levels);
-  if (!body.waterline.empty())
-    report["waterline_table"] = {{"subdivisions", body.waterline.subdivisions},
-                                 {"immersions", body.waterline.immersions.size()}};
-  if (seconds) report["seconds"] = *seconds;
-  return jsonText(report);
+std::string factsText(const ordered_json& facts, bool json) {
+  return json ? facts.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n"
+              : rowsText(facts, "");
 }
 
-std::string reportTable(const FluidBody& body, const std::string& file) {
-  Table table(plainLine(file) + ": " + extentsText(extentsOf(body)));
-  table.row("name", plainLine(body.name));
-  table.row("source", plainLine(body.provenance.source), "  [",
-            hashText(body.provenance.source_hash), "]");
-  table.row("settings", plainLine(body.provenance.settings));
-  table.row("made by", plainLine(body.provenance.generator));
-  table.row("vertices", body.surface.vertices.size() / 3);
-  table.row("faces", body.surface.triangles.size() / 3, isSheet(body) ? ", a sheet" : "");
-  table.row("volume", body.volume, " m^3");
-  table.row("area", body.area, isSheet(body) ? " m^2, both sides" : " m^2");
-  table.row("origin", vectorText(body.origin), " m in the mesh's frame");
-  table.row("centre of volume", vectorText(body.centre_of_volume), " m");
-  table.row("asymmetry", body.asymmetry, " of the added mass before it was made symmetric");
-  for (const FormLevel& level : body.form_levels)
-    table.row("form law, " + std::to_string(level.faces.size()) + " faces", "p99 ",
-              100 * level.p99_error, " %");
+ordered_json bodyFacts(const FluidBody& body) {
+  ordered_json facts{{"name", body.name},
+                     {"vertices", body.surface.vertices.size() / 3},
+                     {"faces", body.surface.triangles.size() / 3},
+                     {"sheet", isSheet(body)},
+                     {"size", vectorJson(extentsOf(body))},
+                     {"volume", body.volume},
+                     {"area", body.area},
+                     {"origin", vectorJson(body.origin)},
+                     {"centre_of_volume", vectorJson(body.centre_of_volume)},
+                     {"added_mass", matrixJson(body.added_mass)},
+                     {"asymmetry", body.asymmetry},
+                     {"uniform_mass", massJson(body.uniform_mass)},
+                     {"surface_mass", massJson(body.surface_mass)},
+                     {"source", body.provenance.source},
+                     {"source_hash", hashText(body.provenance.source_hash)},
+                     {"settings", body.provenance.settings},
+                     {"generator", body.provenance.generator}};
+  if (!body.form_levels.empty()) facts["form_levels"] = levelsJson(body.form_levels);
   if (!body.waterline.empty())
-    table.row("waterline table", body.waterline.corrections.size(), " attitudes and immersions");
-  table.matrix("added mass per unit density, rotation first [m^5, m^4; m^4, m^3]", body.added_mass);
-  return table.text();
+    facts["waterline_table"] = {{"subdivisions", body.waterline.subdivisions},
+                                {"immersions", body.waterline.immersions.size()}};
+  return facts;
 }
 
 }  // namespace ambient

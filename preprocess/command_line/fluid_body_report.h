@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
@@ -25,15 +24,12 @@ nlohmann::ordered_json matrixJson(const Matrix& matrix) {
   return rows;
 }
 
-/// The text of an object, one line per key and per row of a matrix. Numbers have as many digits, 17
-/// at most, as it takes to read back the same bits.
-std::string jsonText(const nlohmann::ordered_json& object);
+/// The text of facts that a command has found: `json` or rows for people, which leave out what is
+/// empty. Numbers in JSON have as many digits, 17 at most, as it takes to read back the same bits,
+/// those for people 9.
+std::string factsText(const nlohmann::ordered_json& facts, bool json);
 
-/// Returns one JSON object about a fluid body; numbers have all digits that the same bits need.
-/// `seconds`: duration of the build, if it was built just now.
-std::string reportJson(const FluidBody& body, std::optional<double> seconds);
-
-/// Returns a table of the same facts for people, headed by the file's name.
-std::string reportTable(const FluidBody& body, const std::string& file);
+/// Returns the facts about a fluid body.
+nlohmann::ordered_json bodyFacts(const FluidBody& body);
 
 }  // namespace ambient

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <stdexcept>
 #include <tuple>
 
 #include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/base/plain_text.h"
 #include "bullet_ambient/force/surface/make_wetted_inertia.h"
 #include "bullet_ambient/spatial/inertia.h"
+#include "preprocess/base/output_file.h"
 #include "preprocess/polar/polar.h"
 
 namespace ambient {
@@ -323,6 +326,30 @@ ExportedBody makeFossen(const HandedBody& body) {
   addHydrostatics(json, body, axes);
   if (body.settings.speed) addDrag(json, body, axes);
   return {json.finished(), ""};
+}
+
+ExportFormat exportFormatOf(const std::string& name) {
+  if (const auto format = valueOf(kExportFormatNames, name)) return *format;
+  throw std::invalid_argument("\"" + name + "\" is none of sdf, mjcf, fossen");
+}
+
+void ExportedBody::write(const std::filesystem::path& file) const { writeFile(file, bytes); }
+
+ExportedBody exportFluidBody(const std::shared_ptr<const FluidBody>& body, ExportFormat format,
+                             const ExportSettings& settings) {
+  if (settings.speed && format != ExportFormat::kFossen)
+    reject(*body, "speed [m/s]", *settings.speed, "given for fossen only");
+  const HandedBody handed = handedBody(body, settings);
+  switch (format) {
+    case ExportFormat::kSdf:
+      return makeSdf(handed);
+    case ExportFormat::kMjcf:
+      return makeMjcf(handed);
+    case ExportFormat::kFossen:
+      return makeFossen(handed);
+  }
+  AMBIENT_ASSERT(false);
+  return {};
 }
 
 }  // namespace ambient

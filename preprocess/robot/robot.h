@@ -8,14 +8,31 @@
 #include <string>
 #include <vector>
 
+#include "bullet_ambient/attach_world.h"
 #include "bullet_ambient/bullet/core/precision_check.h"
+#include "bullet_ambient/fluid.h"
 #include "preprocess/robot/link_shape.h"
-#include "preprocess/robot/motor_target.h"
 #include "preprocess/robot/robot_model.h"
 
-class btMultiBodyDynamicsWorld;
-
 AMBIENT_BEGIN
+
+/// Target of a motor at a revolute or prismatic joint. If the effort suffices, a step ends with the
+/// joint velocity
+///
+///     velocity + velocity_gain * (target.velocity - velocity)
+///              + position_gain * (target.position - position) / time step
+struct MotorTarget {
+  double position = 0;  ///< [rad] or [m]
+  double velocity = 0;  ///< [rad/s] or [m/s]
+  double position_gain = 0.1;
+  double velocity_gain = 1;
+  double effort = JointModel::kUnlimited;  ///< [N m] or [N]; at most the joint's
+
+  /// Returns the target of a motor that holds a velocity [rad/s or m/s], whatever the position.
+  static MotorTarget speed(double velocity, double effort = JointModel::kUnlimited) {
+    return {0, velocity, 0, 1, effort};
+  }
+};
 
 /// The constraints of a robot's joints: limits, mimics, brakes for friction and damping, motors.
 class RobotJoints {
@@ -157,5 +174,25 @@ class Robot {
   std::unique_ptr<RobotJoints> joints_;
   btMultiBodyDynamicsWorld* world_ = nullptr;
 };
+
+/// Puts all links of a robot that collide and move into a fluid: with the medium, law and fluid
+/// body that their `ambient` elements name, else with those of `def` and the fluid body that the
+/// source has for the collision shape.
+///
+///     Robot robot(withoutFixedJoints(readUrdf("rover.urdf")));
+///     robot.addTo(world);
+///     FluidBodyCache shapes;
+///     attachRobot(fluid, robot, shapes, def);
+///
+/// Returns the names of the links that are in a fluid now. Remove them, or destroy the fluid,
+/// before the robot.
+/// @throws std::runtime_error or std::invalid_argument in one line that names the link; then none
+/// of them is attached.
+std::vector<std::string> attachRobot(Fluid& fluid, Robot& robot, FluidBodySource& source,
+                                     const AttachDef& def);
+
+/// Returns the pose of F in Bullet's body frame of a link, for a fluid body whose frame F is the
+/// URDF link's frame.
+FrameOffset linkFluidFrame(const Robot& robot, int number);
 
 AMBIENT_END

@@ -120,7 +120,7 @@ AttachDef bumpyInWater() {
   body.area = totalArea(body.faces);
   body.volume = 0.001;
   body.centre_of_volume = {0.01, -0.02, 0.015};
-  prepare(body);
+  makeSurfaceForm(body);
   AttachDef attach;
   attach.fluid_body = std::make_shared<FluidBody>(body);
   attach.medium = water();

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "demos/simulation/robots/scene_robot.h"
-#include "preprocess/base/surface_form.h"
+#include "preprocess/resistance/prepare.h"
 #include "preprocess/robot/link_shape.h"
 
 namespace ambient {

@@ -133,8 +133,9 @@ int runBuild(const BuildArguments& arguments) {
   if (is_reused && !arguments.json) {
     std::cerr << plainLine(arguments.output) << ": nothing has changed since it was built\n";
   }
-  std::cout << (arguments.json ? reportJson(*body, seconds.count())
-                               : reportTable(*body, arguments.output));
+  nlohmann::ordered_json facts = bodyFacts(*body);
+  if (arguments.json) facts["seconds"] = seconds.count();
+  std::cout << factsText(facts, arguments.json);
   return 0;
 }
 

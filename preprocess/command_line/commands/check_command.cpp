@@ -2,12 +2,10 @@
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/base/plain_text.h"
 #include "preprocess/base/output_file.h"
 #include "preprocess/builder/blocked_signals.h"
@@ -29,83 +27,36 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// How far the added mass of a mesh can be trusted, and what is worst about it.
-struct MeshEstimate {
-  std::optional<FlowEstimate> flow;  ///< none: the mesh is too large for a comparison
-  std::optional<Thickness> thinnest;
-  std::vector<TriangleQuality> worst_triangles;  ///< three
-};
-
-std::string placeText(int triangle, const Eigen::Vector3d& point) {
-  std::ostringstream text;
-  text.precision(6);
-  text << "triangle " << triangle << " at (" << point.x() << ", " << point.y() << ", " << point.z()
-       << ")";
-  return text.str();
-}
-
-/// Solves the flow around a mesh that can be built.
+/// How far the added mass of a mesh that can be built can be trusted, and what is worst about it:
+/// solves the flow around it.
 /// @throws std::runtime_error in one line that begins with `name`.
-MeshEstimate estimateMesh(const TriangleMesh& mesh, const PotentialFlowSettings& settings,
+ordered_json estimateMesh(const TriangleMesh& mesh, const PotentialFlowSettings& settings,
                           const std::string& name) {
   const ElapsedDisplay display("solving " + name);
-  MeshEstimate estimate;
-  estimate.worst_triangles = findWorstTriangles(mesh, 3);
-  if (!settings.sheet) estimate.thinnest = findThinnestPart(mesh);
+  ordered_json estimate;
   try {
-    estimate.flow = estimateFlow(mesh, settings);
+    if (const std::optional<FlowEstimate> flow = estimateFlow(mesh, settings)) {
+      estimate = {{"panels", flow->panels},
+                  {"other_panels", flow->other_panels},
+                  {"rotation_error", flow->rotation_error},
+                  {"translation_error", flow->translation_error}};
+    } else {
+      estimate["error"] = "none: the mesh is too large to be solved on more panels";
+    }
   } catch (const std::runtime_error& error) {
     raiseInputError(name, error.what());
   }
+  if (const auto thinnest = settings.sheet ? std::nullopt : findThinnestPart(mesh))
+    estimate["thinnest"] = {{"thickness", thinnest->thickness},
+                            {"triangle", thinnest->triangle},
+                            {"barycentre", vectorJson(thinnest->barycentre)}};
+  for (const TriangleQuality& t : findWorstTriangles(mesh, 3)) {
+    estimate["worst_triangles"].push_back({{"triangle", t.triangle},
+                                           {"aspect", t.aspect},
+                                           {"smallest_angle", t.smallest_angle},
+                                           {"barycentre", vectorJson(t.barycentre)}});
+  }
   return estimate;
-}
-
-ordered_json estimateJson(const MeshEstimate& estimate) {
-  ordered_json worst = ordered_json::array(), text;
-  for (const TriangleQuality& t : estimate.worst_triangles) {
-    worst.push_back({{"triangle", t.triangle},
-                     {"aspect", t.aspect},
-                     {"smallest_angle", t.smallest_angle},
-                     {"barycentre", vectorJson(t.barycentre)}});
-  }
-  if (const auto& flow = estimate.flow) {
-    text = {{"panels", flow->panels},
-            {"other_panels", flow->other_panels},
-            {"rotation_error", flow->rotation_error},
-            {"translation_error", flow->translation_error}};
-  }
-  if (const auto& thinnest = estimate.thinnest) {
-    text["thinnest"] = {{"thickness", thinnest->thickness},
-                        {"triangle", thinnest->triangle},
-                        {"barycentre", vectorJson(thinnest->barycentre)}};
-  }
-  text["worst_triangles"] = worst;
-  return text;
-}
-
-/// Rows of a table for people.
-std::string estimateTable(const MeshEstimate& estimate) {
-  constexpr double kDegree = kPi / 180;
-  std::ostringstream text;
-  text.precision(3);
-  text << "estimated error  ";
-  if (const auto& flow = estimate.flow) {
-    text << 100 * flow->rotation_error << " % in rotation, " << 100 * flow->translation_error
-         << " % in translation, from " << flow->panels << " and " << flow->other_panels
-         << " panels\n";
-  } else {
-    text << "none: the mesh is too large to be solved on more panels\n";
-  }
-  if (const auto& thinnest = estimate.thinnest) {
-    text << "thinnest part    " << thinnest->thickness << " m, "
-         << placeText(thinnest->triangle, thinnest->barycentre) << "\n";
-  }
-  for (const TriangleQuality& t : estimate.worst_triangles) {
-    text << "worst triangle   aspect " << t.aspect << ", smallest angle "
-         << t.smallest_angle / kDegree << " degrees, " << placeText(t.triangle, t.barycentre)
-         << "\n";
-  }
-  return text.str();
 }
 
 /// Options of ambient_preprocess check; its help says what they mean.
@@ -192,51 +143,6 @@ ordered_json outcomeJson(const Outcome& outcome) {
   return json;
 }
 
-std::string asJson(const Outcome& asked, const std::vector<MeshDefect>& defects,
-                   const std::vector<Outcome>& remedies,
-                   const std::optional<MeshEstimate>& estimate) {
-  ordered_json text = outcomeJson(asked);
-  text["defects"] = ordered_json::array();
-  for (const MeshDefect& defect : defects) {
-    text["defects"].push_back(
-        {{"kind", defect.kind}, {"text", defect.text}, {"triangles", defect.triangles}});
-  }
-  text["remedies"] = ordered_json::array();
-  for (const Outcome& remedy : remedies) text["remedies"].push_back(outcomeJson(remedy));
-  if (estimate) text["estimate"] = estimateJson(*estimate);
-  return jsonText(text);
-}
-
-std::string lineOf(const std::string& label, const Outcome& outcome) {
-  std::ostringstream text;
-  text.precision(4);
-  text << label << std::string(label.size() < 17 ? 17 - label.size() : 1, ' ');
-  if (!outcome.usable) return text.str() + plainLine(outcome.refusal) + "\n";
-  const TriangleMesh& mesh = outcome.usable->mesh;
-  text << "usable: " << mesh.triangleCount() << " faces, " << extentsText(mesh.extents());
-  if (outcome.option != "--sheet") text << ", volume " << volumeOf(outcome) << " m^3";
-  return text.str() + "\n";
-}
-
-std::string asTable(const Outcome& asked, const std::vector<MeshDefect>& defects,
-                    const std::vector<Outcome>& remedies,
-                    const std::optional<MeshEstimate>& estimate) {
-  std::string text;
-  for (const MeshDefect& defect : defects)
-    text += "defect           " + plainLine(defect.text) + "\n";
-  if (asked.usable || defects.empty())
-    text += lineOf(asked.is_wrapped       ? "wrapped"
-                   : asked.option.empty() ? "as it is"
-                                          : asked.option,
-                   asked);
-  for (const Outcome& remedy : remedies)
-    if (remedy.usable) text += lineOf("with " + remedy.option, remedy);
-  if (estimate) text += estimateTable(*estimate);
-  if (!asked.usable)
-    text += "cannot be built" + std::string(asked.option.empty() ? " as it is" : " so") + "\n";
-  return text;
-}
-
 /// The mesh file behind the input.
 ImportedMesh importInput(const ShapeDescription& shape) {
   if (const auto* mesh = std::get_if<MeshFile>(&shape.geometry))
@@ -260,17 +166,6 @@ void writeObj(const CheckedMesh& checked, const std::string& file) {
   writeFile(file, defectsAsObj(checked));
 }
 
-/// Estimates the error of what would be built, where that was asked for and something would.
-std::optional<MeshEstimate> estimateOf(const CheckArguments& arguments,
-                                       const ShapeDescription& shape, const Outcome& asked) {
-  if (!arguments.estimate || !asked.usable) return std::nullopt;
-  PotentialFlowSettings settings;
-  settings.sheet = isSheet(shape);
-  settings.max_panels = arguments.panels;
-  settings.threads = arguments.threads;
-  return estimateMesh(asked.usable->mesh, settings, arguments.input);
-}
-
 /// Returns the exit status: 1 if the input cannot be built.
 int runCheck(const CheckArguments& arguments) {
   requirePositive("--scale", arguments.options.scale);
@@ -285,15 +180,30 @@ int runCheck(const CheckArguments& arguments) {
   const ReadInput input{arguments, importInput(shape)};
   const Outcome asked = tryAsAsked(input);
   const CheckedMesh checked = checkInput(input, shape);
-  const std::vector<Outcome> remedies = asked.usable ? std::vector<Outcome>() : tryRemedies(input);
   if (!arguments.obj.empty()) writeObj(checked, arguments.obj);
+  ordered_json facts = outcomeJson(asked);
   if (asked.usable && !arguments.json) {
     for (const std::string& warning : asked.usable->warnings)
       std::cerr << "warning: " << plainLine(warning) << "\n";
+    facts.erase("warnings");
   }
-  const std::optional<MeshEstimate> estimate = estimateOf(arguments, shape, asked);
-  std::cout << (arguments.json ? asJson(asked, checked.defects, remedies, estimate)
-                               : asTable(asked, checked.defects, remedies, estimate));
+  facts["defects"] = ordered_json::array();
+  for (const MeshDefect& defect : checked.defects) {
+    facts["defects"].push_back(
+        {{"kind", defect.kind}, {"text", defect.text}, {"triangles", defect.triangles}});
+  }
+  facts["remedies"] = ordered_json::array();
+  if (!asked.usable)
+    for (const Outcome& remedy : tryRemedies(input))
+      facts["remedies"].push_back(outcomeJson(remedy));
+  if (arguments.estimate && asked.usable) {
+    PotentialFlowSettings settings;
+    settings.sheet = isSheet(shape);
+    settings.max_panels = arguments.panels;
+    settings.threads = arguments.threads;
+    facts["estimate"] = estimateMesh(asked.usable->mesh, settings, arguments.input);
+  }
+  std::cout << factsText(facts, arguments.json);
   return asked.usable ? 0 : 1;
 }
 

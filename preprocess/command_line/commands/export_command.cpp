@@ -1,11 +1,11 @@
 #include <iostream>
 #include <memory>
 
-#include "preprocess/base/surface_form.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/option_values.h"
-#include "preprocess/hand_over/export_fluid_body.h"
+#include "preprocess/hand_over/handed_body.h"
 #include "preprocess/polar/polar.h"
+#include "preprocess/resistance/prepare.h"
 
 namespace ambient {
 namespace {

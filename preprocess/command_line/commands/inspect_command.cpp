@@ -1,5 +1,4 @@
 #include <cmath>
-#include <cstdio>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -8,60 +7,15 @@
 
 #include "bullet_ambient/fluid_body/displaced_mass.h"
 #include "bullet_ambient/force/medium/medium.h"
-#include "preprocess/base/surface_form.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/fluid_body_report.h"
 #include "preprocess/floating/floating_body.h"
+#include "preprocess/resistance/prepare.h"
 
 namespace ambient {
 namespace {
 
 using nlohmann::ordered_json;
-
-constexpr int kMostAlike = 48;  // by the symmetry of a box; more: it turns freely
-
-template <class... Numbers>
-std::string line(const char* format, Numbers... numbers) {
-  char text[200];
-  std::snprintf(text, sizeof text, format, numbers...);
-  return text;
-}
-
-// Components of a unit vector to four decimals: what is below is noise of the search.
-std::string directionText(const Vector3& v) {
-  const auto rounded = [](double x) { return std::round(1e4 * x) / 1e4 + 0.0; };
-  return line("%.4g, %.4g, %.4g", rounded(v.x()), rounded(v.y()), rounded(v.z()));
-}
-
-// Period of a mode of body and added mass, without damping by waves; "none" where nothing turns the
-// body back.
-std::string modeText(const SmallOscillation& mode) {
-  const bool has_period = std::isfinite(mode.period);
-  if (!has_period && mode.turn.isZero(0)) return "";  // nothing to tell
-  const bool is_heave = mode.is_heave && has_period;
-  return "    period          " +
-         (has_period ? line("%.4g s, ", mode.period) : std::string("none, ")) +
-         (is_heave ? "heave" : "turn about " + directionText(mode.turn)) + "\n";
-}
-
-std::string attitudeText(const FloatingAttitude& attitude) {
-  std::string text = "  up is " + directionText(attitude.up);
-  if (attitude.up.z() < -attitude.up.head<2>().norm()) text += ", z downwards";
-  if (attitude.alike > kMostAlike) {
-    text += ", or turned freely";
-  } else if (attitude.alike > 1) {
-    text += line(", and %d alike", attitude.alike - 1);
-  }
-  text += line("; reached from %.0f %% of all attitudes\n", 100 * attitude.share);
-  text += line("    draught         %.5g m\n", attitude.draught);
-  text += line("    centre of mass  %.5g m above the water\n", attitude.height_of_mass);
-  text += line("    waterplane      %.5g m^2\n", attitude.wet.waterplane.area);
-  for (const Metacentre& metacentre : attitude.metacentres)
-    text += line("    GM              %.4g m, about ", metacentre.height) +
-            directionText(metacentre.axis) + "\n";
-  for (const SmallOscillation& mode : attitude.modes) text += modeText(mode);
-  return text;
-}
 
 ordered_json modeJson(const SmallOscillation& mode) {
   ordered_json json{{"heave", mode.is_heave}, {"turn", vectorJson(mode.turn)}};
@@ -85,24 +39,8 @@ ordered_json attitudeJson(const FloatingAttitude& attitude) {
   return json;
 }
 
-/// Returns a text about how a body floats: its attitudes with draught, metacentric heights and
-/// periods.
-std::string floatingTable(const FloatingBody& body) {
-  std::string text = line("with %.6g kg on water of %.6g kg/m^3\n", body.mass, body.density);
-  const double air_mass = air().density * body.shape->volume;
-  if (DisplacedMass{body.mass, air_mass}.isMuchLighter())
-    text += line("  it is lighter than the %.6g kg of air in its place: is its mesh in metres?\n",
-                 air_mass);
-  const auto attitudes = findFloatingAttitudes(body);
-  if (attitudes.empty())
-    return text + line("  it sinks: it displaces %.6g kg\n", body.density * body.shape->volume);
-  for (const FloatingAttitude& attitude : attitudes) text += attitudeText(attitude);
-  return text;
-}
-
-/// Returns the facts of floatingTable() in JSON: a list with one entry per attitude, empty if the
-/// body sinks.
-ordered_json floatingJson(const FloatingBody& body) {
+/// The attitudes in which a body floats; none if it sinks.
+ordered_json floatingFacts(const FloatingBody& body) {
   ordered_json list = ordered_json::array();
   for (const FloatingAttitude& attitude : findFloatingAttitudes(body))
     list.push_back(attitudeJson(attitude));
@@ -137,23 +75,24 @@ FloatingBody onWater(const FluidBody& body, const InspectArguments& arguments) {
   return floating;
 }
 
-std::string inspectionJson(const FluidBody& body, const InspectArguments& arguments) {
-  std::string text = reportJson(body, std::nullopt);
-  if (!arguments.mass) return text;
-  auto report = nlohmann::ordered_json::parse(text);
-  report["floating"] = floatingJson(onWater(body, arguments));
-  return jsonText(report);
+void warnOfMass(const FloatingBody& body, const ordered_json& attitudes) {
+  const double air_mass = air().density * body.shape->volume;
+  if (DisplacedMass{body.mass, air_mass}.isMuchLighter())
+    std::cerr << "warning: it is lighter than the " << air_mass
+              << " kg of air in its place: is its mesh in metres?\n";
+  if (attitudes.empty())
+    std::cerr << "it sinks: it displaces " << body.density * body.shape->volume << " kg\n";
 }
 
 void runInspect(const InspectArguments& arguments) {
   const FluidBody body = readPrepared(arguments.file);
-  if (arguments.json) {
-    std::cout << inspectionJson(body, arguments);
-    return;
+  ordered_json facts = bodyFacts(body);
+  if (arguments.mass) {
+    const FloatingBody floating = onWater(body, arguments);
+    facts["floating"] = floatingFacts(floating);
+    if (!arguments.json) warnOfMass(floating, facts["floating"]);
   }
-  std::string table = reportTable(body, arguments.file);
-  if (arguments.mass) table += floatingTable(onWater(body, arguments));
-  std::cout << table;
+  std::cout << factsText(facts, arguments.json);
 }
 
 }  // namespace

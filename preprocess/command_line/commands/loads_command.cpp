@@ -1,16 +1,15 @@
 #include <cmath>
-#include <cstdio>
 #include <iostream>
 #include <limits>
 #include <memory>
 
 #include "bullet_ambient/base/pi.h"
-#include "preprocess/base/surface_form.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/fluid_body_report.h"
 #include "preprocess/command_line/option_values.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/polar/polar.h"
+#include "preprocess/resistance/prepare.h"
 
 namespace ambient {
 namespace {
@@ -53,34 +52,6 @@ Twist twistOf(const LoadsArguments& arguments) {
   return Twist::fromVector(twist);
 }
 
-std::string loadsJson(const FaceLoads& loads) {
-  const nlohmann::ordered_json report{{"pressure", vectorJson(loads.pressure.vector())},
-                                      {"friction", vectorJson(loads.friction.vector())},
-                                      {"total", vectorJson(loads.total().vector())}};
-  return jsonText(report);
-}
-
-std::string loadsTable(const FaceLoads& loads) {
-  std::string text =
-      "               torque about the origin of F [N m]            force [N]\n"
-      "                      x            y            z            x            y            z\n";
-  const auto append = [&text](const char* label, const Wrench& wrench) {
-    char cell[32];
-    std::snprintf(cell, sizeof cell, "%-10s", label);
-    text += cell;
-    const Vector6 numbers = wrench.vector();
-    for (int i = 0; i < 6; ++i) {
-      std::snprintf(cell, sizeof cell, "%13.5e", numbers[i]);
-      text += cell;
-    }
-    text += "\n";
-  };
-  append("pressure", loads.pressure);
-  append("friction", loads.friction);
-  append("total", loads.total());
-  return text;
-}
-
 void runLoads(const LoadsArguments& arguments) {
   const Medium medium = mediumOf(arguments);
   const FlowSettings flow = flowOf(arguments);
@@ -91,7 +62,10 @@ void runLoads(const LoadsArguments& arguments) {
     raiseInputError(arguments.file, "the loads of this motion are beyond the largest number, ",
                     std::numeric_limits<double>::max());
   }
-  std::cout << (arguments.json ? loadsJson(loads) : loadsTable(loads));
+  std::cout << factsText({{"pressure", vectorJson(loads.pressure.vector())},
+                          {"friction", vectorJson(loads.friction.vector())},
+                          {"total", vectorJson(loads.total().vector())}},
+                         arguments.json);
 }
 
 }  // namespace

@@ -8,10 +8,10 @@
 #include <string>
 
 #include "bullet_ambient/base/pi.h"
-#include "preprocess/base/surface_form.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/option_values.h"
 #include "preprocess/polar/polar.h"
+#include "preprocess/resistance/prepare.h"
 
 namespace ambient {
 namespace {

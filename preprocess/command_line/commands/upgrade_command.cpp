@@ -6,15 +6,15 @@
 #include "bullet_ambient/base/plain_text.h"
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "preprocess/base/fluid_body_writer.h"
-#include "preprocess/base/surface_form.h"
 #include "preprocess/builder/blocked_signals.h"
 #include "preprocess/command_line/commands.h"
+#include "preprocess/resistance/prepare.h"
 
 namespace ambient {
 namespace {
 
 void upgrade(const std::string& file) {
-  const bool is_new = isPrepared(readFluidBody(file));
+  const bool is_new = isComplete(readFluidBody(file));
   if (!is_new) {
     const FluidBody body = readPrepared(file);
     const BlockedSignals until_renamed;

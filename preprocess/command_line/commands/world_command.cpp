@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <iostream>
 
@@ -10,7 +9,6 @@
 #include "preprocess/command_line/fluid_body_report.h"
 #include "preprocess/command_line/option_values.h"
 #include "preprocess/mesh/input_error.h"
-#include "preprocess/mesh/mass_properties.h"
 
 namespace ambient {
 namespace {
@@ -64,33 +62,6 @@ ordered_json shapeJson(const WorldShapeResult& shape) {
   return report;
 }
 
-std::string worldJson(const WorldBuild& built, int failed) {
-  ordered_json shapes = ordered_json::array();
-  for (const WorldShapeResult& shape : built.shapes) shapes.push_back(shapeJson(shape));
-  return jsonText({{"shapes", shapes},
-                   {"failed", failed},
-                   {"lost_bodies", built.lost_bodies},
-                   {"lost_multibodies", built.multibodies}});
-}
-
-std::string worldTable(const WorldBuild& built) {
-  std::size_t width = 5;
-  for (const WorldShapeResult& shape : built.shapes) width = std::max(width, shape.name.size());
-  const auto name = [width](std::string text) {
-    text.resize(width, ' ');
-    return text;
-  };
-  std::string text = name("shape") + "  bodies  result   faces    volume [m^3]  time [s]  size\n";
-  for (const WorldShapeResult& shape : built.shapes) {
-    char row[96];
-    std::snprintf(row, sizeof row, "  %6zu  %-6s  %6zu  %14.6g  %8.2f  ", shape.bodies.size(),
-                  wordFor(shape.status), shape.faces, shape.volume, shape.seconds);
-    const bool is_made = shape.status != Status::kFailed;
-    text += name(shape.name) + row + (is_made ? extentsText(shape.extents) : "-") + "\n";
-  }
-  return text;
-}
-
 int countFailed(const WorldBuild& built) {
   const auto has_failed = [](const WorldShapeResult& s) { return s.status == Status::kFailed; };
   return static_cast<int>(std::count_if(built.shapes.begin(), built.shapes.end(), has_failed));
@@ -139,7 +110,13 @@ int buildWorldFile(const BuildArguments& arguments) {
   }
   printTroubles(built, plainLine(arguments.input));
   const int failed = countFailed(built);
-  std::cout << (arguments.json ? worldJson(built, failed) : worldTable(built));
+  ordered_json shapes = ordered_json::array();
+  for (const WorldShapeResult& shape : built.shapes) shapes.push_back(shapeJson(shape));
+  std::cout << factsText({{"shapes", shapes},
+                          {"failed", failed},
+                          {"lost_bodies", built.lost_bodies},
+                          {"lost_multibodies", built.multibodies}},
+                         arguments.json);
   return failed > 0 || built.lost_bodies > 0 || built.multibodies > 0 ? 1 : 0;
 }
 

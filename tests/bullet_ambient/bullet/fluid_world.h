@@ -84,7 +84,7 @@ struct FluidWorld : WholeWorld<ActionWorld> {
     btRigidBody& body = add(def);
     AttachDef attach;
     const auto prepared = std::make_shared<FluidBody>(fluid_body);
-    prepare(*prepared);
+    makeSurfaceForm(*prepared);
     attach.fluid_body = prepared;
     attach.medium = medium;
     attach.flow.law = law;

@@ -31,7 +31,7 @@ void addFloatingBodies(FluidWorld& scene, BodyDef def) {
 FluidBody formShape() {
   FluidBody shape = floatingEllipsoid(Vector3(0.3, 0.25, 0.1), 3);
   shape.faces.sharpness.assign(shape.faces.size(), 0.5);
-  prepare(shape);
+  makeSurfaceForm(shape);
   return shape;
 }
 

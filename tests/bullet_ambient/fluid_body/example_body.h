@@ -32,7 +32,7 @@ inline FluidBody exampleBody(int level = 1) {
     body.surface.vertices.insert(body.surface.vertices.end(), {v.x(), v.y(), v.z()});
   for (const Eigen::Vector3i& t : mesh.triangles)
     body.surface.triangles.insert(body.surface.triangles.end(), {t[0], t[1], t[2]});
-  prepare(body);
+  makeSurfaceForm(body);
   return body;
 }
 

@@ -33,7 +33,7 @@ TEST(ScaledFluidBody, ScalesCouplingMassDistributionAndSurface) {
   EXPECT_EQ(body.centre_of_volume, Vector3(2 * unit.centre_of_volume));
   EXPECT_EQ(body.origin, Vector3(2 * unit.origin));
   FluidBody anew = body;
-  prepare(anew);
+  makeSurfaceForm(anew);
   EXPECT_EQ(contentHash(body), contentHash(anew)) << "the form is scaled along";
   EXPECT_EQ(body.uniform_mass.centre, Vector3(2 * unit.uniform_mass.centre));
   EXPECT_EQ(body.surface_mass.inertia, Matrix3(4 * unit.surface_mass.inertia));

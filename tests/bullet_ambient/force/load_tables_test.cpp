@@ -47,7 +47,7 @@ TEST(LoadTables, NeedAPreparedBodyForTheFormLawAndForHydrostatics) {
   EXPECT_EQ(test::refusalOf<std::invalid_argument>([&] { makeSurfaceLoads(body, water(), {}); }),
             expected);
   EXPECT_EQ(test::refusalOf<std::invalid_argument>([&] { LoadTables(body).hull(); }), expected);
-  prepare(*body);
+  makeSurfaceForm(*body);
   EXPECT_NE(makeSurfaceLoads(body, water(), {}), nullptr);
 }
 

@@ -32,7 +32,7 @@ std::shared_ptr<const SurfaceLoads> loadsOf(const FluidBody& body,
   FlowSettings flow = formLaw(precision);
   flow.separation_angle = separation_angle;
   const auto prepared = std::make_shared<FluidBody>(body);
-  prepare(*prepared);
+  makeSurfaceForm(*prepared);
   return makeSurfaceLoads(prepared, {1.3, 0, {}, {}}, flow);
 }
 

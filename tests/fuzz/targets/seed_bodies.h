@@ -19,7 +19,7 @@ inline FluidBody seedFluidBody() {
   body.faces.add(-Vector3::UnitX(), Vector3::UnitZ(), 1);
   body.surface.vertices = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   body.surface.triangles = {0, 1, 2, 0, 2, 1};
-  prepare(body);
+  makeSurfaceForm(body);
   return body;
 }
 

@@ -13,6 +13,7 @@
 #include "preprocess/builder/shape_builder.h"
 #include "preprocess/mesh/shapes/primitives.h"
 #include "preprocess/potential_flow/results/ellipsoid_added_mass.h"
+#include "preprocess/resistance/stokes_resistance.h"
 #include "preprocess/shape/shape_reader.h"
 #include "tests/preprocess/mesh/mesh_files.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
@@ -43,6 +44,32 @@ TEST(FluidBodyBuilder, BodiesSatisfyTheChecksOfTheFile) {
   BuildSettings sheet;
   sheet.flow.sheet = true;
   checkFluidBody(build(makeRectangularSheetMesh(1, 2, 200), sheet), "sheet");
+}
+
+TEST(FluidBodyBuilder, FillsTheViscousFormFromTheSolvedFlow) {
+  const Vector3 semi_axes(1, 0.5, 0.5);
+  BuildSettings settings;
+  settings.origin = Vector3(0.3, 0, 0);
+  const FluidBody body = build(makeEllipsoidMesh(semi_axes, 1280), settings);
+  const ViscousForm& form = body.viscous;
+  EXPECT_LT((form.centre_of_reaction - Vector3(-0.3, 0, 0)).norm(), 1e-3);
+  const Vector6 R = shiftOrigin(form.resistance, form.centre_of_reaction).diagonal(),
+                exact = ellipsoidResistance(semi_axes);
+  EXPECT_LT(((R - exact).array() / exact.array()).abs().maxCoeff(), 0.01);
+  EXPECT_EQ(form.separation.smooth_base, Vector3(1, 1, 1));
+  EXPECT_NEAR(form.separation.ways[0].wake_laminar / 0.9245, 1, 0.04);
+  EXPECT_NEAR(form.surface.frontal[0] / (kPi / 4), 1, 0.02);
+  EXPECT_FALSE(form.is_primitive);
+}
+
+TEST(FluidBodyBuilder, OfASheetSeparationIsByEdges) {
+  BuildSettings settings;
+  settings.flow.sheet = true;
+  const ViscousForm form = build(makeRectangularSheetMesh(1, 2, 200), settings).viscous;
+  EXPECT_EQ(form.separation.smooth_base, Vector3::Zero());
+  EXPECT_EQ(form.sharp_share, 1);
+  EXPECT_NEAR(form.surface.diameter, std::sqrt(4 / kPi), 1e-12);
+  EXPECT_GT(form.resistance(5, 5), form.resistance(4, 4));
 }
 
 TEST(FluidBodyBuilder, OriginIsTheCentreOfVolumeByDefault) {

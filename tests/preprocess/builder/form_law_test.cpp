@@ -182,8 +182,8 @@ Wrench discAtThirty(double spin) {
   body.volume = 8.0 / 3;
   FluidBody faces_alone = body;
   faces_alone.added_mass.setZero();
-  prepare(body);
-  prepare(faces_alone);
+  makeSurfaceForm(body);
+  makeSurfaceForm(faces_alone);
   return loadOn(body, x) + -1.0 * loadOn(faces_alone, x);
 }
 

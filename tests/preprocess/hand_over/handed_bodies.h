@@ -5,7 +5,7 @@
 #include <random>
 
 #include "bullet_ambient/spatial/vector_types.h"
-#include "preprocess/hand_over/export_fluid_body.h"
+#include "preprocess/hand_over/handed_body.h"
 #include "tests/reference/ellipsoid_added_mass.h"
 #include "tests/support/bodies/ellipsoid_body.h"
 

@@ -8,7 +8,7 @@
 #include "bullet_ambient/ambient.h"
 #include "bullet_ambient/bullet/core/conversions.h"
 #include "preprocess/collision_shape/fluid_body_cache.h"
-#include "preprocess/robot/robot_fluid.h"
+#include "preprocess/robot/robot.h"
 #include "tests/preprocess/robot/fluid_robot_world.h"
 #include "tests/preprocess/robot/urdf_text_of.h"
 #include "tests/support/refusal_of.h"

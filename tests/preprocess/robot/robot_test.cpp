@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "preprocess/collision_shape/fluid_body_cache.h"
-#include "preprocess/robot/robot_fluid.h"
 #include "tests/preprocess/robot/fluid_robot_world.h"
 #include "tests/preprocess/robot/robot_world.h"
 #include "tests/preprocess/robot/urdf_text_of.h"

@@ -26,7 +26,7 @@ struct BodyModelDef {
 /// Returns the model of a body with all loads; prepares the shape.
 inline BodyModel modelOf(const BodyModelDef& def) {
   const auto shape = std::make_shared<FluidBody>(def.shape);
-  if (def.flow.law == PressureLaw::kForm) prepare(*shape);
+  if (def.flow.law == PressureLaw::kForm) makeSurfaceForm(*shape);
   return makeBodyModel(*shape, def.frame, def.mass, def.medium,
                        makeSurfaceLoads(shape, def.medium, def.flow));
 }

@@ -38,7 +38,7 @@ inline FluidBody meshedEllipsoid(const Vector3& semi_axes, int level) {
   FluidBody shape = facelessEllipsoid(semi_axes);
   shape.faces = faceTableOf(geodesicEllipsoid(semi_axes, level));
   shape.area = totalArea(shape.faces);
-  prepare(shape);
+  makeSurfaceForm(shape);
   return shape;
 }
 
@@ -69,7 +69,7 @@ inline FluidBody latticeEllipsoid(const Vector3& semi_axes, int meridians, int b
   FluidBody shape = facelessEllipsoid(semi_axes);
   shape.faces = faceTableOf(mesh);
   shape.area = totalArea(shape.faces);
-  prepare(shape);
+  makeSurfaceForm(shape);
   return shape;
 }
 
@@ -115,7 +115,7 @@ inline FluidBody gaussSphere(double radius) {
     }
   }
   shape.faces.sharpness.assign(shape.faces.size(), 0);  // round
-  prepare(shape);
+  makeSurfaceForm(shape);
   return shape;
 }
 

@@ -23,7 +23,7 @@ inline FluidBody hullBody(const Triangulation& mesh) {
   }
   body.faces = faceTableOf(mesh);
   body.area = totalArea(body.faces);
-  prepare(body);
+  makeSurfaceForm(body);
   return body;
 }
 

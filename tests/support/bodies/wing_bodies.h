@@ -16,7 +16,7 @@ inline FluidBody bodyOfFaces(FaceTable faces) {
   body.faces = std::move(faces);
   for (const double area : body.faces.area) body.area += area;
   body.added_mass(5, 5) = 1;
-  prepare(body);
+  makeSurfaceForm(body);
   return body;
 }
 
@@ -33,7 +33,7 @@ inline FluidBody rectangularWing(double aspect, int per_chord = 24) {
   faces.sharpness.assign(faces.size(), 1);
   FluidBody body = bodyOfFaces(std::move(faces));
   body.added_mass(5, 5) = kPi / 4 * aspect;
-  prepare(body);
+  makeSurfaceForm(body);
   return body;
 }
 
@@ -51,7 +51,7 @@ inline FluidBody smoothHull(const Vector3& semi_axes, int level = 3) {
     body.surface.vertices.insert(body.surface.vertices.end(), vertex.data(), vertex.data() + 3);
   for (const auto& triangle : mesh.triangles)
     body.surface.triangles.insert(body.surface.triangles.end(), triangle.begin(), triangle.end());
-  prepare(body);
+  makeSurfaceForm(body);
   return body;
 }
 

@@ -140,7 +140,7 @@ AttachDef floatDef(int parts) {
     const Matrix6 of_half = longBox(half)->added_mass;
     for (const double x : {-half.x() / 2, half.x() / 2})
       shape->added_mass += FrameOffset{Matrix3::Identity(), {x, 0, 0}}.inertiaToB(of_half);
-    prepare(*shape);
+    makeSurfaceForm(*shape);
   }
   def.fluid_body = shape;
   def.flow.law = PressureLaw::kForm;

@@ -203,7 +203,7 @@ TEST_F(Drawing, PressureOfTheFormLawIsDrawnInTheLeeAsWell) {
   AttachDef def = *ambient().def;
   auto shape = std::make_shared<FluidBody>(*def.fluid_body);
   shape->faces.sharpness.assign(shape->faces.size(), 0.5);
-  prepare(*shape);
+  makeSurfaceForm(*shape);
   def.fluid_body = shape;
   def.flow.law = PressureLaw::kForm;
   scene.of(*body).remove();

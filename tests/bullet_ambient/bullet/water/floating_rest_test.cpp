@@ -57,7 +57,7 @@ Float barrelOf(double radius, double length, int sides, double mass) {
   const double across = mass * (3 * radius * radius + length * length) / 12;
   barrel.moments = Vector3(mass * radius * radius / 2, across, across);
   barrel.shape.added_mass = facelessEllipsoid(Vector3(0.6 * length, radius, radius)).added_mass;
-  prepare(barrel.shape);
+  makeSurfaceForm(barrel.shape);
   return barrel;
 }
 

@@ -189,7 +189,7 @@ TEST(PoolSides, BothPartsOfTheLoadMakeUpTheWhole) {
   Arbitrary arbitrary(4);
   FluidBody body = test::hullBody(test::geodesicSphere(3));
   body.faces.sharpness = computeSharpness(body);
-  prepare(body);
+  makeSurfaceForm(body);
   const auto shape = std::make_shared<const FluidBody>(body);
   for (const PressureLaw law : {PressureLaw::kPublished, PressureLaw::kForm})
     for (const LoadPrecision precision : {LoadPrecision::kSingle, LoadPrecision::kDouble}) {

@@ -19,7 +19,7 @@ const Medium kLiquid{1000, 1e-3, {0, 0, 0}, {0, 0, 0}};
 std::shared_ptr<const FluidBody> roundBody(int level) {
   FluidBody body = test::hullBody(test::geodesicSphere(level));
   body.faces.sharpness = computeSharpness(body);
-  prepare(body);
+  makeSurfaceForm(body);
   return std::make_shared<const FluidBody>(body);
 }
 
@@ -98,7 +98,7 @@ TEST(WetLoads, TakeEnergyAtARightAngle) {
     FluidBody body;
     body.faces = arbitrary.body();
     body.area = test::totalArea(body.faces);
-    prepare(body);
+    makeSurfaceForm(body);
     const auto loads = makeWaterlineLoads(std::make_shared<const FluidBody>(body), kLiquid, flow);
     const Twist x = arbitrary.twist();
     EXPECT_LE(power(loads->wetLoad(x, wetBelow(arbitrary.vector(), arbitrary.between(-1, 1))), x),
