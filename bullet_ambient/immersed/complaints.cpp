@@ -45,6 +45,7 @@ const char* sentenceOf(Complaint complaint) {
     case Complaint::kInertia:
     case Complaint::kEmpty:
     case Complaint::kAngle:
+    case Complaint::kNoResistance:
     case Complaint::kLight:
     case Complaint::kSwing:
     case Complaint::kTooLong:

@@ -28,6 +28,7 @@ enum class Complaint {
   kInertia,
   kEmpty,
   kAngle,
+  kNoResistance,
   kLight,
   kSwing,
   kTooLong,

@@ -159,6 +159,14 @@ void warnOfDoubts(const AmbientBody& ambient, Complaints& complaints) {
         "flow leaves a body follows from its shape and FlowSettings::roughness";
     complaints.say(Complaint::kAngle, text.c_str());
   }
+  if (ambient.isInFluid() && flow.law == PressureLaw::kForm && !flow.own_law &&
+      ambient.medium.viscosity > 0 && ambient.model().loads && !(shape.sphere_radius > 0) &&
+      !shape.viscous.isKnown()) {
+    const std::string text = who +
+                             "moves as without viscosity: its fluid body has no resistance, which "
+                             "prepare() of preprocess/build.h and ambient_preprocess upgrade make";
+    complaints.say(Complaint::kNoResistance, text.c_str());
+  }
   if (ambient.isInFluid() && !ambient.model().loads && !(shape.volume > 0) &&
       shape.added_mass.isZero(0)) {
     const std::string text =

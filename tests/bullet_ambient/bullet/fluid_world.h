@@ -6,6 +6,7 @@
 #include "bullet_ambient/fluid.h"
 #include "preprocess/base/surface_form.h"
 #include "tests/support/bodies/ellipsoid_body.h"
+#include "tests/support/bodies/hull_bodies.h"
 #include "tests/support/world.h"
 
 namespace ambient::test {
@@ -85,6 +86,7 @@ struct FluidWorld : WholeWorld<ActionWorld> {
     AttachDef attach;
     const auto prepared = std::make_shared<FluidBody>(fluid_body);
     makeSurfaceForm(*prepared);
+    if (prepared->area > 0 && !prepared->viscous.isKnown()) giveResistance(*prepared);
     attach.fluid_body = prepared;
     attach.medium = medium;
     attach.flow.law = law;

@@ -63,6 +63,7 @@ inline FluidBody floatingEllipsoid(const Vector3& semi_axes, int level) {
   body.added_mass = smooth.added_mass;
   body.volume = smooth.volume;
   body.added_mass_parts = ellipsoidParts(body, semi_axes);
+  giveResistance(body);
   return body;
 }
 
