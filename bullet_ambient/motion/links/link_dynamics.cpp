@@ -70,6 +70,13 @@ LinkDynamics::LinkDynamics(const LinkTree& tree) : tree_(tree), kernel_(*kLinkKe
   }
 }
 
+void LinkDynamics::setForces(bool are_felt) noexcept {
+  if (has_forces_ == are_felt) return;
+  has_forces_ = are_felt;
+  for (int l = 0; l < count(); ++l) takeModel(tree_.links[l], links_[l]);
+  kernel_.place(links_.data(), count());
+}
+
 void LinkDynamics::setPose(const TreePose& pose) noexcept {
   for (int l = 0; l < count(); ++l) takeModel(tree_.links[l], links_[l]);
   moveTo(pose);
@@ -94,13 +101,14 @@ void LinkDynamics::takeModel(const Link& link, LinkState& state) noexcept {
   state.mass = link.mass;
   state.moments = rowOf(link.inertia);
   state.accelerates_flow = link.model && !s.ambient_acceleration.isZero(0);
-  Wrench applied = s.applied;
+  Wrench applied = has_forces_ ? s.applied : Wrench{};
+  const Vector3 gravity = has_forces_ ? s.gravity : Vector3(Vector3::Zero());
   if (link.model) {
     const BodyModel& model = *link.model;
     state.inertia = blocksOf(model.inertia);
     state.coupling_transposed = matrixOf(model.inertia.bottomLeftCorner<3, 3>());
     applied.force -= model.mass * s.ambient_acceleration;
-    state.buoyancy_W = rowOf(-model.displaced_mass * (s.gravity - s.ambient_acceleration));
+    state.buoyancy_W = rowOf(-model.displaced_mass * (gravity - s.ambient_acceleration));
     state.centre_of_volume = rowOf(model.centre_of_volume);
     state.flow_W = rowOf(s.ambient_velocity);
     state.flow_acceleration_W = rowOf(s.ambient_acceleration);
@@ -183,7 +191,7 @@ void LinkDynamics::correctAccelerations(const CoordinatesIn& u,
 void LinkDynamics::takeJointForces() noexcept {
   for (std::size_t l = 1; l < links_.size(); ++l)
     for (int i = 0; i < links_[l].axis_count; ++i)
-      links_[l].rest[i] = tree_.links[l].joint_force[i];
+      links_[l].rest[i] = has_forces_ ? tree_.links[l].joint_force[i] : 0;
 }
 
 void LinkDynamics::respond(const CoordinatesIn& force, CoordinatesOut response) noexcept {

@@ -40,6 +40,10 @@ class LinkDynamics {
   /// Sets the pose, and reads models, flows and forces from the tree, for all later calls. Cost:
   /// O(links).
   void setPose(const TreePose& pose) noexcept;
+  /// Leaves gravity, applied forces and joint forces out of all later calls, or takes them in
+  /// again.
+  /// @pre setPose()
+  void setForces(bool are_felt) noexcept;
   /// Sets another pose, with the models, flows and forces of the last setPose().
   void moveTo(const TreePose& pose) noexcept;
 
@@ -139,6 +143,7 @@ class LinkDynamics {
 
   const LinkTree& tree_;
   int coordinates_ = 0;
+  bool has_forces_ = true;
   std::vector<LinkState> links_;
   TreePose pose_;  // of the offsets in links_
   const LinkKernel& kernel_;

@@ -108,6 +108,7 @@ LinkFlight::LinkFlight(const LinkTree& tree)
       start_(dynamics_.coordinates()),
       rate_(dynamics_.coordinates()),
       correction_(dynamics_.coordinates()),
+      forces_(dynamics_.coordinates()),
       end_pose_(poseOfSize(tree)),
       middle_(poseOfSize(tree)) {}
 
@@ -125,6 +126,7 @@ LinkFlightResult LinkFlight::fly(const TreePose& start, const CoordinatesIn& u, 
     if (wanted <= substeps) break;
   }
   kick_.remember(dynamics_);
+  dynamics_.setForces(true);
   mean_ = u;
   velocityBetween(tree_, start, end_pose_, duration, mean_);
   result.is_finite = mean_.allFinite() && end_.allFinite();
@@ -145,12 +147,13 @@ int LinkFlight::flyInSubsteps(int substeps, double duration, const LinkFlightSet
   const bool is_last = substeps >= settings.max_substeps;
   dynamics_.setPose(end_pose_);
   if (has_loads) countUp(kick_.recall(dynamics_, end_), count);
+  is_stiff_ = has_loads && kick_.isStiff(duration);
   count.coarse = false;
   count.substeps = 0;
   count.error = 0;
   count.energy_removed = 0;
   for (int i = 0; i < substeps; ++i) {
-    if (has_loads) kick_.kick(dynamics_, h / 2, end_);
+    if (has_loads) kickBy(h / 2, end_);
     integrals_.take(dynamics_, end_);
     const bool converges = findMiddle(h, settings);
     integrals_.addForces(dynamics_, mean_, h);
@@ -223,10 +226,31 @@ bool LinkFlight::findMiddle(double h, const LinkFlightSettings& settings) noexce
 // prediction, eq. (25).
 double LinkFlight::kickAtEnd(double h, FlightCount& count) noexcept {
   rate_ = end_;
-  kick_.foresee(dynamics_, h / 2, rate_);
+  if (is_stiff_) {
+    kickBy(h / 2, rate_);
+  } else {
+    kick_.foresee(dynamics_, h / 2, rate_);
+  }
   countUp(kick_.sample(dynamics_, rate_), count);
-  kick_.kick(dynamics_, h / 2, end_);
+  kickBy(h / 2, end_);
   return kick_.error(dynamics_, h);
+}
+
+// Kicks for h [s] by the loads and, where the fluid is viscous enough to settle a link, by the
+// forces; the way between the kicks is then without them.
+void LinkFlight::kickBy(double h, Coordinates& u) noexcept {
+  if (!is_stiff_) {
+    kick_.kick(dynamics_, h, u);
+    return;
+  }
+  dynamics_.setForces(true);
+  dynamics_.setVelocity(u);
+  dynamics_.appliedForces(forces_);
+  dynamics_.setForces(false);
+  dynamics_.setVelocity(u);
+  dynamics_.appliedForces(correction_);
+  forces_ -= correction_;
+  kick_.kick(dynamics_, h, u, &forces_);
 }
 
 double LinkFlight::arriveAt(const TreePose& reached, bool has_rows,
@@ -258,7 +282,10 @@ LinkFlightResult LinkFlight::computeRowVelocity(const TreePose& start, const Coo
   end_ = u + duration * rate_ - mean_;
   if (kick_.hasLoads()) {
     countUp(kick_.sampleForRows(dynamics_, u, duration), result.count);
-    kick_.kick(dynamics_, duration, end_);
+    is_stiff_ = kick_.isStiff(duration);
+    if (is_stiff_) end_ = u;  // forces are in the kick
+    kickBy(duration, end_);
+    dynamics_.setForces(true);
     dynamics_.factor();
   }
   result.is_finite = mean_.allFinite() && end_.allFinite();

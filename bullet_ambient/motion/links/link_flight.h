@@ -101,13 +101,15 @@ class LinkFlight {
   double largestSpin() const noexcept;
   bool findMiddle(double h, const LinkFlightSettings& settings) noexcept;
   double kickAtEnd(double h, FlightCount& count) noexcept;
+  void kickBy(double h, Coordinates& u) noexcept;
 
   const LinkTree& tree_;
   LinkDynamics dynamics_;
   LinkKick kick_;
   LinkIntegrals integrals_;
-  Coordinates mean_, end_, start_, rate_, correction_;
+  Coordinates mean_, end_, start_, rate_, correction_, forces_;
   TreePose end_pose_, middle_;
+  bool is_stiff_ = false;      ///< forces are in the kicks
   bool answers_rows_ = false;  // true: prepareJointRows() was called since the flight
 };
 

@@ -144,7 +144,14 @@ void LinkKick::resist(const LinkDynamics& dynamics, int link, double h) noexcept
   drag_impulses_[link] -= Wrench::fromVector(C * dynamics.relativeTwist(link).vector());
 }
 
-void LinkKick::kick(LinkDynamics& dynamics, double h, CoordinatesOut u) noexcept {
+bool LinkKick::isStiff(double h) const noexcept {
+  constexpr double kStiff = 0.02;
+  return std::any_of(samples_.begin(), samples_.end(),
+                     [h](const Sample& sample) { return h * sample.settling > kStiff; });
+}
+
+void LinkKick::kick(LinkDynamics& dynamics, double h, CoordinatesOut u,
+                    const Coordinates* force) noexcept {
   AMBIENT_ASSERT(h > 0 && u.size() == change_.size());
   dynamics.setVelocity(u);
   dynamics.measure();
@@ -165,6 +172,10 @@ void LinkKick::kick(LinkDynamics& dynamics, double h, CoordinatesOut u) noexcept
   dynamics.factor(&drags_, has_resistance_ ? &resistances_ : nullptr);
   dynamics.respond(drag_impulses_, change_);
   u += change_;
+  if (force) {
+    dynamics.respond(*force, change_);
+    u += h * change_;
+  }
   applyLift(dynamics, u);
 }
 

@@ -32,11 +32,16 @@ class LinkKick {
   /// the motion. @pre kick() was called after that sample, at its pose
   double error(LinkDynamics& dynamics, double h) noexcept;
 
-  /// Replaces `u` by the velocity after the time h [s] under the loads of the last sample alone.
-  /// The loads grow with the square of each link's speed. In one flow that the tree can follow, the
-  /// energy relative to the flow does not grow for any h. Leaves `dynamics` with the factor of M,
-  /// not of H.
-  void kick(LinkDynamics& dynamics, double h, CoordinatesOut u) noexcept;
+  /// True if the resistance of a link at the last sample settles it within some times h [s]: then
+  /// forces and resistance have to be in one kick for a steady motion to be right, eq. (123).
+  bool isStiff(double h) const noexcept;
+
+  /// Replaces `u` by the velocity after the time h [s] under the loads of the last sample alone,
+  /// and under generalized forces `force` (null: none). The loads grow with the square of each
+  /// link's speed. In one flow that the tree can follow, the energy relative to the flow does not
+  /// grow for any h. Leaves `dynamics` with the factor of M, not of H.
+  void kick(LinkDynamics& dynamics, double h, CoordinatesOut u,
+            const Coordinates* force = nullptr) noexcept;
   /// Predicts the velocity for the next sample, an approximation of kick(): drag slows each link
   /// down as if it were alone, and the tree takes the nearest motion, eq. (81a). @pre factor() of
   /// H, at a pose nearby

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bullet_ambient/force/loads/surface_loads.h"
 #include "demos/integrators/integrators.h"
 #include "tests/reference/ellipsoid_added_mass.h"
 #include "tests/support/bodies/random_trees.h"
@@ -306,6 +307,38 @@ TEST(RowVelocityOfLinks, TurnsOnlyWhatMoves) {
   test.u[7] = 3;
   ASSERT_TRUE(flight.computeRowVelocity(test.pose, test.u, 0.01).is_finite);
   EXPECT_GT(flight.turning().norm(), 0);
+}
+
+/// A law that is resistance alone.
+class ResistanceAlone : public SurfaceLoads {
+ public:
+  Wrench load(const Twist&) const noexcept override { return {}; }
+  SplitLoad split(const Twist&, const WetPart*) const noexcept override { return {{}, kCreeping}; }
+};
+
+// Links that each sink at V by themselves sink at V together, at any step: stiff by 1e4 per second.
+TEST(LinkFlight, SinksSteadilyThroughAStiffFluid) {
+  const Vector3 sinking(0.01, 0, -0.04);
+  for (const int hertz : {30, 60, 1000}) {
+    TestTree test = makeTree(4, {4, true, true, 0, 0.3});
+    test.u.setZero();
+    Arbitrary arbitrary(2);
+    for (int l = 0; l < test.tree.size(); ++l) {
+      BodyModel model = *test.tree.links[l].model;
+      const double drag = 1e4 * arbitrary.between(1, 3);
+      Resistance resistance;
+      resistance.matrix.diagonal() << Vector3::Constant(0.1 * drag), Vector3::Constant(drag);
+      model.loads = std::make_shared<ResistanceAlone>();
+      model.resistance = std::make_shared<Resistance>(resistance);
+      test.setModel(l, std::move(model));
+      test.tree.links[l].surroundings.applied.force = drag * sinking;
+    }
+    LinkFlight flight(test.tree);
+    const Vector3 start = test.pose.position;
+    ASSERT_TRUE(test.fly(flight, 1.0 / hertz, hertz).is_finite);
+    EXPECT_LT((test.u.segment<3>(3) - sinking).norm(), 1e-6 * sinking.norm()) << hertz;
+    EXPECT_LT((test.pose.position - start - sinking).norm(), 0.03 * sinking.norm()) << hertz;
+  }
 }
 
 }  // namespace

@@ -19,19 +19,32 @@ using test::TestTree;
 // Loads of second order in the speed: |x| (G - D) x with G = -G^T and D >= 0.
 class QuadraticLoads : public SurfaceLoads {
  public:
-  QuadraticLoads(const Matrix6& drag, const Matrix6& lift) : drag_(drag), lift_(lift) {}
+  QuadraticLoads(const Matrix6& drag, const Matrix6& lift, const Growth& growth = {})
+      : drag_(drag), lift_(lift), growth_(growth) {}
   Wrench load(const Twist& x) const noexcept override {
     const Vector6 v = x.vector();
     return Wrench::fromVector(v.norm() * (lift_ * v - drag_ * v));
   }
+  SplitLoad split(const Twist& x, const WetPart*) const noexcept override {
+    return {load(x), growth_};
+  }
 
  private:
   Matrix6 drag_, lift_;
+  Growth growth_;
 };
 
 void setLoads(TestTree& test, int l, const Matrix6& drag, const Matrix6& lift) {
   BodyModel model = *test.tree.links[l].model;
   model.loads = std::make_shared<QuadraticLoads>(drag, lift);
+  test.setModel(l, std::move(model));
+}
+
+void setResistance(TestTree& test, int l, const Matrix6& resistance, const Vector3& centre) {
+  BodyModel model = *test.tree.links[l].model;
+  const Matrix6 none = Matrix6::Zero();
+  model.loads = std::make_shared<QuadraticLoads>(none, none, Growth{0.7, 1.3});
+  model.resistance = std::make_shared<Resistance>(Resistance{resistance, centre});
   test.setModel(l, std::move(model));
 }
 
@@ -44,6 +57,11 @@ Matrix6 skew(Arbitrary& arbitrary) {
 void setRandomLoads(Arbitrary& arbitrary, TestTree& test) {
   for (int l = 0; l < test.tree.size(); ++l) {
     if (l % 3 == 2) continue;  // some links without loads
+    if (arbitrary.between(0, 1) < 0.3) {
+      setResistance(test, l, std::pow(10, arbitrary.between(-6, 6)) * arbitrary.positiveDefinite(),
+                    arbitrary.vector());
+      continue;
+    }
     setLoads(test, l, std::pow(10, arbitrary.between(-3, 3)) * arbitrary.positiveDefinite(),
              std::pow(10, arbitrary.between(-3, 3)) * skew(arbitrary));
   }
