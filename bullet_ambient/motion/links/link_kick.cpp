@@ -52,20 +52,23 @@ void LinkKick::sampleAll(LinkDynamics& dynamics, const CoordinatesIn& u,
     Sample& sample = samples_[l];
     const Sample last = sample;
     sample = {};
-    if (!isLoaded(tree_.links[l])) continue;
+    const Link& link = tree_.links[l];
+    if (!isLoaded(link)) continue;
     const Twist y = dynamics.relativeTwist(l);
     const SurfaceLoad found = load_on(l, y);
     const Wrench& load = found.wrench;
-    const bool is_viscous = tree_.links[l].model->resistance && found.growth.translation > 0;
-    if (is_viscous) sample.growth = found.growth;
-    has_resistance_ = has_resistance_ || is_viscous;
+    if (link.model->resistance && found.growth.translation > 0) {
+      sample.growth = found.growth;
+      const auto mass = link.model->inertia.bottomRightCorner<3, 3>();
+      sample.settling = resistanceOf(l).bottomRightCorner<3, 3>().trace() / mass.trace();
+      has_resistance_ = true;
+    }
     const Wrench momentum = dynamics.relativeMomentum(l);
     const double energy = dynamics.relativeEnergy(l);
     if (!(energy > 0)) continue;
     const double along = power(load, y) / energy;
     sample = {std::max(0.0, -along), std::sqrt(energy), load + -along * momentum, load,
-              sample.growth};
-    if (is_viscous) sample.settling = y.vector().dot(resistanceOf(l) * y.vector()) / energy;
+              sample.growth,         sample.settling};
     surprises_[l] = load;
     surprises_[l] -= last.at(momentum, sample.speed);
   }

@@ -55,7 +55,7 @@ class LinkKick {
     Wrench lift;          ///< part of the load without power at y
     Wrench load;          ///< speed 0: whatever the twist
     Growth growth;        ///< of the resistance C
-    double settling = 0;  ///< y.C y over y.K y, without resistance 0 [1/s]
+    double settling = 0;  ///< of C over K in translation [1/s]
 
     /// Returns the load at another twist y' with momentum K y' and speed |y'|.
     Wrench at(const Wrench& momentum, double its_speed) const;

@@ -320,7 +320,7 @@ class ResistanceAlone : public SurfaceLoads {
 TEST(LinkFlight, SinksSteadilyThroughAStiffFluid) {
   const Vector3 sinking(0.01, 0, -0.04);
   for (const int hertz : {30, 60, 1000}) {
-    TestTree test = makeTree(4, {4, true, true, 0, 0.3});
+    TestTree test = makeTree(4, {4, true, true, 5, 0.3});
     test.u.setZero();
     Arbitrary arbitrary(2);
     for (int l = 0; l < test.tree.size(); ++l) {
