@@ -174,8 +174,10 @@ SurfaceLoad computeSurfaceLoad(const BodyModel& model, const Twist& relative_twi
   return loadAlong(flow, relative_twist, resistance, [&](const Twist& x) -> SurfaceLoad {
     const SplitLoad split = model.loads->split(model.load_frame.toF(x));
     const Wrench wrench = load_share * model.load_frame.toB(split.wrench);
-    if (!model.loads->needsGuard()) return {wrench, false, split.growth};
-    return removePositivePower(wrench, x, model.inertia);
+    SurfaceLoad load{wrench};
+    if (model.loads->needsGuard()) load = removePositivePower(wrench, x, model.inertia);
+    load.growth = split.growth;
+    return load;
   });
 }
 

@@ -117,7 +117,8 @@ RowVelocity computeLockedVelocity(const FlightTask& task, const RigidState& star
       const SymmetricOf<double> C = plain(model.resistance->grown(load.growth));
       const Settling<double> terms(K, inverse, C);
       const PairsOf<double> motion = plain(pairOfTwist(model, x));
-      const Vector6 settled = asEigen((settle<double>(motion, noWrench<double>(), terms, 0, dt) - motion).momentum);
+      const Vector6 settled =
+          asEigen((settle<double>(motion, noWrench<double>(), terms, 0, dt) - motion).momentum);
       forced += model.inverse_inertia * settled / dt;
     }
   }

@@ -106,8 +106,11 @@ SurfaceLoad loadBelow(const SurfaceModel& model, const SurfacePlace& place, cons
                    [&](const Twist& at_station) -> SurfaceLoad {
                      const SplitLoad split = below.loads->split(below.frame.toF(at_station), &part);
                      const Wrench wrench = terms.share * below.frame.toB(split.wrench);
-                     if (!below.loads->needsGuard()) return {wrench, false, split.growth};
-                     return removePositivePower(wrench, at_station, place.inertia.full());
+                     SurfaceLoad load{wrench};
+                     if (below.loads->needsGuard())
+                       load = removePositivePower(wrench, at_station, place.inertia.full());
+                     load.growth = split.growth;
+                     return load;
                    });
 }
 

@@ -5,11 +5,9 @@
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
-#include "preprocess/base/surface_form.h"
-#include "preprocess/mesh/shapes/primitives.h"
+#include "preprocess/resistance/prepare.h"
 #include "preprocess/resistance/separation.h"
 #include "preprocess/resistance/stokes_resistance.h"
-#include "preprocess/resistance/surface_numbers.h"
 #include "tests/reference/ellipsoid_added_mass.h"
 #include "tests/support/bodies/hull_bodies.h"
 #include "tests/support/bodies/random_bodies.h"
@@ -23,18 +21,14 @@ namespace {
 FluidBody ellipsoid(const Vector3& semi_axes) {
   FluidBody body = test::hullBody(test::geodesicEllipsoid(semi_axes, 4));
   body.added_mass = reference::ellipsoidAddedMass(semi_axes).asDiagonal();
-  prepare(body);
-  ViscousForm& viscous = body.viscous;
-  viscous.resistance = ellipsoidResistance(semi_axes).asDiagonal();
-  viscous.separation = ellipsoidSeparation(semi_axes, 8000);
+  KnownViscousFlow known{ellipsoidResistance(semi_axes).asDiagonal(),
+                         ellipsoidSeparation(semi_axes, 8000)};
   if (semi_axes == Vector3(2, 1, 1)) {  // by the integrals over the meridian
     const SeparationWay along{0.9245, 0.06535, 0.06535, 0.4225, 0.6296, 8.450, 0.09298, 0.5402},
         across{2.560, 0.5481, 0.8608, 1.905, 0.2869, 6.796, 0.09683, 0.3387};
-    viscous.separation.ways = {along, along, across, across, across, across};
+    known.separation->ways = {along, along, across, across, across, across};
   }
-  viscous.surface = computeSurfaceNumbers(makeEllipsoidMesh(semi_axes, 20000), false, {},
-                                          viscous.separation.axes);
-  viscous.sharp_share = sharpShare(body.form.shape);
+  prepare(body, known);
   return body;
 }
 

@@ -100,7 +100,10 @@ TEST(SurfaceFlight, IsThatInOneFluidFarFromTheSurface) {
     const RigidState start = body.state;
     const BodyModel& model = height < 0 ? body.model().below : body.model().above;
     BodyModel unloaded = model;  // light fluids above have no loads
-    if (height > 0) unloaded.loads = nullptr;
+    if (height > 0) {
+      unloaded.loads = nullptr;
+      unloaded.resistance = nullptr;
+    }
     body.step(0.01);
     const FlightResult flight =
         fly({unloaded, body.surroundings(), {}, 0.01}, start, FlightMemory{});
