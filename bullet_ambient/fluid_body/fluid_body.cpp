@@ -144,11 +144,7 @@ FluidBody scaled(const FluidBody& body, double factor) {
   scale(result.form.faces, factor);
   scale(result.viscous, factor);
   result.sphere_radius *= factor;
-  for (AddedMassPart& part : result.added_mass_parts) {
-    part.centre *= factor;
-    part.spread *= factor * factor;
-    part.inertia = scaleShape(part.inertia, factor);
-  }
+  result.added_mass_parts = body.added_mass_parts.scaled(factor);
   for (Matrix6& correction : result.waterline.corrections)
     correction = scaleShape(correction, factor);
   for (FormLevel& level : result.form_levels) scale(level.faces, factor);
@@ -217,7 +213,7 @@ std::uint64_t contentHash(const FluidBody& body) {
                body.surface.triangles.size() * sizeof(std::int32_t));
   bytes.append(reinterpret_cast<const char*>(body.form.hull.data()),
                body.form.hull.size() * sizeof(std::int32_t));
-  for (const AddedMassPart& part : body.added_mass_parts) {
+  for (const AddedMassPart& part : body.added_mass_parts.all()) {
     append(part.centre.data(), 3);
     append(part.spread.data(), 6);
     append(part.inertia.data(), 36);

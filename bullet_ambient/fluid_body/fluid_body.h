@@ -7,19 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "bullet_ambient/fluid_body/added_mass_parts.h"
 #include "bullet_ambient/fluid_body/viscous_form.h"
 #include "bullet_ambient/spatial/vector_types.h"
 
 namespace ambient {
-
-/// Contribution of one patch of the body's surface to the added mass, docs/theory.md eq. (60). Used
-/// for bodies that the surface of the water cuts. Per unit density, in frame F.
-struct AddedMassPart {
-  static constexpr int kNumbers = 30;  ///< numbers per part in files
-  Vector3 centre{0, 0, 0};             ///< centroid of the patch [m]
-  Vector6 spread = Vector6::Zero();    ///< xx, yy, zz, xy, xz, yz: mean of r r^T about centre [m^2]
-  Matrix6 inertia = Matrix6::Zero();   ///< -sym int g phi^T dA about F's origin
-};
 
 /// Correction of the added mass at the surface of still water, docs/theory.md eq. (61a): boundary
 /// elements minus the sum over parts (60). Per unit density, about F's origin.
@@ -187,7 +179,7 @@ struct FluidBody {
   Vector3 drag{0, 0, 0};
   /// Parts of the added mass, one per patch of the surface, for bodies that the water's surface
   /// cuts. The sum of all parts is the added mass up to discretisation; empty: not known.
-  std::vector<AddedMassPart> added_mass_parts;
+  AddedMassParts added_mass_parts;
   /// Correction to the sum over added_mass_parts at the surface of the water; may be empty.
   WaterlineTable waterline;
   TablesPlace tables;  ///< of the loads; a fluid body that loads were made of must not change

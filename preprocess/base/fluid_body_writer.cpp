@@ -129,7 +129,7 @@ void packInto(FlatBufferBuilder& builder, const FluidBody& body) {
   const auto faces = pack(builder, body.faces);
   const auto surface = pack(builder, body.surface);
   const auto form_levels = pack(builder, body.form_levels);
-  const auto parts = pack(builder, body.added_mass_parts);
+  const auto parts = pack(builder, body.added_mass_parts.all());
   const auto waterline = pack(builder, body.waterline);
   const auto form = pack(builder, body.form);
   const auto viscous = pack(builder, body.viscous);

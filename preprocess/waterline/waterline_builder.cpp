@@ -10,9 +10,9 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/elementary.h"
+#include "bullet_ambient/fluid_body/added_mass_parts.h"
 #include "bullet_ambient/fluid_body/octahedral_lattice.h"
 #include "bullet_ambient/fluid_body/packed/packed_hull.h"
-#include "bullet_ambient/fluid_body/packed/packed_parts.h"
 #include "bullet_ambient/force/surface/wetted_parts.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "preprocess/base/parallel_for.h"
@@ -83,7 +83,7 @@ class WaterlineSolver {
         mesh_(coarseSurfaceOf(body, panels)),
         factors_(panelFactors(body, mesh_, panels)),
         hull_(body),
-        parts_(body, std::make_shared<PackedParts>(body.added_mass_parts)) {}
+        parts_(body, std::make_shared<AddedMassParts>(body.added_mass_parts)) {}
 
   Matrix6 correction(const Vector3& normal, double immersion) const {
     Immersion at{{normal, 0, 1, 1}, 0, 0, {}};

@@ -288,7 +288,8 @@ void checkFluidBody(const FluidBody& body, const std::string& source) {
   checkForm(body, check);
   checkViscousForm(body.viscous, sizeOf(body), check);
   for (const FormLevel& level : body.form_levels) checkFormLevel(level, check);
-  for (const AddedMassPart& part : body.added_mass_parts) checkPart(part, sizeOf(body), check);
+  for (const AddedMassPart& part : body.added_mass_parts.all())
+    checkPart(part, sizeOf(body), check);
   checkWaterline(body, check);
   checkPlaces(body, check);
 }

@@ -5,8 +5,8 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/fluid_body/block_order.h"
 #include "bullet_ambient/fluid_body/form_factors.h"
-#include "bullet_ambient/fluid_body/packed/block_order.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
 
 namespace ambient {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/fluid_body/packed/block_order.h"
+#include "bullet_ambient/fluid_body/block_order.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
 
 namespace ambient {

@@ -32,7 +32,6 @@ struct BodyTables {
   std::unique_ptr<const ShapeFactors> shape;
   std::map<std::pair<const FaceTable*, bool>, std::unique_ptr<const PackedFaces>> packed;
   std::unique_ptr<const PackedHull> hull;
-  std::unique_ptr<const PackedParts> parts;
   SharedTables<FluidBody, SurfaceLoads, LoadKey> loads;
   SharedTables<FluidBody, WettedInertia> wetted;
 
@@ -73,10 +72,6 @@ std::shared_ptr<const PackedFaces> LoadTables::packedFaces(const Faces& faces,
 
 std::shared_ptr<const PackedHull> LoadTables::hull() const {
   return tables_.get(body_, tables_.hull, [this] { return PackedHull(*body_); });
-}
-
-std::shared_ptr<const PackedParts> LoadTables::addedMassParts() const {
-  return tables_.get(body_, tables_.parts, [this] { return PackedParts(body_->added_mass_parts); });
 }
 
 }  // namespace ambient

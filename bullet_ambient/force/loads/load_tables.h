@@ -5,7 +5,6 @@
 
 #include "bullet_ambient/fluid_body/packed/packed_faces.h"
 #include "bullet_ambient/fluid_body/packed/packed_hull.h"
-#include "bullet_ambient/fluid_body/packed/packed_parts.h"
 #include "bullet_ambient/force/law/flow_settings.h"
 #include "bullet_ambient/force/law/form_law.h"
 
@@ -47,8 +46,6 @@ class LoadTables {
                                                  const ShapeFactors* shape) const;
   /// Hull for hydrostatics. Cost: PackedHull().
   std::shared_ptr<const PackedHull> hull() const;
-  /// Packed parts of the added mass. Cost: PackedParts().
-  std::shared_ptr<const PackedParts> addedMassParts() const;
 
  private:
   Body body_;

@@ -36,9 +36,9 @@ std::shared_ptr<const WettedInertia> makeWettedInertia(
   return tables.wettedInertia([&]() -> std::shared_ptr<const WettedInertia> {
     if (body->sphere_radius > 0) return std::make_shared<WettedSphere>(*body);
     if (body->added_mass_parts.empty()) return std::make_shared<WettedShare>(*body);
-    if (!body->waterline.empty())
-      return std::make_shared<WettedTable>(body, tables.addedMassParts(), tables.hull());
-    return std::make_shared<WettedParts>(*body, tables.addedMassParts());
+    const std::shared_ptr<const AddedMassParts> parts{body, &body->added_mass_parts};
+    if (!body->waterline.empty()) return std::make_shared<WettedTable>(body, parts, tables.hull());
+    return std::make_shared<WettedParts>(*body, parts);
   });
 }
 

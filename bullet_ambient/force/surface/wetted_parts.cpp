@@ -48,7 +48,7 @@ void forBlocksInPool(const PartBlocks& parts, const PoolSides* sides_F, const Vi
 
 }  // namespace
 
-WettedParts::WettedParts(const FluidBody& body, std::shared_ptr<const PackedParts> parts)
+WettedParts::WettedParts(const FluidBody& body, std::shared_ptr<const AddedMassParts> parts)
     : WettedInertia(body.added_mass),
       parts_(std::move(parts)),
       defect_(body.added_mass - parts_->sum()),
@@ -100,7 +100,7 @@ Vector3 placeOfChange(const WetVolume& wet) {
 }  // namespace
 
 WettedTable::WettedTable(std::shared_ptr<const FluidBody> body,
-                         std::shared_ptr<const PackedParts> parts,
+                         std::shared_ptr<const AddedMassParts> parts,
                          std::shared_ptr<const PackedHull> hull)
     : WettedParts(*body, std::move(parts)),
       body_(std::move(body)),

@@ -3,9 +3,9 @@
 #include <memory>
 #include <vector>
 
+#include "bullet_ambient/fluid_body/added_mass_parts.h"
 #include "bullet_ambient/fluid_body/octahedral_lattice.h"
 #include "bullet_ambient/fluid_body/packed/packed_hull.h"
-#include "bullet_ambient/fluid_body/packed/packed_parts.h"
 #include "bullet_ambient/force/surface/wetted_inertia.h"
 
 namespace ambient {
@@ -14,14 +14,14 @@ namespace ambient {
 /// depth; docs/theory.md eq. (60), (61).
 class WettedParts : public WettedInertia {
  public:
-  WettedParts(const FluidBody& body, std::shared_ptr<const PackedParts> parts);
+  WettedParts(const FluidBody& body, std::shared_ptr<const AddedMassParts> parts);
 
  protected:
   Matrix6 inertiaAt(const Immersion& raised) const noexcept override;
   InertiaGradient gradientAt(const Immersion& raised, const Twist& twist) const noexcept override;
 
  private:
-  std::shared_ptr<const PackedParts> parts_;
+  std::shared_ptr<const AddedMassParts> parts_;
   Matrix6 defect_;  ///< added mass minus the sum of the parts
   double volume_;
 };
@@ -31,7 +31,7 @@ class WettedParts : public WettedInertia {
 class WettedTable final : public WettedParts {
  public:
   /// @pre the body has a waterline table; `parts` and `hull` belong to the body
-  WettedTable(std::shared_ptr<const FluidBody> body, std::shared_ptr<const PackedParts> parts,
+  WettedTable(std::shared_ptr<const FluidBody> body, std::shared_ptr<const AddedMassParts> parts,
               std::shared_ptr<const PackedHull> hull);
 
  private:

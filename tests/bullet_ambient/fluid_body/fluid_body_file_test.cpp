@@ -81,14 +81,15 @@ TEST(FluidBodyFile, TheViscousFormKeepsItsBitsInTheSameVersion) {
 
 TEST(FluidBodyFile, KeepsPartsOfTheAddedMassInSinglePrecisionAndInTheSameVersion) {
   FluidBody body = test::exampleBody();
+  std::vector<AddedMassPart> parts(3);
   for (int i = 0; i < 3; ++i) {
-    AddedMassPart part;
+    AddedMassPart& part = parts[static_cast<std::size_t>(i)];
     part.centre = {0.5 + i, -0.25, 2};
     part.spread << 1, 2, 3, 4, 5, 0.125 * i;
     for (int row = 0; row < 6; ++row)
       for (int column = 0; column < 6; ++column) part.inertia(row, column) = i + row * column;
-    body.added_mass_parts.push_back(part);
   }
+  body.added_mass_parts = parts;
   const std::string bytes = encodeFluidBody(body, "a");
   const FluidBody back = decodeFluidBody(bytes, "a");
   ASSERT_EQ(back.added_mass_parts.size(), 3u);
@@ -100,14 +101,15 @@ TEST(FluidBodyFile, KeepsPartsOfTheAddedMassInSinglePrecisionAndInTheSameVersion
   const std::string without = encodeFluidBody(test::exampleBody(), "a");
   EXPECT_EQ(bytes.substr(0, 16), without.substr(0, 16));  // magic and version
   EXPECT_LT(bytes.size(), without.size() + 3 * 120 + 64);
-  body.added_mass_parts[1].centre.x() = std::nan("");
+  parts[1].centre.x() = std::nan("");
+  body.added_mass_parts = parts;
   EXPECT_EQ(test::refusalOf([&] { encodeFluidBody(body, "a"); }),
             "a: centre of a part of the added mass is nan, but must be finite");
 }
 
 FluidBody bodyWithWaterline() {
   FluidBody body = test::exampleBody();
-  body.added_mass_parts.resize(1);
+  body.added_mass_parts = std::vector<AddedMassPart>(1);
   body.waterline = {1, {0.25, 1}, {}};
   for (int i = 0; i < 12; ++i) {
     Matrix6 correction;
@@ -145,7 +147,7 @@ TEST(FluidBodyFile, RefusesAWaterlineTableThatIsNone) {
             "a: the waterline table has 11 corrections, but needs 12");
   EXPECT_EQ(refusal([](FluidBody& body) { body.waterline.corrections[3](1, 2) = std::nan(""); }),
             "a: a correction of the waterline table is nan, but must be finite");
-  EXPECT_EQ(refusal([](FluidBody& body) { body.added_mass_parts.clear(); }),
+  EXPECT_EQ(refusal([](FluidBody& body) { body.added_mass_parts = {}; }),
             "a: the waterline table has nothing to correct: there are no parts of the added mass");
 }
 

@@ -77,7 +77,8 @@ TEST(FluidBody, WhatTheSurfaceOfWaterAndTheFormLawNeedIsPartOfItsContent) {
   };
   EXPECT_NE(changed([](FluidBody& b) { b.surface.vertices.push_back(1); }), hash);
   EXPECT_NE(changed([](FluidBody& b) { b.surface.triangles.push_back(1); }), hash);
-  EXPECT_NE(changed([](FluidBody& b) { b.added_mass_parts.emplace_back(); }), hash);
+  EXPECT_NE(changed([](FluidBody& b) { b.added_mass_parts = std::vector<AddedMassPart>(1); }),
+            hash);
   EXPECT_NE(changed([](FluidBody& b) { b.faces.sharpness.push_back(0.5); }), hash);
   EXPECT_NE(changed([](FluidBody& b) { b.form_levels.emplace_back().faces.sharpness = {1}; }),
             hash);

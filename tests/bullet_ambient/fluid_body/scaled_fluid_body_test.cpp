@@ -59,11 +59,11 @@ TEST(ScaledFluidBody, ScalesTheViscousForm) {
 
 TEST(ScaledFluidBody, ScalesThePartsOfTheAddedMass) {
   FluidBody unit = exampleBody();
-  unit.added_mass_parts.push_back({{1, 2, 3}, Vector6::Ones(), unit.added_mass});
+  unit.added_mass_parts = std::vector{AddedMassPart{{1, 2, 3}, Vector6::Ones(), unit.added_mass}};
   const FluidBody body = scaled(unit, 2);
   EXPECT_EQ(body.added_mass_parts[0].centre, Vector3(2, 4, 6));
   EXPECT_EQ(body.added_mass_parts[0].spread, Vector6(4 * Vector6::Ones()));
-  EXPECT_EQ(body.added_mass_parts[0].inertia, body.added_mass);
+  EXPECT_EQ(body.added_mass_parts[0].inertia, scaleShape(unit.added_mass_parts[0].inertia, 2));
 }
 
 TEST(ScaledFluidBody, ScalesTheWaterlineTable) {

@@ -148,7 +148,7 @@ TEST(CompoundShape, OfCoaxialCylindersHasNoSpinInItsParts) {
   const FluidBody body = makeFluidBody(buoy, settings);
   ASSERT_FALSE(body.added_mass_parts.empty());
   const double largest = body.added_mass.cwiseAbs().maxCoeff();
-  for (const AddedMassPart& part : body.added_mass_parts)
+  for (const AddedMassPart& part : body.added_mass_parts.all())
     EXPECT_LT(part.inertia.row(2).cwiseAbs().maxCoeff(), 1e-6 * largest);
 }
 

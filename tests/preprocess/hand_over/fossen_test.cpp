@@ -75,7 +75,8 @@ TEST(Fossen, RigidBodyMatrixIsFossens) {
 TEST(Fossen, RestoringForcesOfABargeAreThoseOfItsMetacentres) {
   const double L = 4, B = 1.5, T = 0.4;
   FluidBody barge = boxBody({L, B, 1});
-  barge.added_mass_parts.resize(1);  // a waterline is allowed; its added mass does not count here
+  barge.added_mass_parts =
+      std::vector<AddedMassPart>(1);  // a waterline is allowed; its added mass does not count here
   barge.uniform_mass.inertia.setIdentity();
   ExportSettings settings = inSea();
   settings.draught = T;

@@ -38,7 +38,8 @@ inline std::shared_ptr<FluidBody> bodyOf(const PlacedEllipsoid& placed) {
   body.uniform_mass.centre = placed.centre;
   body.uniform_mass.inertia =
       placed.axes * ellipsoidMoments(placed.semi_axes, 1).asDiagonal() * placed.axes.transpose();
-  body.added_mass_parts.push_back({placed.centre, Vector6::Zero(), body.added_mass});
+  body.added_mass_parts =
+      std::vector{AddedMassPart{placed.centre, Vector6::Zero(), body.added_mass}};
   return std::make_shared<FluidBody>(body);
 }
 

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <vector>
 
+#include "bullet_ambient/fluid_body/added_mass_parts.h"
 #include "bullet_ambient/fluid_body/packed/packed_faces.h"
 #include "bullet_ambient/fluid_body/packed/packed_hull.h"
-#include "bullet_ambient/fluid_body/packed/packed_parts.h"
 #include "bullet_ambient/force/kernels/hull_sums.h"
 #include "bullet_ambient/force/kernels/part_sums.h"
 #include "bullet_ambient/force/kernels/single_sums.h"
@@ -122,7 +122,7 @@ TEST(KernelBits, OfSumsOverHullsAreThoseOfTheBaseline) {
 }
 
 TEST(KernelBits, OfSumsOverPartsAreThoseOfTheBaseline) {
-  const PackedParts parts(test::floatingEllipsoid({1, 0.8, 0.6}, 3).added_mass_parts);
+  const AddedMassParts parts = test::floatingEllipsoid({1, 0.8, 0.6}, 3).added_mass_parts;
   double products[PartBlock::kEntries];
   for (int i = 0; i < PartBlock::kEntries; ++i) products[i] = 0.1 * (i - 7);
   compareKernels(kPartKernels, [&](const PartKernel* kernel) {

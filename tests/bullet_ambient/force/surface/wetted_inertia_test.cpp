@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/fluid_body/packed/packed_parts.h"
+#include "bullet_ambient/fluid_body/added_mass_parts.h"
 #include "bullet_ambient/force/kernels/part_sums.h"
 #include "bullet_ambient/force/surface/make_wetted_inertia.h"
 #include "bullet_ambient/force/surface/wetted_sphere.h"
@@ -64,10 +64,12 @@ FluidBody moved(FluidBody body, const Vector3& by) {  // moves F's origin to -by
     body.surface.vertices[i] += by[static_cast<Eigen::Index>(i % 3)];
   body.centre_of_volume += by;
   body.added_mass = shiftOrigin(body.added_mass, -by);
-  for (AddedMassPart& part : body.added_mass_parts) {
+  std::vector<AddedMassPart> parts = body.added_mass_parts.all();
+  for (AddedMassPart& part : parts) {
     part.centre += by;
     part.inertia = shiftOrigin(part.inertia, -by);
   }
+  body.added_mass_parts = parts;
   return body;
 }
 
@@ -212,7 +214,7 @@ TEST(WettedSphere, HasTheDerivativesOfItsTable) {
 }
 
 TEST(PartSums, LeaveOutNoPartInTheWater) {
-  const PackedParts parts(test::floatingEllipsoid({1, 0.8, 0.6}, 3).added_mass_parts);
+  const AddedMassParts parts = test::floatingEllipsoid({1, 0.8, 0.6}, 3).added_mass_parts;
   const PartBlocks known = parts.blocks();
   double products[PartBlock::kEntries];
   for (int i = 0; i < PartBlock::kEntries; ++i) products[i] = 0.1 * (i - 7);

@@ -1,4 +1,4 @@
-#include "bullet_ambient/fluid_body/packed/block_order.h"
+#include "bullet_ambient/fluid_body/block_order.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "bullet_ambient/fluid_body/part_block.h"
+#include "bullet_ambient/spatial/vector_types.h"
+
+namespace ambient {
+
+/// Contribution of one patch of the body's surface to the added mass, docs/theory.md eq. (60). Used
+/// for bodies that the surface of the water cuts. Per unit density, in frame F.
+struct AddedMassPart {
+  static constexpr int kNumbers = 30;  ///< numbers per part in files
+  Vector3 centre{0, 0, 0};             ///< centroid of the patch [m]
+  Vector6 spread = Vector6::Zero();    ///< xx, yy, zz, xy, xz, yz: mean of r r^T about centre [m^2]
+  Matrix6 inertia = Matrix6::Zero();   ///< -sym int g phi^T dA about F's origin
+};
+
+/// Parts of a shape's added mass, kept in the blocks that kernels read: 252 bytes per part.
+class AddedMassParts {
+ public:
+  AddedMassParts() = default;
+  /// Takes the upper triangles of the inertias. Cost: O(N log N), 0.5 us per part.
+  AddedMassParts(const std::vector<AddedMassPart>& parts);
+
+  bool empty() const { return places_.empty(); }
+  std::size_t size() const { return places_.size(); }
+  /// Returns a part, in the order of those that were given.
+  AddedMassPart operator[](std::size_t i) const;
+  std::vector<AddedMassPart> all() const;
+  /// Sum of all parts: the added mass up to discretisation.
+  Matrix6 sum() const;
+  PartBlocks blocks() const { return {blocks_.data(), blocks_.size()}; }
+  /// Returns those of the shape enlarged about F's origin. Cost: that of making them.
+  AddedMassParts scaled(double factor) const;
+
+ private:
+  std::vector<std::uint32_t> places_;  ///< of each part: block and lane
+  std::vector<PartBlock> blocks_;
+};
+
+}  // namespace ambient
