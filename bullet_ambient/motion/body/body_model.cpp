@@ -154,7 +154,7 @@ BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_fr
   checkLever(fluid_body, model);
   if (loads) {
     model.load_frame = loads->frame(fluid_frame);
-    model.resistance = resistanceInB(*loads, model.load_frame);
+    model.resistance = resistanceInB(loads, model.load_frame);
   }
   const Resistance* const resistance = model.resistance.get();
   model.has_diagonal_inertia =
@@ -181,10 +181,11 @@ SurfaceLoad computeSurfaceLoad(const BodyModel& model, const Twist& relative_twi
   });
 }
 
-std::shared_ptr<const Resistance> resistanceInB(const SurfaceLoads& loads,
+std::shared_ptr<const Resistance> resistanceInB(const std::shared_ptr<const SurfaceLoads>& loads,
                                                 const FrameOffset& frame) {
-  const Resistance* const in_F = loads.resistance();
+  const Resistance* const in_F = loads->resistance();
   if (!in_F) return nullptr;
+  if (frame.isIdentity()) return {loads, in_F};
   Resistance in_B{in_F->matrix, frame.rotation * in_F->centre + frame.translation};
   if (!frame.rotation.isIdentity(0)) in_B.matrix = rotateAxes(in_B.matrix, frame.rotation);
   return std::make_shared<const Resistance>(in_B);

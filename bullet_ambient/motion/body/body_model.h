@@ -135,7 +135,7 @@ SurfaceLoad computeSurfaceLoad(const BodyModel& model, const Twist& relative_twi
                                double load_share = 1, const FlowAlongBody* flow = nullptr) noexcept;
 
 /// Returns the resistance of loads in B, which sit in a frame there; null: they have none.
-std::shared_ptr<const Resistance> resistanceInB(const SurfaceLoads& loads,
+std::shared_ptr<const Resistance> resistanceInB(const std::shared_ptr<const SurfaceLoads>& loads,
                                                 const FrameOffset& frame);
 
 /// All of a load: with what the resistance (null: none) makes of the twist.

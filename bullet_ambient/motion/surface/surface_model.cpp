@@ -44,7 +44,7 @@ PartLoads partLoads(const SurfaceModelDef& def, const Medium& medium) {
   PartLoads part{makeWaterlineLoads(def.shape, medium, def.flow), {}, nullptr};
   if (!part.loads) return part;
   part.frame = part.loads->frame(def.fluid_frame);
-  part.resistance = resistanceInB(*part.loads, part.frame);
+  part.resistance = resistanceInB(part.loads, part.frame);
   return part;
 }
 

@@ -42,6 +42,7 @@ inline FluidBody hullBody(const Triangulation& mesh) {
   body.faces = faceTableOf(mesh);
   body.area = totalArea(body.faces);
   makeSurfaceForm(body);
+  giveResistance(body);
   return body;
 }
 
