@@ -180,6 +180,7 @@ BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& se
   build.cavities = checked.cavities;
   if (const auto known = knownAddedMass(shape, settings)) {
     build.added_mass = known->added_mass;
+    build.viscous_flow = facts.viscous_flow(settings.scale, known->added_mass);
     if (known->is_tabulated) {
       build.added_mass_parts = estimateParts(checked.mesh, known->added_mass);
     } else if (facts.sphere_radius == 0) {

@@ -22,6 +22,7 @@
 #include "preprocess/potential_flow/surface/shape_symmetry.h"
 #include "preprocess/reduced_loads/form_levels.h"
 #include "preprocess/reduced_loads/levels_by_rule.h"
+#include "preprocess/resistance/separation.h"
 
 namespace ambient {
 
@@ -253,13 +254,25 @@ PotentialFlow solveFlow(const TriangleMesh& mesh, const CollisionShapeSettings& 
 struct AddedMass {
   Matrix6 total = Matrix6::Zero();
   std::vector<AddedMassPart> parts;  // empty where no flow was solved
+  KnownViscousFlow viscous_flow{};
 };
+
+/// What layers make of a flow that was solved on the vertices of a mesh.
+KnownViscousFlow layersOf(const TriangleMesh& mesh,
+                          const Eigen::Matrix<double, Eigen::Dynamic, 6>& potential,
+                          const Matrix6& added_mass) {
+  return {{},
+          computeSeparation(mesh, potential.topRows(mesh.vertexCount()).rightCols<3>(),
+                            translationAxes(added_mass)),
+          false};
+}
 
 /// About the shape's origin.
 AddedMass addedMassOf(const Solid& solid, const CollisionShapeSettings& settings,
                       const std::string& name) {
   if (solid.sphere_radius > 0) return {*solid.added_mass, {}};
-  if (solid.added_mass) return {*solid.added_mass, estimateParts(solid.mesh, *solid.added_mass)};
+  if (solid.added_mass)
+    return {*solid.added_mass, estimateParts(solid.mesh, *solid.added_mass), solid.viscous_flow};
   const bool has_flow = solid.flow.triangleCount() > 0;
   const PotentialFlow fine = solveFlow(has_flow ? solid.flow : solid.mesh, settings, name);
   if (!has_flow) return {fine.added_mass, fine.parts};
@@ -268,7 +281,8 @@ AddedMass addedMassOf(const Solid& solid, const CollisionShapeSettings& settings
     const Matrix6 coarse = solveFlow(solid.coarse_flow, settings, name).added_mass;
     total = positivePart(total + (total - coarse) / (solid.flow_ratio - 1));
   }
-  return {symmetrisedAddedMass(total, solid.mesh), fine.parts};
+  total = symmetrisedAddedMass(total, solid.mesh);
+  return {total, fine.parts, layersOf(solid.flow, fine.potential, total)};
 }
 
 /// Returns the added mass of many solids apart: that of one flow around all of them on their faces,
@@ -290,7 +304,8 @@ AddedMass coupledAddedMass(const std::vector<Solid>& solids, const CollisionShap
   Matrix6 total = all.added_mass;
   for (const Solid& solid : solids)
     if (solid.added_mass) total += *solid.added_mass - solve(solid.mesh).added_mass;
-  return {positivePart(total), all.parts};
+  total = positivePart(total);
+  return {total, all.parts, layersOf(all.surface, all.potential, total)};
 }
 
 /// Returns whether the added mass of a solid is not simply that of its mesh.
@@ -398,6 +413,7 @@ FluidBody bodyOf(const SeparateSolids& separate, const ShapeForm& form,
   if (std::optional<AddedMass> known = addedMassOf(separate, settings, build.name)) {
     build.added_mass = known->total;
     build.added_mass_parts = std::move(known->parts);
+    build.viscous_flow = known->viscous_flow;
   }
   if (solids.size() == 1) build.sphere_radius = solids.front().sphere_radius;
   if (build.sphere_radius == 0) build.waterline_subdivisions = settings.waterline_subdivisions;

@@ -30,8 +30,10 @@ Solid placed(Solid solid, const Matrix3& rotation, const Vector3& translation) {
   for (TriangleMesh* mesh : {&solid.mesh, &solid.flow, &solid.coarse_flow, &solid.cavities}) {
     mesh->vertices = (rotation * mesh->vertices).colwise() + translation;
   }
-  if (solid.added_mass)
-    solid.added_mass = shiftOrigin(rotateAxes(*solid.added_mass, rotation), -translation);
+  for (std::optional<Matrix6>* known : {&solid.added_mass, &solid.viscous_flow.resistance})
+    if (*known) *known = shiftOrigin(rotateAxes(**known, rotation), -translation);
+  if (std::optional<Separation>& separation = solid.viscous_flow.separation)
+    separation->axes = rotation * separation->axes;
   return solid;
 }
 
@@ -147,7 +149,10 @@ struct SolidMaker {
     const ShapeFacts facts = factsOf(shape);
     const auto known = facts.added_mass(1);
     Solid solid;
-    if (known && (resolution.tables || !known->is_tabulated)) solid.added_mass = known->added_mass;
+    if (known && (resolution.tables || !known->is_tabulated)) {
+      solid.added_mass = known->added_mass;
+      solid.viscous_flow = facts.viscous_flow(1, known->added_mass);
+    }
     solid.sphere_radius = facts.sphere_radius;
     solid.is_polyhedron = std::is_same_v<Simple, Box>;
     const int faces = std::max(resolution.faces, facts.least_faces());

@@ -6,6 +6,7 @@
 
 #include "bullet_ambient/spatial/vector_types.h"
 #include "preprocess/mesh/triangle_mesh.h"
+#include "preprocess/resistance/prepare.h"
 #include "preprocess/shape/shape_mesh.h"
 
 namespace ambient {
@@ -23,6 +24,7 @@ struct Solid {
   /// Added mass from a closed form or a table, about the shape's origin, per unit density; none:
   /// neither exists.
   std::optional<Matrix6> added_mass;
+  KnownViscousFlow viscous_flow;      ///< where the added mass is known, likewise
   bool is_polyhedron = false;         ///< its flat sides are the body's, and no approximation
   double sphere_radius = 0;           ///< radius of a sphere [m]; 0: any other shape
   std::string name;                   ///< name of the part: "crane: child 1: child 0 (Box)"

@@ -7,6 +7,9 @@
 
 #include "bullet_ambient/base/fnv1a.h"
 #include "bullet_ambient/base/plain_text.h"
+#include "bullet_ambient/spatial/inertia.h"
+#include "preprocess/resistance/separation.h"
+#include "preprocess/resistance/stokes_resistance.h"
 
 namespace ambient {
 namespace {
@@ -19,7 +22,9 @@ const std::map<std::string, const char*, std::less<>> kUnits{
     {"area", "m^2"},
     {"barycentre", "m"},
     {"centre", "m"},
+    {"centre_of_reaction", "m"},
     {"centre_of_volume", "m"},
+    {"drag_falls_at", "Reynolds number on D_A, of both ways"},
     {"draught", "m"},
     {"friction", "N m, N"},
     {"height", "m"},
@@ -28,11 +33,14 @@ const std::map<std::string, const char*, std::less<>> kUnits{
     {"origin", "m in the mesh's frame"},
     {"period", "s"},
     {"pressure", "N m, N"},
+    {"resistance", "m^3, m^2; m^2, m, per unit viscosity, rotation first"},
+    {"rotation_resistance", "m^3"},
     {"seconds", "s"},
     {"size", "m"},
     {"smallest_angle", "rad"},
     {"thickness", "m"},
     {"total", "N m, N: torque about the origin of F, force"},
+    {"translation_resistance", "m"},
     {"volume", "m^3"},
     {"waterplane_area", "m^2"}};
 
@@ -104,6 +112,45 @@ ordered_json levelsJson(const std::vector<FormLevel>& levels) {
 
 bool isSheet(const FluidBody& body) { return body.volume == 0; }
 
+/// What the body has in a fluid with viscosity; of a sphere in closed form.
+ViscousForm viscousFormOf(const FluidBody& body) {
+  if (body.sphere_radius == 0) return body.viscous;
+  ViscousForm form;
+  form.resistance = shiftOrigin(Matrix6(sphereResistance(body.sphere_radius).asDiagonal()),
+                                -body.centre_of_volume);
+  form.centre_of_reaction = body.centre_of_volume;
+  form.separation = sphereSeparation();
+  return form;
+}
+
+/// What there is along axis j of separation; R about the centre of reaction.
+ordered_json axisJson(const ViscousForm& form, const Matrix6& R, int j) {
+  const Separation& separation = form.separation;
+  const Vector3 q = separation.axes.col(j);
+  ordered_json facts{{"axis", vectorJson(q)},
+                     {"translation_resistance", q.dot(R.bottomRightCorner<3, 3>() * q)},
+                     {"rotation_resistance", q.dot(R.topLeftCorner<3, 3>() * q)},
+                     {"smooth_base", separation.smooth_base[j]}};
+  if (separation.smooth_base[j] == 0) return facts;
+  // Where Re_theta is 205, half of the layers are turbulent when they leave a smooth wall.
+  constexpr double kTransition = 205;
+  for (std::size_t way = 2 * static_cast<std::size_t>(j), side = 0; side < 2; ++side) {
+    const double N = separation.ways[way + side].thickness;
+    facts["layer_thickness"].push_back(N);
+    facts["drag_falls_at"].push_back(N > 0 ? kTransition * kTransition / (N * N) : 0);
+  }
+  return facts;
+}
+
+ordered_json viscousJson(const ViscousForm& form) {
+  ordered_json axes = ordered_json::array();
+  const Matrix6 R = shiftOrigin(form.resistance, form.centre_of_reaction);
+  for (int j = 0; j < 3; ++j) axes.push_back(axisJson(form, R, j));
+  return {{"resistance", matrixJson(form.resistance)},
+          {"centre_of_reaction", vectorJson(form.centre_of_reaction)},
+          {"separation", axes}};
+}
+
 }  // namespace
 
 std::string factsText(const ordered_json& facts, bool json) {
@@ -133,6 +180,8 @@ ordered_json bodyFacts(const FluidBody& body) {
   if (!body.waterline.empty())
     facts["waterline_table"] = {{"subdivisions", body.waterline.subdivisions},
                                 {"immersions", body.waterline.immersions.size()}};
+  if (const ViscousForm form = viscousFormOf(body); form.isKnown())
+    facts["viscous_flow"] = viscousJson(form);
   return facts;
 }
 

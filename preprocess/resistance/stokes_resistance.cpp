@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -127,16 +128,45 @@ SurfaceLevels panelsOf(const TriangleMesh& mesh, const StokesSettings& settings)
   return refineInLevels(merged, settings.sheet, most);
 }
 
-/// Adds the pressure inside of a closed surface, which moves nothing, to the kernel's eigenvalue 0.
-void fillPressure(const PanelGroups& groups, Eigen::MatrixXd& A) {
-  Eigen::VectorXd z = Eigen::VectorXd::Zero(A.rows());
-  for (Index t = 0; t < groups.surface.panelCount(); ++t)
-    z.segment<3>(3 * groups.group[t]) +=
-        groups.surface.panels[t].area * groups.surface.panels[t].normal;
-  const double square = z.squaredNorm();
-  if (!(square > 0)) return;
+/// Adds the pressures inside of closed surfaces, which move nothing, to the kernel's eigenvalues 0.
+/// Parts that share a group have one pressure.
+void fillPressures(const PanelGroups& groups, Eigen::MatrixXd& A) {
+  const PanelSurface& surface = groups.surface;
+  const auto partOf = [&](Index t) { return surface.component[surface.triangles(0, t)]; };
+  std::vector<int> first(static_cast<std::size_t>(groups.count), -1);  // part of each group
+  DisjointSets parts(static_cast<std::size_t>(surface.component_count));
+  for (Index t = 0; t < surface.panelCount(); ++t) {
+    int& part = first[groups.group[t]];
+    if (part >= 0) parts.join(part, partOf(t));
+    part = partOf(t);
+  }
+  std::map<int, Eigen::VectorXd> pressures;
+  for (Index t = 0; t < surface.panelCount(); ++t) {
+    Eigen::VectorXd& z =
+        pressures.try_emplace(parts.find(partOf(t)), Eigen::VectorXd::Zero(A.rows())).first->second;
+    z.segment<3>(3 * groups.group[t]) += surface.panels[t].area * surface.panels[t].normal;
+  }
   const double mean = A.trace() / static_cast<double>(A.rows());
-  A += (mean / square) * z * z.transpose();
+  for (const auto& [part, z] : pressures)
+    if (const double square = z.squaredNorm(); square > 0) A += (mean / square) * z * z.transpose();
+}
+
+/// Solves A x = B for A^(-1/2) B. Where quadrature leaves A a negative eigenvalue, as of panels far
+/// larger than the gap to what they face, its diagonal grows by as little as it takes.
+MatrixX6 halfSolution(const Eigen::MatrixXd& A, const MatrixX6& B) {
+  constexpr double kLeast = 1e-6, kMost = 0.1;
+  double growth = 0;
+  do {
+    Eigen::MatrixXd factored = A;
+    factored.diagonal() *= 1 + growth;
+    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factors(factored);
+    if (factors.info() == Eigen::Success) return factors.matrixL().solve(B);
+    growth = std::max(kLeast, 4 * growth);
+  } while (growth < kMost);
+  throw std::runtime_error(
+      "creeping flow: the linear system of " + std::to_string(A.rows() / 3) +
+      " panels is not positive definite; two sides of the surface are too close for the size "
+      "of its triangles: use more triangles, a sheet, or build --wrap");
 }
 
 /// int h g_j of eq. (93): velocities of the six unit motions, per group.
@@ -156,14 +186,8 @@ Matrix6 solveUnitFlow(const PanelGroups& groups, const StokesSettings& settings)
   fixBlocksOfLargeProducts();
   Eigen::MatrixXd A = assembleStokesMatrix(groups.surface.panels, groups.group, groups.count,
                                            threadCount(settings.threads));
-  if (!settings.sheet) fillPressure(groups, A);
-  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factors(A);
-  if (factors.info() != Eigen::Success)
-    throw std::runtime_error(
-        "creeping flow: the linear system of " + std::to_string(groups.count) +
-        " panels is not positive definite; two sides of the surface are too close for the size "
-        "of its triangles: use more triangles, a sheet, or build --wrap");
-  const MatrixX6 B = motionsOf(groups), half = factors.matrixL().solve(B);
+  if (!settings.sheet) fillPressures(groups, A);
+  const MatrixX6 half = halfSolution(A, motionsOf(groups));
   const Matrix6 R = 8 * kPi * half.transpose() * half;
   return (R + R.transpose()) / 2;
 }

@@ -16,6 +16,7 @@
 #include "preprocess/mesh/triangle_mesh.h"
 #include "preprocess/mesh/wrap/surface_wrap.h"
 #include "preprocess/potential_flow/results/ellipsoid_added_mass.h"
+#include "preprocess/resistance/known_viscous_flow.h"
 
 namespace ambient {
 
@@ -52,6 +53,9 @@ struct FactFinder {
       return withVolume(makeEllipsoidMesh(s.semi_axes, faces), volume);
     };
     facts.added_mass = [s](double scale) { return closedForm(scale * s.semi_axes); };
+    facts.viscous_flow = [s](double scale, const Matrix6& added_mass) {
+      return ellipsoidViscousFlow(scale * s.semi_axes, added_mass);
+    };
     facts.is_smooth = true;
     return facts;
   }
@@ -67,6 +71,9 @@ struct FactFinder {
     facts.half_extents = s.half_sizes;
     facts.mesh = [s](int faces) { return makeBoxMesh(s.half_sizes, faces); };
     facts.added_mass = [s](double scale) { return tabulated(boxAddedMass(scale * s.half_sizes)); };
+    facts.viscous_flow = [s](double scale, const Matrix6&) {
+      return boxViscousFlow(scale * s.half_sizes);
+    };
     return facts;
   }
 
@@ -80,6 +87,9 @@ struct FactFinder {
     facts.least_faces = [s] { return leastCylinderFaces(s.radius, s.height); };
     facts.added_mass = [s](double scale) {
       return tabulated(cylinderAddedMass(scale * s.radius, scale * s.height));
+    };
+    facts.viscous_flow = [s](double scale, const Matrix6& added_mass) {
+      return cylinderViscousFlow(scale * s.radius, scale * s.height, added_mass);
     };
     return facts;
   }
@@ -96,6 +106,9 @@ struct FactFinder {
     facts.added_mass = [s](double scale) {
       return tabulated(capsuleAddedMass(scale * s.radius, scale * s.height));
     };
+    facts.viscous_flow = [s](double scale, const Matrix6& added_mass) {
+      return capsuleViscousFlow(scale * s.radius, scale * s.height, added_mass);
+    };
     facts.is_smooth = true;
     return facts;
   }
@@ -110,6 +123,9 @@ struct FactFinder {
     facts.least_faces = [s] { return leastConeFaces(s.radius, s.height); };
     facts.added_mass = [s](double scale) {
       return tabulated(coneAddedMass(scale * s.radius, scale * s.height));
+    };
+    facts.viscous_flow = [s](double scale, const Matrix6&) {
+      return coneViscousFlow(scale * s.radius, scale * s.height);
     };
     return facts;
   }

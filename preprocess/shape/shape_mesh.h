@@ -8,6 +8,7 @@
 #include "preprocess/mesh/check/mesh_checks.h"
 #include "preprocess/mesh/import/mesh_import.h"
 #include "preprocess/mesh/triangle_mesh.h"
+#include "preprocess/resistance/prepare.h"
 #include "preprocess/shape/shapes.h"
 
 namespace ambient {
@@ -33,6 +34,10 @@ struct ShapeFacts {
   std::function<std::optional<KnownAddedMass>(double scale)> added_mass = [](double) {
     return std::nullopt;
   };
+  /// What is known of a shape of known added mass, with all lengths times `scale`, in a fluid with
+  /// viscosity. Cost: microseconds.
+  std::function<KnownViscousFlow(double scale, const Matrix6& added_mass)> viscous_flow =
+      [](double, const Matrix6&) { return KnownViscousFlow{}; };
   bool is_smooth = false;  ///< true: the shape has no edges; errors of its meshes shrink evenly as
                            ///< these get finer
   double sphere_radius = 0;  ///< [m]; 0: no sphere
