@@ -9,6 +9,7 @@
 #include "bullet_ambient/spatial/inertia.h"
 #include "preprocess/base/surface_form.h"
 #include "tests/reference/ellipsoid_added_mass.h"
+#include "tests/support/bodies/ball_resistance.h"
 #include "tests/support/bodies/geodesic.h"
 
 namespace ambient::test {
@@ -39,6 +40,7 @@ inline FluidBody meshedEllipsoid(const Vector3& semi_axes, int level) {
   shape.faces = faceTableOf(geodesicEllipsoid(semi_axes, level));
   shape.area = totalArea(shape.faces);
   makeSurfaceForm(shape);
+  giveResistance(shape);
   return shape;
 }
 
@@ -70,6 +72,7 @@ inline FluidBody latticeEllipsoid(const Vector3& semi_axes, int meridians, int b
   shape.faces = faceTableOf(mesh);
   shape.area = totalArea(shape.faces);
   makeSurfaceForm(shape);
+  giveResistance(shape);
   return shape;
 }
 

@@ -193,7 +193,7 @@ TEST(WaterWorld, GoesOnBitForBitFromASavedState) {
 TEST(WaterWorld, ASavedStateHasTheSurfaceThatABodyHasMet) {
   WaterWorld run(seaAt(0)), other(seaAt(0)), without(seaAt(0));
   for (WaterWorld* world : {&run, &other, &without}) world->addBox(0.4, tumbling(0.05));
-  run.scene.step(1.0 / 60, 20);
+  run.scene.step(1.0 / 60, 7);
   WorldState state = run.scene.fluid.save();
   ASSERT_TRUE(state.bodies[0].ambient->met_B);
   other.scene.fluid.restore(state);
