@@ -69,6 +69,9 @@ class LoadsAtSurface final : public SurfaceLoads {
       : loads_(std::move(loads)), part_(part) {}
 
   Wrench load(const Twist& x) const noexcept override { return loads_->wetLoad(x, part_); }
+  SplitLoad split(const Twist& x, const WetPart*) const noexcept override {
+    return loads_->split(x, &part_);
+  }
   int faces() const noexcept override { return loads_->faces(); }
   bool needsGuard() const noexcept override { return loads_->needsGuard(); }
 

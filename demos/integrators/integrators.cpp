@@ -202,7 +202,7 @@ MomentumPhase MomentumEquations::rate(const MomentumPhase& s) const {
     const SurfaceLoad load = computeSurfaceLoad(task_.model, state.twist, task_.surroundings);
     ++count_.load_evaluations;
     count_.guarded += load.guarded;
-    wrench += load.wrench;
+    wrench += wholeLoad(load, task_.model.resistance.get(), state.twist);
   }
   const Vector3 force = q * wrench.force;
   const Vector3& w = state.twist.angular;
@@ -249,7 +249,7 @@ FlightResult flySymplecticEuler(const FlightTask& task, const RigidState& start,
       const SurfaceLoad load = computeSurfaceLoad(model, s.twist, task.surroundings);
       ++flight.count.load_evaluations;
       flight.count.guarded += load.guarded;
-      wrench += load.wrench;
+      wrench += wholeLoad(load, model.resistance.get(), s.twist);
     }
     s.twist = Twist::fromVector(s.twist.vector() + h * (model.inverse_inertia * wrench.vector()));
     s.orientation = (s.orientation * rotationFromVector(h * s.twist.angular)).normalized();

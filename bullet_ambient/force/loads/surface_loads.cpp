@@ -183,7 +183,7 @@ class FormLoads final : public ViscousLoads {
     Parts parts{s.pressure * on_faces + share * whole, {}, {}};
     if (!resistance_) return parts;
     parts.layer = share * atCentre({Vector3::Zero(), law_->layerForce(s, v)});
-    parts.growth = inWater(law_->growth(s, -power(on_faces, x)), wet);
+    parts.growth = inWater(law_->growth(s, share > 0 ? -power(on_faces, x) / share : 0), wet);
     return parts;
   }
 

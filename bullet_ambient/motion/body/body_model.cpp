@@ -191,6 +191,14 @@ std::shared_ptr<const Resistance> resistanceInB(const std::shared_ptr<const Surf
   return std::make_shared<const Resistance>(in_B);
 }
 
+bool isSettled(const BodyModel& model, const Growth& growth, double duration) noexcept {
+  constexpr double kSettled = 0.02;
+  if (!model.resistance) return false;
+  const double drag = model.resistance->matrix.bottomRightCorner<3, 3>().trace();
+  return duration * growth.translation * growth.translation * drag >
+         kSettled * model.inertia.bottomRightCorner<3, 3>().trace();
+}
+
 Wrench gyroscopicWrench(const DualPair& motion) {
   return gyroscopicWrench(Momentum::fromVector(motion.momentum), Twist::fromVector(motion.twist));
 }

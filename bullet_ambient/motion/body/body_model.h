@@ -143,6 +143,10 @@ inline Wrench wholeLoad(const SurfaceLoad& load, const Resistance* resistance, c
   return resistance ? load.wrench + resistance->load(load.growth, x) : load.wrench;
 }
 
+/// True if the resistance of a body settles it within some times `duration` [s]. Then a step has to
+/// take up forces and resistance at once for a steady motion to be right.
+bool isSettled(const BodyModel& model, const Growth& growth, double duration) noexcept;
+
 /// Pair of a twist x and its momentum K x.
 inline DualPair pairOfTwist(const BodyModel& model, const Vector6& x) {
   if (model.has_diagonal_inertia) return {x, model.inertia.diagonal().cwiseProduct(x)};

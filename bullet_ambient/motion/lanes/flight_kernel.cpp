@@ -139,11 +139,15 @@ struct PushStep {
       const Spatials fallen = kick;
       kick = kick + (passiveKick(motion, motion, response, duration).twist - x);
       if (bodies.has_resistance) {
-        const Pairs fall{all(0.5) * fallen, 0.5 * duration * wrench};
+        // Rows meet all of the forces, but where the fluid settles the body within the step.
+        const Mask settles = load(bodies.is_settled + at) > Lanes{};
+        const Pairs fall =
+            select(settles, {all(0.5) * fallen, 0.5 * duration * wrench}, noWrench<Lanes>());
         const Pairs settled = withResistance<Matrices>(bodies, at, [&](const auto& terms) {
           return viscousKick<Lanes>(motion, motion, response, fall, terms, duration);
         });
-        kick = select(viscousOf(bodies, at), settled.twist - x, kick);
+        const Spatials change = settled.twist - x;
+        kick = select(viscousOf(bodies, at), select(settles, change, fallen + change), kick);
       }
     }
     const Turnings turning = computeTurnings(inertia, inverse, motion, duration);

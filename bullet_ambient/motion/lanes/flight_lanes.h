@@ -140,6 +140,8 @@ extern const FlightKernel kFlightKernelBaseline, kFlightKernelAvx2, kFlightKerne
 /// keep() and carry(), one after the other. Twists relative to the flow; momenta about the centre
 /// of mass.
 struct alignas(64) RowLanes : BodyLanes {
+  FlightLane is_settled;  ///< 1: the resistance is strong for the length of the step; else 0
+
   // Input of push(), with orientations and twist_B at the start of the step, and load_B there.
   FlightLane acceleration_W[3];           ///< acceleration of the flow [m/s^2]
   FlightLane even_inverse_inertia[3][3];  ///< D' of eq. (28b), in B [1/(kg m^2)]

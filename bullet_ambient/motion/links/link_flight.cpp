@@ -286,7 +286,7 @@ LinkFlightResult LinkFlight::computeRowVelocity(const TreePose& start, const Coo
     if (is_stiff_) end_ = u;  // forces are in the kick
     kickBy(duration, end_);
     dynamics_.setForces(true);
-    dynamics_.factor();
+    if (!is_stiff_) dynamics_.factor();  // else rows meet the resistance, too
   }
   result.is_finite = mean_.allFinite() && end_.allFinite();
   return result;

@@ -87,7 +87,7 @@ class LinkFlight {
 
   /// Computes the velocity x that rows of contacts are solved against, explicitly at the start
   /// pose, and the turning part t: rowVelocity(), turning(). Leaves dynamics() at `start`, with H
-  /// factored.
+  /// factored, or in a fluid that settles the tree with the matrix of its kick.
   LinkFlightResult computeRowVelocity(const TreePose& start, const CoordinatesIn& u,
                                       double duration) noexcept;
   const Coordinates& rowVelocity() const { return end_; }

@@ -148,9 +148,11 @@ void LinkKick::resist(const LinkDynamics& dynamics, int link, double h) noexcept
 }
 
 bool LinkKick::isStiff(double h) const noexcept {
-  constexpr double kStiff = 0.02;
-  return std::any_of(samples_.begin(), samples_.end(),
-                     [h](const Sample& sample) { return h * sample.settling > kStiff; });
+  for (int l = 0; l < tree_.size(); ++l) {
+    const Link& link = tree_.links[l];
+    if (isLoaded(link) && isSettled(*link.model, samples_[l].growth, h)) return true;
+  }
+  return false;
 }
 
 void LinkKick::kick(LinkDynamics& dynamics, double h, CoordinatesOut u,

@@ -32,8 +32,7 @@ class LinkKick {
   /// the motion. @pre kick() was called after that sample, at its pose
   double error(LinkDynamics& dynamics, double h) noexcept;
 
-  /// True if the resistance of a link at the last sample settles it within some times h [s]: then
-  /// forces and resistance have to be in one kick for a steady motion to be right, eq. (123).
+  /// True if isSettled() of a link at the last sample, for h [s].
   bool isStiff(double h) const noexcept;
 
   /// Replaces `u` by the velocity after the time h [s] under the loads of the last sample alone,

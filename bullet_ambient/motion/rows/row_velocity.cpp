@@ -57,10 +57,12 @@ FlightCount setStart(const FlightTask& task, const RigidState& start, int lane,
   setLane(lanes.twist_B, lane, relative);
   setLane(lanes.load_B, lane, Wrench{});
   setResistance(lanes, lane, nullptr, {});
+  lanes.is_settled[lane] = 0;
   FlightCount count;
   if (!task.model.loads) return count;
   const SurfaceLoad load = computeSurfaceLoad(task.model, relative, s);
   setResistance(lanes, lane, task.model.resistance.get(), load.growth);
+  lanes.is_settled[lane] = isSettled(task.model, load.growth, task.duration) ? 1 : 0;
   if (turnsWithFluid(s)) {
     const Wrench mean = meanLoadInTurningFluid(task, task.model, relative, load.wrench);
     Surroundings with = s;

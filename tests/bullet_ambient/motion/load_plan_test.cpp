@@ -105,8 +105,8 @@ TEST(LoadPlan, ASphereAwayFromTheCentreOfMassIsLoadedAsItsMesh) {
     const Wrench found = computeSurfaceLoad(of_sphere, twist).wrench;
     const double scale =
         1.2 * kRadius * kRadius * (twist.linear.squaredNorm() + twist.angular.squaredNorm() * 0.09);
-    EXPECT_LT((found.force - expected.force).norm(), 0.02 * scale);  // error of the mesh
-    EXPECT_LT((found.torque - expected.torque).norm(), 0.02 * kRadius * scale);
+    EXPECT_LT((found.force - expected.force).norm(), 0.03 * scale);  // error of 1152 faces
+    EXPECT_LT((found.torque - expected.torque).norm(), 0.03 * kRadius * scale);
   }
 }
 

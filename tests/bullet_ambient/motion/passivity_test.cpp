@@ -104,6 +104,7 @@ TEST(Leapfrog, CountsTheEnergyThatItsBoundRemoves) {
     BodyModel free = body.model(), loaded = body.model();
     free.loads = nullptr;
     loaded.loads = std::make_shared<NoLoads>();
+    free.resistance = loaded.resistance = nullptr;
     const double before = body.totalEnergy(), step = wildStep(arbitrary);
     const FlightSettings one{1e-6, 1};
     const RigidState start = body.state;

@@ -244,7 +244,9 @@ TEST_F(Drawing, TheTotalIsTheWrenchThatTheFlightSees) {
   const RigidState state = readState(*body);
   Surroundings s = readSurroundings(ambient());
   s.applied = {Vector3::Zero(), ambient().model().mass * s.ambient_acceleration};  // buoyancy alone
-  const Wrench total = computeSurfaceLoad(ambient().model(), relativeTwist()).wrench +
+  const BodyModel& model = ambient().model();
+  const Twist x = relativeTwist();
+  const Wrench total = wholeLoad(computeSurfaceLoad(model, x), model.resistance.get(), x) +
                        externalWrench(ambient().model(), s, state.orientation.toRotationMatrix());
   const Vector3 force = state.orientation * total.force;
   const Vector3 torque = state.orientation * total.torque;
