@@ -167,29 +167,18 @@ const std::string& nameOf(const ShapeForm& form, const CollisionShapeSettings& s
   return settings.name.empty() ? form.kind : settings.name;
 }
 
-const char* nameOf(CompoundFallback fallback) {
-  switch (fallback) {
-    case CompoundFallback::kHull:
-      return "hull";
-    case CompoundFallback::kSum:
-      return "sum";
-    case CompoundFallback::kRefuse:
-      break;
-  }
-  return "union";
-}
-
 bool usesTables(const CollisionShapeSettings& settings) {
   return settings.tables && settings.flow.solver == FlowSolverKind::Automatic;
 }
 
-/// Names the source of the added mass, for the provenance: tables, or panels and fallback.
+/// Names the source of the added mass, for the provenance: tables, or panels and what stands for
+/// what cannot be united.
 std::string sourceOf(const std::vector<PlacedShape>& parts,
                      const CollisionShapeSettings& settings) {
   const bool tables = usesTables(settings);
   if (tables && parts.size() == 1 && tabulatedAddedMass(parts.front().shape))
     return addedMassTablesName();
-  return "panels " + std::to_string(settings.flow.max_panels) + ", " + nameOf(settings.fallback) +
+  return "panels " + std::to_string(settings.flow.max_panels) + ", hull" +
          (tables ? "" : ", no tables") +
          (settings.flow.solver == FlowSolverKind::Dense ? ", dense" : "") +
          (settings.flow.solver == FlowSolverKind::Hierarchical ? ", hierarchical" : "");
@@ -241,11 +230,12 @@ TriangleMesh joined(const std::vector<Solid>& solids, TriangleMesh Solid::*surfa
   return joinMeshes(parts);
 }
 
-PotentialFlow solveFlow(const TriangleMesh& mesh, const CollisionShapeSettings& settings,
-                        const std::string& name) {
+/// Calls solve(), which solves a flow. @throws std::runtime_error that begins with `name`.
+template <class Solve>
+auto solved(const CollisionShapeSettings& settings, const std::string& name, const Solve& solve) {
   tellStage(settings, "solving the flow");
   try {
-    return solvePotentialFlow(mesh, settings.flow);
+    return solve();
   } catch (const std::runtime_error& error) {
     raiseInputError(name, error.what());
   }
@@ -273,12 +263,13 @@ AddedMass addedMassOf(const Solid& solid, const CollisionShapeSettings& settings
   if (solid.sphere_radius > 0) return {*solid.added_mass, {}};
   if (solid.added_mass)
     return {*solid.added_mass, estimateParts(solid.mesh, *solid.added_mass), solid.viscous_flow};
-  const bool has_flow = solid.flow.triangleCount() > 0;
-  const PotentialFlow fine = solveFlow(has_flow ? solid.flow : solid.mesh, settings, name);
-  if (!has_flow) return {fine.added_mass, fine.parts};
+  const auto solve = [&](const TriangleMesh& mesh) {
+    return solved(settings, name, [&] { return solvePotentialFlow(mesh, settings.flow); });
+  };
+  const PotentialFlow fine = solve(solid.flow);
   Matrix6 total = fine.added_mass;
   if (solid.flow_ratio != 0) {
-    const Matrix6 coarse = solveFlow(solid.coarse_flow, settings, name).added_mass;
+    const Matrix6 coarse = solve(solid.coarse_flow).added_mass;
     total = positivePart(total + (total - coarse) / (solid.flow_ratio - 1));
   }
   total = symmetrisedAddedMass(total, solid.mesh);
@@ -293,12 +284,7 @@ AddedMass coupledAddedMass(const std::vector<Solid>& solids, const CollisionShap
   PotentialFlowSettings undivided = settings.flow;
   undivided.max_panels = 0;
   const auto solve = [&](const TriangleMesh& mesh) {
-    tellStage(settings, "solving the flow");
-    try {
-      return solveRefinedFlow(mesh, undivided);
-    } catch (const std::runtime_error& error) {
-      raiseInputError(name, error.what());
-    }
+    return solved(settings, name, [&] { return solveRefinedFlow(mesh, undivided); });
   };
   const RefinedFlow all = solve(joined(solids, &Solid::mesh));
   Matrix6 total = all.added_mass;
@@ -315,20 +301,14 @@ bool hasOwnAddedMass(const Solid& solid) {
 
 /// Returns the added mass of all solids together; none: the builder has to solve the flow around
 /// their meshes.
-std::optional<AddedMass> addedMassOf(const SeparateSolids& separate,
+std::optional<AddedMass> addedMassOf(const std::vector<Solid>& solids,
                                      const CollisionShapeSettings& settings,
                                      const std::string& name) {
-  const std::vector<Solid>& solids = separate.solids;
-  AddedMass sum;
-  if (solids.size() == 1) {
-    if (!hasOwnAddedMass(solids.front())) return std::nullopt;
+  if (solids.size() == 1 && hasOwnAddedMass(solids.front()))
     return addedMassOf(solids.front(), settings, name);
-  }
-  if (!separate.is_sum && areMany(solids, settings))
+  if (solids.size() > 1 && areMany(solids, settings))
     return coupledAddedMass(solids, settings, name);
-  if (!separate.is_sum) return std::nullopt;
-  for (const Solid& solid : solids) sum.total += addedMassOf(solid, settings, name).total;
-  return sum;
+  return std::nullopt;
 }
 
 /// Settings of the flow around solids. Polyhedra need fewer panels than round bodies: all their
@@ -401,16 +381,15 @@ std::optional<FormLevel> levelOf(const FluidBody& body, const ShapeForm& form,
   return smallestFormLevel(body, settings.load_error);
 }
 
-FluidBody bodyOf(const SeparateSolids& separate, const ShapeForm& form,
+FluidBody bodyOf(const std::vector<Solid>& solids, const ShapeForm& form,
                  const CollisionShapeSettings& settings) {
   BuildSettings build;
   build.name = nameOf(form, settings);
   build.origin = Eigen::Vector3d::Zero();
   build.provenance = describeForm(form, settings);
   build.begin = settings.begin;
-  const std::vector<Solid>& solids = separate.solids;
   build.flow = flowSettingsFor(solids, settings.flow);
-  if (std::optional<AddedMass> known = addedMassOf(separate, settings, build.name)) {
+  if (std::optional<AddedMass> known = addedMassOf(solids, settings, build.name)) {
     build.added_mass = known->total;
     build.added_mass_parts = std::move(known->parts);
     build.viscous_flow = known->viscous_flow;
@@ -447,14 +426,14 @@ FluidBody makeFormBody(const ShapeForm& form, const CollisionShapeSettings& want
   const CollisionShapeSettings settings = withFaces(wanted, form);
   const std::string& name = nameOf(form, settings);
   const std::vector<Solid> parts = solidsOf(form, settings);
-  const UnionSettings unions{settings.faces, settings.fallback};
   if (parts.size() > 1) tellStage(settings, "uniting " + std::to_string(parts.size()) + " shapes");
-  const SeparateSolids separate = uniteSolids(parts, unions, name);
+  const SeparateSolids separate = uniteSolids(parts, settings.faces, name);
   try {
-    return bodyOf(separate, form, settings);
+    return bodyOf(separate.solids, form, settings);
   } catch (const std::runtime_error& error) {
-    if (!separate.has_unions || settings.fallback == CompoundFallback::kRefuse) throw;
-    return bodyOf(replaceUnions(parts, unions, error.what(), name), form, settings);
+    if (!separate.has_unions) throw;
+    const SeparateSolids hulls = uniteSolids(parts, settings.faces, name, error.what());
+    return bodyOf(hulls.solids, form, settings);
   }
 }
 

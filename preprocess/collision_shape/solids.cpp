@@ -302,13 +302,13 @@ TriangleMesh cleanHull(TriangleMesh cloud, const std::string& name) {
   return requireSound(checkMesh(hull, name), name).mesh;
 }
 
-Solid hullOf(const std::vector<Solid>& group, const UnionSettings& settings,
-             const std::string& reason, const std::string& name) {
+Solid hullOf(const std::vector<Solid>& group, int faces, const std::string& reason,
+             const std::string& name) {
   Meshes meshes;
   for (const Solid& solid : group) meshes.push_back(solid.mesh);
   const double sum = sumOfVolumes(meshes);
   Solid hull;
-  hull.mesh = evenlyDivided(cleanHull(joinMeshes(meshes), name), settings.faces);
+  hull.mesh = evenlyDivided(cleanHull(joinMeshes(meshes), name), faces);
   hull.is_polyhedron = arePolyhedra(group);
   std::ostringstream text;
   text.precision(3);
@@ -320,39 +320,6 @@ Solid hullOf(const std::vector<Solid>& group, const UnionSettings& settings,
   return hull;
 }
 
-void keepSum(std::vector<Solid> group, const std::string& reason, const std::string& name,
-             SeparateSolids& result) {
-  group.front().warnings.push_back(
-      name + ": " + namesOf(group, name) + " cannot be united (" + reason +
-      "): the sum of what each has alone stands for them; volume is counted twice where they "
-      "overlap, and added mass may be off by tens of per cent");
-  result.solids.insert(result.solids.end(), group.begin(), group.end());
-  result.is_sum = true;
-}
-
-[[noreturn]] void refuse(const std::vector<Solid>& group, const std::string& reason,
-                         const std::string& name) {
-  raiseInputError(name, namesOf(group, name), " touch or overlap and cannot be united (", reason,
-                  "): make the fluid body of one closed mesh or one convex hull of them (the ",
-                  "collision shape may stay as it is), or leave a gap of ", kLeastGap,
-                  " of the smaller one's size");
-}
-
-/// Adds to `result` the replacement of a group that cannot be united, by the settings' fallback.
-void fallBack(const std::vector<Solid>& group, const UnionSettings& settings,
-              const std::string& reason, const std::string& name, SeparateSolids& result) {
-  switch (settings.fallback) {
-    case CompoundFallback::kHull:
-      result.solids.push_back(hullOf(group, settings, reason, name));
-      break;
-    case CompoundFallback::kSum:
-      keepSum(group, reason, name, result);
-      break;
-    case CompoundFallback::kRefuse:
-      refuse(group, reason, name);
-  }
-}
-
 }  // namespace
 
 bool arePolyhedra(const std::vector<Solid>& solids) {
@@ -360,34 +327,25 @@ bool arePolyhedra(const std::vector<Solid>& solids) {
                      [](const Solid& solid) { return solid.is_polyhedron; });
 }
 
-SeparateSolids uniteSolids(const std::vector<Solid>& solids, const UnionSettings& settings,
-                           const std::string& name) {
+SeparateSolids uniteSolids(const std::vector<Solid>& solids, int faces, const std::string& name,
+                           const std::string& no_flow) {
   SeparateSolids result;
   for (const std::vector<Solid>& group : contactGroups(solids)) {
+    std::string reason = no_flow;
     if (group.size() == 1) {
       result.solids.push_back(group.front());
       continue;
     }
     try {
-      result.solids.push_back(
-          uniteGroup(group, facesOf(group, solids.size(), settings.faces), name));
-      result.has_unions = true;
+      if (reason.empty()) {
+        result.solids.push_back(uniteGroup(group, facesOf(group, solids.size(), faces), name));
+        result.has_unions = true;
+        continue;
+      }
     } catch (const std::runtime_error& error) {
-      fallBack(group, settings, error.what(), name, result);
+      reason = error.what();
     }
-  }
-  return result;
-}
-
-SeparateSolids replaceUnions(const std::vector<Solid>& solids, const UnionSettings& settings,
-                             const std::string& reason, const std::string& name) {
-  SeparateSolids result;
-  for (const std::vector<Solid>& group : contactGroups(solids)) {
-    if (group.size() == 1) {
-      result.solids.push_back(group.front());
-    } else {
-      fallBack(group, settings, reason, name, result);
-    }
+    result.solids.push_back(hullOf(group, faces, reason, name));
   }
   return result;
 }

@@ -348,7 +348,8 @@ class LayerIntegrals {
     return area / front_ * pressure / front_;
   }
 
-  /// Friction along the motion where a layer is, on the frontal area.
+  /// Friction along the motion where a layer is, on the frontal area. Not negative: velocities at
+  /// edges and in hollows, which meshes do not resolve, may sum up to that.
   template <class BeganAt, class DepartureOf, class StressAt>
   double friction(const BeganAt& began, const DepartureOf& of, const StressAt& stress) const {
     double sum = 0;
@@ -361,7 +362,7 @@ class LayerIntegrals {
               t, [&](int v) { return march_.stream(v).speed > kFrictionSpeed && !of(v).hasLeft(); },
               [&](int v) { return -stress(v) * march_.stream(v).direction.dot(motion_); });
     }
-    return sum / front_;
+    return std::max(sum / front_, 0.0);
   }
 
   /// Share of a triangle that lies behind separation.

@@ -117,11 +117,10 @@ std::vector<Solid> platesAlongANarrowGap() {
   return solids;
 }
 
-UnionSettings fallingBackTo(CompoundFallback fallback) { return {350, fallback}; }
+constexpr int kFaces = 350;
 
 TEST(SolidUnion, UnitesBoxesThatLieNearlyFlush) {
-  const SeparateSolids separate =
-      uniteSolids(nearlyFlushPair(), fallingBackTo(CompoundFallback::kRefuse), "it");
+  const SeparateSolids separate = uniteSolids(nearlyFlushPair(), kFaces, "it");
   ASSERT_EQ(separate.solids.size(), 1u);
   EXPECT_TRUE(separate.has_unions);
   EXPECT_NEAR(computeMassProperties(separate.solids[0].mesh).volume / 1.5, 1, 5e-3);
@@ -173,8 +172,7 @@ TEST(SolidUnion, WrapsRoundPartsThatCannotBeUnited) {
     if (canBeUnitedAtOnce(meshes)) continue;
     const double volume = volumeOfUnion(meshes);
     EXPECT_LT(volume, 0.9 * sumOfVolumes(meshes));
-    const SeparateSolids separate =
-        uniteSolids(solids, fallingBackTo(CompoundFallback::kRefuse), "it");
+    const SeparateSolids separate = uniteSolids(solids, kFaces, "it");
     ASSERT_EQ(separate.solids.size(), 1u);
     EXPECT_TRUE(separate.has_unions);
     EXPECT_TRUE(isClosed(computeMeshEdges(separate.solids[0].mesh)));
@@ -192,22 +190,21 @@ TEST(SolidUnion, VolumesAreThoseOfTheUnion) {
 
 TEST(SolidUnion, LeavesSolidsWithGapsAlone) {
   const SeparateSolids separate =
-      uniteSolids({cubeSolid(0, "a"), cubeSolid(2, "b"), cubeSolid(2.5, "c")},
-                  fallingBackTo(CompoundFallback::kHull), "it");
+      uniteSolids({cubeSolid(0, "a"), cubeSolid(2, "b"), cubeSolid(2.5, "c")}, kFaces, "it");
   ASSERT_EQ(separate.solids.size(), 2u);
-  EXPECT_FALSE(separate.is_sum);
+  EXPECT_TRUE(separate.has_unions);
   EXPECT_NEAR(computeMassProperties(separate.solids[0].mesh).volume, 1, 1e-12);
   EXPECT_NEAR(computeMassProperties(separate.solids[1].mesh).volume, 1.5, 1e-12);
 }
 
 TEST(SolidUnion, FallsBackToTheHullWithItsCost) {
-  const SeparateSolids separate =
-      uniteSolids(platesAlongANarrowGap(), fallingBackTo(CompoundFallback::kHull), "it");
+  const SeparateSolids separate = uniteSolids(platesAlongANarrowGap(), kFaces, "it");
   ASSERT_EQ(separate.solids.size(), 1u);
   EXPECT_NEAR(computeMassProperties(separate.solids[0].mesh).volume, 0.0405, 1e-6);
   ASSERT_EQ(separate.solids[0].warnings.size(), 1u);
   const std::string& warning = separate.solids[0].warnings[0];
   EXPECT_EQ(warning.rfind("it: child 0 (Box) and child 1 (Box) cannot be united (", 0), 0u);
+  EXPECT_NE(warning.find("(a gap between them is too narrow"), std::string::npos) << warning;
   EXPECT_NE(warning.find("their convex hull stands for them, with 1.25 % more"), std::string::npos)
       << warning;
 }
@@ -218,8 +215,7 @@ TEST(SolidUnion, HullsOfPointsSideBySideHaveNoFlatTriangles) {
   for (Eigen::Index v = 0; v < solids[1].mesh.vertexCount(); ++v)
     solids[1].mesh.vertices.col(v) +=
         1e-8 * std::sin(7.0 * static_cast<double>(v)) * Eigen::Vector3d(1, 2, 3);
-  const SeparateSolids separate =
-      replaceUnions(solids, fallingBackTo(CompoundFallback::kHull), "no flow", "it");
+  const SeparateSolids separate = uniteSolids(solids, kFaces, "it", "no flow");
   ASSERT_EQ(separate.solids.size(), 1u);
   const TriangleMesh& hull = separate.solids[0].mesh;
   EXPECT_TRUE(isClosed(computeMeshEdges(hull)));
@@ -230,40 +226,16 @@ TEST(SolidUnion, HullsOfPointsSideBySideHaveNoFlatTriangles) {
   EXPECT_NO_THROW(solvePotentialFlow(hull, flow));
 }
 
-TEST(SolidUnion, FallsBackToTheSum) {
-  const SeparateSolids separate =
-      uniteSolids(platesAlongANarrowGap(), fallingBackTo(CompoundFallback::kSum), "it");
-  EXPECT_EQ(separate.solids.size(), 2u);
-  EXPECT_TRUE(separate.is_sum);
-  ASSERT_EQ(separate.solids[0].warnings.size(), 1u);
-}
-
-TEST(SolidUnion, RefusesIfToldTo) {
-  const std::string message = messageOf(
-      [] { uniteSolids(platesAlongANarrowGap(), fallingBackTo(CompoundFallback::kRefuse), "it"); });
-  EXPECT_EQ(message.rfind("it: child 0 (Box) and child 1 (Box) touch or overlap and cannot be "
-                          "united (a gap between them is too narrow",
-                          0),
-            0u)
-      << message;
-  EXPECT_EQ(message.find('\n'), std::string::npos);
-}
-
 // Replaces a union after its flow has failed.
 TEST(SolidUnion, IsReplacedByWhatStandsForIt) {
   const std::vector<Solid> solids{cubeSolid(0, "a"), cubeSolid(0.5, "b"), cubeSolid(3, "c")};
-  EXPECT_TRUE(uniteSolids(solids, fallingBackTo(CompoundFallback::kHull), "it").has_unions);
-  const SeparateSolids hull =
-      replaceUnions(solids, fallingBackTo(CompoundFallback::kHull), "no flow", "it");
+  EXPECT_TRUE(uniteSolids(solids, kFaces, "it").has_unions);
+  const SeparateSolids hull = uniteSolids(solids, kFaces, "it", "no flow");
   ASSERT_EQ(hull.solids.size(), 2u);
   EXPECT_FALSE(hull.has_unions);
   EXPECT_NEAR(computeMassProperties(hull.solids[0].mesh).volume, 1.5, 1e-12);
   EXPECT_EQ(hull.solids[0].warnings.at(0).rfind("it: a and b cannot be united (no flow): ", 0), 0u);
   EXPECT_TRUE(hull.solids[1].warnings.empty());
-  const SeparateSolids sum =
-      replaceUnions(solids, fallingBackTo(CompoundFallback::kSum), "no flow", "it");
-  EXPECT_EQ(sum.solids.size(), 3u);
-  EXPECT_TRUE(sum.is_sum);
 }
 
 }  // namespace

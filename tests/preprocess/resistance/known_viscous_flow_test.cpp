@@ -51,7 +51,9 @@ TEST(KnownViscousFlow, ResistanceOfRoundBodiesIsThatOfPanels) {
                  withVolume(makeCapsuleMesh(r, height, 400), kPi * r * r * (height + 4 * r / 3)),
                  0.01);
     expectSolved(coneViscousFlow(r, height),
-                 acrossWithVolume(makeConeMesh(r, height, 1200), kPi * r * r * height / 3), 0.015);
+                 acrossWithVolume(makeConeMesh(r, height, height < 2 ? 400 : 1200),
+                                  kPi * r * r * height / 3),
+                 0.015);
   }
 }
 

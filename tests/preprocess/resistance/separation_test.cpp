@@ -144,14 +144,17 @@ TEST(MeshSeparation, OfIrregularMeshesIsNear) {
 TEST(MeshSeparation, IsFiniteForAnyBody) {
   std::vector<TriangleMesh> bodies = {
       makeBoxMesh({0.5, 0.3, 1}, {1, 1, 1}), makeEllipsoidMesh({1, 1, 0.05}, 80),
-      makeEllipsoidMesh({20, 1, 1}, 20), makeConeMesh(0.5, 0.1, 100)};
+      makeEllipsoidMesh({20, 1, 1}, 20), makeConeMesh(0.5, 0.1, 100), makeConeMesh(0.5, 1.2, 300)};
   TriangleMesh beside = makeEllipsoidMesh({1, 1, 1}, 320);
   beside.vertices.row(0).array() += 5;
   bodies.push_back(joinMeshes({makeEllipsoidMesh({1, 1, 1}, 320), beside}));
   for (const TriangleMesh& body : bodies) {
     const Separation separation = solved(body);
     for (const SeparationWay& way : separation.ways)
-      for (const double number : numbersOf(way)) EXPECT_TRUE(std::isfinite(number));
+      for (const double number : numbersOf(way)) {
+        EXPECT_TRUE(std::isfinite(number));
+        EXPECT_GE(number, 0);
+      }
     EXPECT_GE(separation.smooth_base.minCoeff(), 0);
     EXPECT_LE(separation.smooth_base.maxCoeff(), 1);
   }

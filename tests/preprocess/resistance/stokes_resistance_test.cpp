@@ -171,6 +171,19 @@ TEST(StokesResistance, OfTwoBallsThatTouchIsTheirsByBispherical) {
   EXPECT_NEAR(R(3, 3) / (12 * kPi * 0.7243), 1, 0.01);
 }
 
+TEST(StokesResistance, OfTwoBoxesAtANarrowGapIsThatOfOne) {
+  // The gap is far narrower than the panels on both sides of it.
+  for (const double gap : {1e-2, 1e-3, 1e-6}) {
+    TriangleMesh one = makeBoxMesh({0.5, 0.5, 0.5}, 12), other = one;
+    other.vertices.row(0).array() += 1 + gap;
+    TriangleMesh both = joinMeshes({one, other});
+    both.vertices.row(0).array() -= 0.5;
+    const Matrix6 R = computeStokesResistance(both),
+                  whole = computeStokesResistance(makeBoxMesh({1, 0.5, 0.5}, 12));
+    EXPECT_LT(diagonalError(R, whole.diagonal()), 0.02) << gap;
+  }
+}
+
 TEST(StokesResistance, TurnsMovesAndScalesWithTheBody) {
   const TriangleMesh body = skewBody(makeBoxMesh({0.5, 0.4, 0.8}, 200));
   const Matrix6 R = computeStokesResistance(body);

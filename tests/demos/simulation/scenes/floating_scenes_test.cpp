@@ -99,7 +99,7 @@ TEST(BoatInWaves, FloatsUprightAndGoesWithTheWaves) {
 // Jump height exceeds the depth, but not the energy of buoyancy. The heavy ball hardly leaves the
 // water.
 TEST(DuckDive, LightBallsJump) {
-  const RunRecord run = runSharing(readNamedScene("duck_dive"));
+  const RunRecord run = runSharing(readNamedScene("duck_dive", {{"duration", "9"}}));
   const auto highest = [&](std::size_t i) {
     double height = -9;
     for (const MotionSample& sample : run.motion[i]) height = std::max(height, sample.position.z());
