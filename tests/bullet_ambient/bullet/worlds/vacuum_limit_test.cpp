@@ -15,7 +15,7 @@ constexpr int kLimitSteps = 60;
 AttachDef inFluid(double density) {
   AttachDef def;
   def.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid(kUnequalAxes, 1));
-  def.medium = {density, 1.8e-5, Vector3(0.5, 0, 0), Vector3::Zero()};
+  def.medium = {density, 1.5e-5 * density, Vector3(0.5, 0, 0), Vector3::Zero()};
   def.fluid_frame.translation = Vector3(0.05, 0.03, -0.02);
   return def;
 }
