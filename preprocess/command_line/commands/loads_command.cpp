@@ -20,7 +20,7 @@ struct LoadsArguments {
   std::array<double, 6> twist{};      // relative to the fluid, angular velocity first
   double density = 0, viscosity = 0;  // [kg/m^3], [Pa s]
   double separation_angle = kPi / 2;  // [rad]
-  double roughness = 0;  // [m]
+  double roughness = 0;               // [m]
   std::string law = "form";
   bool no_friction = false, json = false;
 };

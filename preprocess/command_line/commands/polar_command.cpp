@@ -21,7 +21,7 @@ struct PolarArguments {
   std::string file, attack = "-90:90:5", side_slip = "0", forward = "x", up = "z";
   double density = 1, speed = 1, viscosity = 0;  // [kg/m^3], [m/s], [Pa s]
   double separation_angle = kPi / 2;             // [rad]
-  double roughness = 0;  // [m]
+  double roughness = 0;                          // [m]
   std::string law = "form";
   double reference_area = 0, reference_length = 0;  // [m^2], [m]; 0: those of the body
 };
