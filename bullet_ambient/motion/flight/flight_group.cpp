@@ -32,9 +32,16 @@ void setResistance(BodyLanes& lanes, int body, const Resistance* resistance,
   if (!lanes.has_resistance) return;
   const bool is_viscous = resistance && growth.translation > 0;
   lanes.is_viscous[body] = is_viscous ? 1 : 0;
+  if (lanes.has_diagonal_inertia) {
+    for (int i = 0; i < 6; ++i) {
+      const double root = i < 3 ? growth.rotation : growth.translation;
+      lanes.resistance[symmetricEntry(i, i)][body] =
+          is_viscous ? resistance->matrix(i, i) * root * root : 0;
+    }
+    return;
+  }
   setSymmetric(lanes.resistance, body,
-               is_viscous ? resistance->grown(growth) : Matrix6(Matrix6::Zero()),
-               lanes.has_diagonal_inertia);
+               is_viscous ? resistance->grown(growth) : Matrix6(Matrix6::Zero()), false);
 }
 
 void setForces(BodyLanes& lanes, int body, const FlightTask& task) noexcept {

@@ -107,7 +107,7 @@ class Settling {
   SymmetricOf<Real> square_;  // C K^-1 C
 };
 
-/// The same for bodies with three planes of symmetry.
+/// The same for bodies with three planes of symmetry, with the same bits.
 class DiagonalSettling {
  public:
   DiagonalSettling(const DiagonalMatrices& inertia, const DiagonalMatrices& inverse,
@@ -119,7 +119,7 @@ class DiagonalSettling {
   Spatials solve(const Lanes& a, const Lanes& b, const Lanes& c, const Spatials& f) const {
     const auto of = [&](int i, const Lanes& y) {
       const Lanes &k = K_.at(i), &r = C_.at(i);
-      return y / (a * k + (b * r + c * (r * inverse_.at(i) * r)));
+      return y * (1 / (a * k + (b * r + c * (r * (inverse_.at(i) * r)))));
     };
     return {{of(0, f.angular.x), of(1, f.angular.y), of(2, f.angular.z)},
             {of(3, f.linear.x), of(4, f.linear.y), of(5, f.linear.z)}};

@@ -157,16 +157,23 @@ TEST(Settling, IsOfSecondOrder) {
 }
 
 TEST(ViscousFlight, BitsOfABodyDoNotDependOnItsNeighbours) {
-  // A ball in an ideal fluid beside one in glycerine: each as alone.
+  // A ball in an ideal fluid beside one in glycerine, and one whose mass is off its centre, which
+  // has no diagonal inertia: each as alone.
   Ball ideal = kSteelInGlycerine;
   ideal.fluid.viscosity = 0;
   test::FreeBody alone = bodyInGravity(ideal), other = bodyInGravity(kSteelInGlycerine);
   const auto flightOf = [&](test::FreeBody& body) {
     return Flight({body.model(), body.surroundings, body.settings, 1.0 / 60}, body.state, {});
   };
-  Flight first = flightOf(alone), second = flightOf(other);
-  Flight* both[] = {&first, &second};
-  flyTogether(both, 2);
+  test::FreeBodyDef heavy = bodyOf(kSteelInGlycerine);
+  heavy.frame.translation = {1e-4, 0, 2e-4};
+  test::FreeBody odd(heavy);
+  ASSERT_FALSE(odd.model().has_diagonal_inertia);
+  for (test::FreeBody* body : {&alone, &other, &odd})
+    body->state.twist = {{1, 2, -3}, {0.1, -0.2, 0.05}};
+  Flight first = flightOf(alone), second = flightOf(other), third = flightOf(odd);
+  Flight* all[] = {&first, &second, &third};
+  flyTogether(all, 3);
   alone.advance(1.0 / 60);
   other.advance(1.0 / 60);
   EXPECT_EQ(first.body.state.twist.vector(), alone.state.twist.vector());
