@@ -33,6 +33,18 @@ auto withResistance(const BodyLanes& bodies, int at, const Act& act) {
   return act(settlingOf(inertia, inverse, resistance));
 }
 
+/// Returns viscous() for the bodies with a resistance, ideal() for others; of both only what is
+/// needed. With `is_met` false ideal() for all.
+template <class Ideal, class Viscous>
+Pairs whereViscous(const BodyLanes& bodies, int at, bool is_met, const Ideal& ideal,
+                   const Viscous& viscous) {
+  if (!is_met || !bodies.has_resistance) return ideal();
+  const Mask mask = viscousOf(bodies, at);
+  if (!anyOf(~mask)) return viscous();
+  if (!anyOf(mask)) return ideal();
+  return select(mask, viscous(), ideal());
+}
+
 /// Predicts the motion x in the middle of a kick from guess_B: sample_twist, sample_momentum.
 /// `duration` [s]: half of the kick. Bodies with a resistance fall on the way.
 template <class Matrices>
@@ -40,14 +52,14 @@ void sampleLoad(FlightLanes& bodies, int at, const Pairs& x, const Lanes& durati
   const Spatials guess = load6(bodies.guess_B, at);
   const Matrices inverse(bodies.inverse_inertia, at);
   const Pairs response{inverse * guess, guess};
-  Pairs sample = passiveKick(x, x, response, duration);
-  if (falls && bodies.has_resistance) {
-    const Pairs fall{load6(bodies.fall_twist, at), load6(bodies.fall_momentum, at)};
-    const Pairs settled = withResistance<Matrices>(bodies, at, [&](const auto& terms) {
-      return viscousSample<Lanes>(x, response, fall, terms, 2 * duration);
-    });
-    sample = select(viscousOf(bodies, at), settled, sample);
-  }
+  const Pairs sample = whereViscous(
+      bodies, at, falls, [&] { return passiveKick(x, x, response, duration); },
+      [&] {
+        const Pairs fall{load6(bodies.fall_twist, at), load6(bodies.fall_momentum, at)};
+        return withResistance<Matrices>(bodies, at, [&](const auto& terms) {
+          return viscousSample<Lanes>(x, response, fall, terms, 2 * duration);
+        });
+      });
   store6(bodies.sample_twist, at, sample.twist);
   store6(bodies.sample_momentum, at, sample.momentum);
 }
@@ -68,13 +80,14 @@ Pairs underLoad(FlightLanes& bodies, int at, const Mask& active, const Pairs& x,
   store6(bodies.load_W, at, select(active, load_W, load6(bodies.load_W, at)));
   const Pairs sample{load6(bodies.sample_twist, at), load6(bodies.sample_momentum, at)};
   const Pairs response{inverse * load_B, load_B};
-  const Pairs kicked = passiveKick(x, sample, response, duration);
-  if (!falls || !bodies.has_resistance) return kicked;
-  const Pairs fall{load6(bodies.fall_twist, at), load6(bodies.fall_momentum, at)};
-  const Pairs settled = withResistance<Matrices>(bodies, at, [&](const auto& terms) {
-    return viscousKick<Lanes>(x, sample, response, fall, terms, duration);
-  });
-  return select(viscousOf(bodies, at), settled, kicked);
+  return whereViscous(
+      bodies, at, falls, [&] { return passiveKick(x, sample, response, duration); },
+      [&] {
+        const Pairs fall{load6(bodies.fall_twist, at), load6(bodies.fall_momentum, at)};
+        return withResistance<Matrices>(bodies, at, [&](const auto& terms) {
+          return viscousKick<Lanes>(x, sample, response, fall, terms, duration);
+        });
+      });
 }
 
 /// Returns the motion x after `duration` [s] under the resistance alone.
