@@ -34,9 +34,9 @@ class SummedLoads : public SurfaceLoads {
   Wrench wetLoad(const Twist& x, const WetPart& wet) const noexcept override {
     return kSum(*table_, length_, x, settings_, &wet.plane);
   }
-  FaceLoads parts(const Twist& x) const noexcept override { return split(x, nullptr); }
+  FaceLoads parts(const Twist& x) const noexcept override { return partsOf(x, nullptr); }
   FaceLoads wetParts(const Twist& x, const WetPart& wet) const noexcept override {
-    return split(x, &wet.plane);
+    return partsOf(x, &wet.plane);
   }
   int faces() const noexcept override { return faces_; }
   /// At alpha = pi/2 the power of each face is negative or 0 by both laws.
@@ -44,7 +44,7 @@ class SummedLoads : public SurfaceLoads {
 
  protected:
   /// Friction is what the sum lacks without it.
-  FaceLoads split(const Twist& x, const SurfacePlane* plane) const noexcept {
+  FaceLoads partsOf(const Twist& x, const SurfacePlane* plane) const noexcept {
     LoadSettings smooth = settings_;
     smooth.skin_friction = false;
     const Wrench pressure = kSum(*table_, length_, x, smooth, plane);
