@@ -42,10 +42,10 @@ std::vector<EdgeSide> edgeSidesOf(const SurfaceTriangles& mesh) {
   return sides;
 }
 
-/// True of a border, and of a convex edge sharper than 55 degrees; `sides`: the `count` sides of an
+/// True of a border, and of a convex edge sharper than 50 degrees; `sides`: the `count` sides of an
 /// edge.
 bool isSharp(const SurfaceTriangles& mesh, const EdgeSide* sides, std::size_t count) {
-  constexpr double kSharpCosine = 0.57357644;  // cos 55 degrees
+  constexpr double kSharpCosine = 0.64278761;  // cos 50 degrees
   if (count != 2) return count == 1;
   const Vector3& normal = mesh.normal(sides[0].triangle);
   const Vector3 across = mesh.place(sides[1].corner) - mesh.place(sides[0].low);

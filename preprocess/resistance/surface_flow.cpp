@@ -20,9 +20,9 @@ using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kSharpCosineOfEdges = 0.57357644;  // cos 55 degrees, as in eq. (45c)
+constexpr double kSharpCosineOfEdges = 0.64278761;  // cos 50 degrees, as in eq. (45c)
 
-/// Whether the surface is convex at an edge and its normals differ by more than 55 degrees.
+/// Whether the surface is convex at an edge and its normals differ by more than 50 degrees.
 bool isSharp(const TriangleMesh& mesh, const EdgePair& edge) {
   const Vector3d normal = mesh.twiceArea(edge.first.triangle).normalized();
   const Vector3d other = mesh.twiceArea(edge.second.triangle).normalized();

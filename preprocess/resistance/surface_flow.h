@@ -8,7 +8,7 @@
 
 namespace ambient {
 
-/// A closed surface, cut along its sharp edges: convex ones with more than 55 degrees between the
+/// A closed surface, cut along its sharp edges: convex ones with more than 50 degrees between the
 /// normals, as those of E, docs/theory.md eq. (45c). Each side of a sharp edge has vertices of its
 /// own. Lengths are those of the mesh over D_A = sqrt(area/pi).
 struct CutSurface {
