@@ -2,7 +2,8 @@
 """Coefficients of a shape in the wind: plot_polar.py -o PICTURE.png POLAR.csv
 
 POLAR.csv is what `ambient_preprocess polar` prints. Against the angle of attack, one line per angle of side-slip; or the
-other way round, if that has more values. The last panel is the drag polar.
+other way round, if that has more values. The last panel is the drag polar. With --reynolds the drag over the Reynolds
+number, beside that of a smooth ball.
 """
 
 import matplotlib.pyplot as plt
@@ -12,12 +13,15 @@ from picture import draw_picture
 ANGLES = {"attack": "angle of attack α [°]", "side_slip": "side-slip β [°]"}
 LABELS = {"C_L": "lift $C_L$", "C_D": "drag $C_D$", "C_Y": "side force $C_Y$", "C_l": "roll $C_l$",
           "C_m": "pitch $C_m$", "C_n": "yaw $C_n$"}
+DRAGS = {"C_D": "body", "C_D_of_ball": "smooth ball"}
 MOST_LINES = 12
 
 
 def read(file):
     kind = "a table of ambient_preprocess polar"
-    rows = read_table(file, kind, [*ANGLES, *LABELS])
+    rows = read_table(file, kind, ["C_D"])
+    if "Re" not in rows[0]:
+        rows = read_table(file, kind, [*ANGLES, *LABELS])
     with reading(file, kind):
         return [{key: float(value) for key, value in row.items()} for row in rows]
 
@@ -55,8 +59,21 @@ def draw(figure, rows, along, across):
     panels["legend"].legend(*panels["polar"].get_legend_handles_labels(), loc="center", fontsize=8, frameon=False)
 
 
+def draw_drag(rows):
+    figure, axes = plt.subplots(figsize=(7, 5), layout="constrained")
+    for key, label in DRAGS.items():
+        axes.loglog([row["Re"] for row in rows], [row[key] for row in rows], label=label)
+    axes.set_xlabel(r"Reynolds number on $D_A = \sqrt{area/\pi}$")
+    axes.set_ylabel(LABELS["C_D"])
+    axes.grid(True, which="both", linewidth=0.3)
+    axes.legend()
+    return figure
+
+
 def draw_table(file):
     rows = read(file)
+    if "Re" in rows[0]:
+        return draw_drag(rows)
     along, across = "attack", "side_slip"
     if len(values(rows, across)) > len(values(rows, along)):
         along, across = across, along

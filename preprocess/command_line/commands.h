@@ -25,11 +25,6 @@ CLI::Option* addOption(CLI::App& command, const std::string& names, Value& value
   return command.add_option(names, value, help)->type_name(type);
 }
 
-/// Adds --law, whose name lawOf() reads.
-inline void addLaw(CLI::App& command, std::string& law) {
-  addOption(command, "--law", law, "LAW", "Of the pressure: form (default) or published");
-}
-
 /// Adds --json.
 inline void addJson(CLI::App& command, bool& json) {
   command.add_flag("--json", json, "Print one JSON object instead of a table");

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <iostream>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -65,18 +66,30 @@ double wrapSizeOf(const std::string& text) {
   return size;
 }
 
-double separationAngleOf(double angle) {
-  constexpr double kStraight = kPi, kRight = kPi / 2;
-  // An angle given with a few digits is still a right or a straight one.
-  constexpr double kDigits = 1e-6;
-  if (!(angle >= kRight * (1 - kDigits) && angle <= kStraight * (1 + kDigits)))
-    raiseUsageError("--separation-angle", angle, " rad must lie between pi/2 and pi");
-  return std::clamp(angle, kRight, kStraight);
+void addFlowOptions(CLI::App& command, FlowOptions& options) {
+  addOption(command, "--roughness", options.roughness, "K",
+            "Height of the roughness of the surface [m] (default 0: smooth)");
+  addOption(command, "--separation-angle", options.separation_angle, "RAD",
+            "From pi/2 (default) to pi, of the published law; larger = more attachment");
+  addOption(command, "--law", options.law, "LAW", "Of the pressure: form (default) or published");
 }
 
-PressureLaw lawOf(const std::string& name) {
-  if (const auto law = valueOf(kPressureLawNames, name)) return *law;
-  raiseUsageError("--law", "\"", name, "\" is neither published nor form");
+FlowSettings flowOf(const FlowOptions& options) {
+  // An angle given with a few digits is still a right or a straight one.
+  constexpr double kRight = kPi / 2, kDigits = 1e-6;
+  const double angle = options.separation_angle;
+  if (!(angle >= kRight * (1 - kDigits) && angle <= kPi * (1 + kDigits)))
+    raiseUsageError("--separation-angle", angle, " rad must lie between pi/2 and pi");
+  requireNotNegative("--roughness", options.roughness, " m");
+  const auto law = valueOf(kPressureLawNames, options.law);
+  if (!law) raiseUsageError("--law", "\"", options.law, "\" is neither published nor form");
+  FlowSettings flow;
+  flow.roughness = options.roughness;
+  flow.separation_angle = std::clamp(angle, kRight, kPi);
+  flow.law = *law;
+  if (flow.law == PressureLaw::kForm && angle > kRight * (1 + kDigits))
+    std::cerr << "ambient_preprocess: --separation-angle: only --law published reads it\n";
+  return flow;
 }
 
 Matrix3 flightAxesOf(const std::string& forward, const std::string& up) {

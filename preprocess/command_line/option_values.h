@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/force/law/flow_settings.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/potential_flow/results/potential_flow.h"
@@ -41,14 +42,22 @@ constexpr const char* kDefaultWrap = "default";
 /// The size of --wrap [SIZE] [m]: a number, or "default", which is 0.
 double wrapSizeOf(const std::string& text);
 
-/// The angle of --separation-angle, pi/2 to pi where its few digits miss them [rad].
-double separationAngleOf(double angle);
-
 /// Forward, left and up in F as columns, by the names of --forward and --up.
 Matrix3 flightAxesOf(const std::string& forward, const std::string& up);
 
-/// The law named by --law.
-PressureLaw lawOf(const std::string& name);
+/// Options that say how a fluid flows past a body.
+struct FlowOptions {
+  double roughness = 0;               // [m]
+  double separation_angle = kPi / 2;  // [rad]
+  std::string law = "form";
+};
+
+/// Adds --roughness, --separation-angle and --law.
+void addFlowOptions(CLI::App& command, FlowOptions& options);
+
+/// Reads them; says so of an angle that the law does not read.
+/// @throws UsageError for values that are none.
+FlowSettings flowOf(const FlowOptions& options);
 
 /// True if a file name ends with an extension, such as ".json", in upper or lower case.
 bool hasExtension(const std::filesystem::path& file, const std::string& extension);

@@ -3,7 +3,6 @@
 #include <limits>
 #include <memory>
 
-#include "bullet_ambient/base/pi.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/fluid_body_report.h"
 #include "preprocess/command_line/option_values.h"
@@ -19,9 +18,7 @@ struct LoadsArguments {
   std::string file;
   std::array<double, 6> twist{};      // relative to the fluid, angular velocity first
   double density = 0, viscosity = 0;  // [kg/m^3], [Pa s]
-  double separation_angle = kPi / 2;  // [rad]
-  double roughness = 0;               // [m]
-  std::string law = "form";
+  FlowOptions flow;
   bool no_friction = false, json = false;
 };
 
@@ -29,16 +26,6 @@ Medium mediumOf(const LoadsArguments& arguments) {
   requireNotNegative("--density", arguments.density, " kg/m^3");
   requireNotNegative("--viscosity", arguments.viscosity, " Pa s");
   return {arguments.density, arguments.viscosity, Vector3::Zero(), Vector3::Zero()};
-}
-
-FlowSettings flowOf(const LoadsArguments& arguments) {
-  FlowSettings flow;
-  flow.separation_angle = separationAngleOf(arguments.separation_angle);
-  requireNotNegative("--roughness", arguments.roughness);
-  flow.roughness = arguments.roughness;
-  flow.law = lawOf(arguments.law);
-  flow.skin_friction = !arguments.no_friction;
-  return flow;
 }
 
 Twist twistOf(const LoadsArguments& arguments) {
@@ -54,7 +41,8 @@ Twist twistOf(const LoadsArguments& arguments) {
 
 void runLoads(const LoadsArguments& arguments) {
   const Medium medium = mediumOf(arguments);
-  const FlowSettings flow = flowOf(arguments);
+  FlowSettings flow = flowOf(arguments.flow);
+  flow.skin_friction = !arguments.no_friction;
   const Twist twist = twistOf(arguments);
   const FaceLoads loads = BodyLoads(readPrepared(arguments.file), medium, flow).at(twist);
   const double dynamic_pressure = medium.density * twist.vector().squaredNorm();
@@ -81,9 +69,7 @@ void addLoads(CLI::App& app) {
   addOption(command, "--density", arguments->density, "RHO", "Of the fluid [kg/m^3]")->required();
   addOption(command, "--viscosity", arguments->viscosity, "MU",
             "Dynamic viscosity [Pa s] (default 0: no friction)");
-  addOption(command, "--separation-angle", arguments->separation_angle, "RAD",
-            "From pi/2 (default) to pi; larger = more attachment");
-  addLaw(command, arguments->law);
+  addFlowOptions(command, arguments->flow);
   command.add_flag("--no-friction", arguments->no_friction, "Leave skin friction out");
   addJson(command, arguments->json);
   command.callback([arguments] { runLoads(*arguments); });

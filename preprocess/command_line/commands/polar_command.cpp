@@ -6,7 +6,9 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
+#include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/option_values.h"
@@ -18,11 +20,9 @@ namespace {
 
 /// Options of ambient_preprocess polar; its help says what they mean.
 struct PolarArguments {
-  std::string file, attack = "-90:90:5", side_slip = "0", forward = "x", up = "z";
+  std::string file, attack = "-90:90:5", side_slip = "0", reynolds, forward = "x", up = "z";
   double density = 1, speed = 1, viscosity = 0;  // [kg/m^3], [m/s], [Pa s]
-  double separation_angle = kPi / 2;             // [rad]
-  double roughness = 0;                          // [m]
-  std::string law = "form";
+  FlowOptions flow;
   double reference_area = 0, reference_length = 0;  // [m^2], [m]; 0: those of the body
 };
 
@@ -34,22 +34,46 @@ struct AngleRange {
   double operator[](int i) const { return from + i * step; }
 };
 
-AngleRange parseRange(const std::string& option, const std::string& text) {
+/// Reads numbers with colons between them; none: the text is something else.
+std::vector<double> numbersIn(const std::string& text) {
   std::istringstream stream(text);
-  AngleRange range;
-  stream >> range.from;
-  range.to = range.from;
-  char colon_1 = ':', colon_2 = ':';
-  if (!stream.eof() && stream.peek() == ':') stream >> colon_1 >> range.to >> colon_2 >> range.step;
-  const bool is_read = !stream.fail() && colon_1 == ':' && colon_2 == ':' &&
-                       (stream.eof() || stream.peek() == std::istringstream::traits_type::eof());
+  std::vector<double> numbers;
+  char colon = ':';
+  for (double number = 0; colon == ':' && stream >> number;) {
+    numbers.push_back(number);
+    if (!(stream >> colon)) return numbers;
+  }
+  return {};
+}
+
+AngleRange parseRange(const std::string& option, const std::string& text) {
+  std::vector<double> numbers = numbersIn(text);
+  if (numbers.size() == 1) numbers.insert(numbers.end(), {numbers[0], 1});
   constexpr int kMostAngles = 100000;
-  if (!is_read || !std::isfinite(range.from) || !std::isfinite(range.to) || !(range.step > 0) ||
-      range.to < range.from || (range.to - range.from) / range.step > kMostAngles) {
+  if (numbers.size() != 3 || !(numbers[2] > 0) || numbers[1] < numbers[0] ||
+      (numbers[1] - numbers[0]) / numbers[2] > kMostAngles) {
     raiseUsageError(option, "\"", text, "\" is neither an angle nor FROM:TO:STEP in degrees, with ",
                     "STEP above 0, TO not below FROM and at most ", kMostAngles, " angles");
   }
-  return range;
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+/// Reads Reynolds numbers, evenly spaced in their logarithm.
+std::vector<double> parseReynolds(const std::string& text) {
+  std::vector<double> range = numbersIn(text);
+  if (range.size() == 2) range.push_back(10);
+  constexpr double kLeast = 1e-6, kLargest = 1e12, kMostPerDecade = 1000;
+  if (range.size() != 3 || range[0] < kLeast || range[1] < range[0] || range[1] > kLargest ||
+      range[2] < 1 || range[2] > kMostPerDecade) {
+    raiseUsageError("--reynolds", "\"", text, "\" is not FROM:TO[:PER_DECADE] with FROM from ",
+                    kLeast, " on, TO up to ", kLargest, " and not below FROM, PER_DECADE 1 to ",
+                    kMostPerDecade);
+  }
+  const double step = portable::log(10) / range[2], rounding = 1e-9;
+  const double steps = portable::log(range[1] / range[0]) / step + rounding;
+  std::vector<double> numbers;
+  for (int i = 0; i <= steps; ++i) numbers.push_back(range[0] * portable::exp(i * step));
+  return numbers;
 }
 
 PolarReference referenceOf(const PolarArguments& arguments, const FluidBody& body,
@@ -64,6 +88,42 @@ PolarReference referenceOf(const PolarArguments& arguments, const FluidBody& bod
     raiseInputError(arguments.file, "has no length along --forward: give --reference-length");
   }
   return reference;
+}
+
+/// Computes C_D along forward at a Reynolds number on D_A.
+double dragAt(double reynolds, const std::shared_ptr<const FluidBody>& body,
+              const FlowSettings& flow, const PolarFlight& flight) {
+  const double diameter = std::sqrt(body->area / kPi);
+  const double viscosity = flight.density * flight.speed * diameter / reynolds;
+  const Medium medium{flight.density, viscosity, Vector3::Zero(), Vector3::Zero()};
+  return polarCoefficients(BodyLoads(body, medium, flow), flight, 0, 0)[1];
+}
+
+/// Prints C_D along --forward over the Reynolds number, beside that of the smooth ball with the
+/// body's area.
+void printDrag(const PolarArguments& arguments, const Matrix3& axes, const FlowSettings& flow) {
+  const std::vector<double> numbers = parseReynolds(arguments.reynolds);
+  const auto body = std::make_shared<const FluidBody>(readPrepared(arguments.file));
+  const auto ball = std::make_shared<FluidBody>();
+  ball->area = body->area;
+  ball->sphere_radius = std::sqrt(body->area / kPi) / 2;
+  PolarFlight flight, ball_flight;
+  flight.axes = axes;
+  ball_flight.reference = {body->area / 4, 1};
+  flight.reference = {arguments.reference_area, 1};
+  if (arguments.reference_area == 0) flight.reference.area = frontalArea(*body, axes.col(0));
+  if (!(flight.reference.area > 0))
+    raiseInputError(arguments.file, "has no area seen along --forward: give --reference-area");
+  std::fprintf(stderr, "Reynolds number on D_A = sqrt(area/pi) = %.9g m, C_D on %.9g m^2\n",
+               2 * ball->sphere_radius, flight.reference.area);
+  std::string text = "Re,C_D,C_D_of_ball\n";
+  for (const double reynolds : numbers) {
+    char row[80];
+    std::snprintf(row, sizeof row, "%.9g,%.9g,%.9g\n", reynolds,
+                  dragAt(reynolds, body, flow, flight), dragAt(reynolds, ball, {}, ball_flight));
+    text += row;
+  }
+  std::cout << text;
 }
 
 void checkNumbers(const PolarArguments& arguments) {
@@ -84,11 +144,8 @@ void runPolar(const PolarArguments& arguments) {
   }
   const Matrix3 axes = flightAxesOf(arguments.forward, arguments.up);
   checkNumbers(arguments);
-  FlowSettings flow;
-  flow.separation_angle = separationAngleOf(arguments.separation_angle);
-  requireNotNegative("--roughness", arguments.roughness);
-  flow.roughness = arguments.roughness;
-  flow.law = lawOf(arguments.law);
+  const FlowSettings flow = flowOf(arguments.flow);
+  if (!arguments.reynolds.empty()) return printDrag(arguments, axes, flow);
   const Medium medium{arguments.density, arguments.viscosity, Vector3::Zero(), Vector3::Zero()};
   const FluidBody body = readPrepared(arguments.file);
   const BodyLoads loads(body, medium, flow);
@@ -140,16 +197,20 @@ void addPolar(CLI::App& app) {
             "[m/s] (default 1); matters with viscosity only");
   addOption(command, "--viscosity", arguments->viscosity, "MU",
             "Dynamic viscosity [Pa s] (default 0: no friction)");
-  addOption(command, "--roughness", arguments->roughness, "K",
-            "Height of the roughness of the surface [m] (default 0: smooth)");
-  addOption(command, "--separation-angle", arguments->separation_angle, "RAD",
-            "From pi/2 (default) to pi, of the published law");
-  addLaw(command, arguments->law);
+  addFlowOptions(command, arguments->flow);
   addOption(command, "--reference-area", arguments->reference_area, "A",
             "[m^2] (default: half the area projected along --up)");
   addOption(command, "--reference-length", arguments->reference_length, "L",
             "[m] (default: extent along --forward)");
-  command.callback([arguments] { runPolar(*arguments); });
+  addOption(command, "--reynolds", arguments->reynolds, "FROM:TO[:PER_DECADE]",
+            "C_D along --forward over these Reynolds numbers, 10 a decade, and a smooth ball's");
+  command.callback([arguments, &command] {
+    for (const char* other :
+         {"--attack", "--side-slip", "--density", "--speed", "--viscosity", "--reference-length"})
+      if (command.count("--reynolds") > 0 && command.count(other) > 0)
+        raiseUsageError("--reynolds", "excludes ", other);
+    runPolar(*arguments);
+  });
 }
 
 }  // namespace ambient

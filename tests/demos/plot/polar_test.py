@@ -83,6 +83,17 @@ class PolarTest(unittest.TestCase):
             self.assertIn(plot_polar.ANGLES[axis], [call.args[1] for call in labels.call_args_list])
             self.assertTrue(picture.read_bytes().startswith(b"\x89PNG"))
 
+    def test_drag_over_reynolds_numbers_is_drawn_beside_a_balls(self):
+        file = self.folder / "drag.csv"
+        file.write_text("Re,C_D,C_D_of_ball\n0.1,300,240\n1e6,0.2,0.1\n")
+        axes = plot_polar.draw_table(file).axes[0]
+        self.assertEqual((axes.get_xscale(), axes.get_yscale()), ("log", "log"))
+        self.assertEqual([list(line.get_xdata()) for line in axes.get_lines()], [[0.1, 1e6]] * 2)
+        self.assertEqual([list(line.get_ydata()) for line in axes.get_lines()], [[300, 0.2], [240, 0.1]])
+        self.assertEqual([line.get_label() for line in axes.get_lines()], ["body", "smooth ball"])
+        self.run_script(file, "-o", self.folder / "drag.svg")
+        self.assertIn("<svg", (self.folder / "drag.svg").read_text())
+
     def test_cells_that_are_no_numbers_are_refused(self):
         rows = table([0, 10], [0])
         rows[1]["C_D"] = "much"

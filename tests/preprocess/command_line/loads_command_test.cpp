@@ -55,7 +55,7 @@ TEST_F(CommandLine, LoadsOnASphereAboutAnotherOriginAreThoseAtItsCentre) {
   resultOf({"build", ball, "-o", path("off.ambient"), "--origin", "0,0,-2", "--json"});
   const auto loadsOf = [&](const std::string& file, const char* vx) {
     return resultOf({"loads", path(file), "--twist", "0", "3", "1", vx, "0", "5", "--density", "2",
-                     "--viscosity", "1e-3", "--separation-angle", "2.2", "--json"})["total"];
+                     "--viscosity", "1e-3", "--roughness", "1e-3", "--json"})["total"];
   };
   // Centre at (0, 0, 2): its velocity is v + w x r, 6 m/s more along x.
   const json centred = loadsOf("b.ambient", "7"), off = loadsOf("off.ambient", "1");

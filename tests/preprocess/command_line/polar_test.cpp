@@ -166,6 +166,37 @@ TEST_F(Polar, WindFromTheRightPushesToTheLeft) {
   EXPECT_LT(side[kSide], -0.1);
 }
 
+// Any length and density: a ball is the ball that it is printed beside.
+TEST_F(Polar, DragOverReynoldsNumbersIsThatOfStokesToTheCrisis) {
+  BuildSettings settings;
+  settings.sphere_radius = 3;
+  settings.added_mass = Matrix6::Identity();
+  const std::string file = (folder_ / "ball.ambient").string();
+  writeFluidBody(makeFluidBody(makeEllipsoidMesh({3, 3, 3}, 80), settings), file);
+  const ProgramResult result = run(file, {"--reynolds", "1e-3:1e6:1"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(result.errors, "Reynolds number on D_A = sqrt(area/pi) = 6 m, C_D on 28.2743339 m^2\n");
+  std::istringstream lines(result.output);
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line, "Re,C_D,C_D_of_ball");
+  double expected = 1e-3, reynolds = 0, drag = 0, ball = 0;
+  while (lines >> reynolds && lines.ignore() >> drag && lines.ignore() >> ball) {
+    EXPECT_NEAR(reynolds, expected, 1e-8 * expected);
+    EXPECT_NEAR(drag, ball, 1e-8 * ball);
+    if (expected < 1e-2) {
+      EXPECT_NEAR(drag, 24 / reynolds, 1e-3 * drag);
+    }
+    expected *= 10;
+  }
+  EXPECT_NEAR(expected, 1e7, 1);  // ten rows
+  EXPECT_LT(drag, 0.15);          // beyond the crisis
+  const ProgramResult sheet = run(write(makeRectangularSheetMesh(2, 3, 200), true),
+                                  {"--reynolds", "1:10", "--roughness", "1e-4"});
+  EXPECT_EQ(sheet.errors, "ambient_preprocess: " + (folder_ / "body.ambient").string() +
+                              ": has no area seen along --forward: give --reference-area\n");
+}
+
 TEST_F(Polar, BadAnglesAndAxesAreRefused) {
   const std::string file = write(makeBoxMesh({1, 1, 1}, 12));
   const auto refusal = [&](const std::vector<std::string>& more, int exit_code) {
