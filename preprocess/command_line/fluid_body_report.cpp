@@ -75,7 +75,8 @@ std::string rowsText(const ordered_json& facts, const std::string& indent) {
   const std::string inside = indent + "  ";
   std::string text;
   for (const auto& [key, value] : facts.items()) {
-    if (value.empty() || value == "") continue;
+    if (value.empty() || (value.is_string() && value.get_ref<const std::string&>().empty()))
+      continue;
     std::string title = indent + key;
     std::replace(title.begin(), title.end(), '_', ' ');
     const std::string label = title + std::string(kWidth - std::min(kWidth - 1, title.size()), ' ');

@@ -24,7 +24,12 @@ AttachDef FuzzScene::anyDef() {
   def.fluid_body =
       fluid_bodies_[static_cast<std::size_t>(below(static_cast<int>(fluid_bodies_.size())))];
   def.medium = anyMedium();
-  def.flow.separation_angle = arbitrary_.between(1.5708, 2.5);
+  if (chance(0.3)) {
+    def.flow.law = PressureLaw::kPublished;
+    def.flow.separation_angle = arbitrary_.between(1.5708, 2.5);
+  } else if (chance(0.5)) {
+    def.flow.roughness = std::pow(10, arbitrary_.between(-6, -1));
+  }
   def.flow.skin_friction = chance(0.7);
   if (chance(0.5)) {
     def.fluid_frame.rotation = arbitrary_.rotation();
