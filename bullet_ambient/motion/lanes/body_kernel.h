@@ -20,8 +20,9 @@ struct LoadShares {
 
   LoadShares(const PairsOf<Real>& sample, const PairsOf<Real>& load) : at(sample) {
     const Real one = all<Real>(1), zero = Real{};
+    constexpr double kLeast = 1e-290;  // [2 J] the inverse of less may not be finite
     const Real energy = inner(at, at);
-    moves = energy > zero;
+    moves = energy > all<Real>(kLeast);
     const Real per_energy = one / (moves ? energy : one);
     per_n = one / squareRoot(moves ? energy : one);
     const Real along = inner(at, load) * per_energy;

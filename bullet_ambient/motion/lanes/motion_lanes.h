@@ -45,6 +45,15 @@ Pairs whereViscous(const BodyLanes& bodies, int at, bool is_met, const Ideal& id
   return select(mask, viscous(), ideal());
 }
 
+/// Returns x.C x over x.K x of a motion [1/s]: what a load has changed decays at this rate.
+template <class Matrices>
+Lanes settlingRate(const BodyLanes& bodies, int at, const Pairs& x) {
+  const Lanes zero = Lanes{}, energy = inner(x, x);
+  const Lanes drag = dot(x.twist, Matrices(bodies.resistance, at) * x.twist);
+  const Mask is_met = viscousOf(bodies, at) & (energy > zero);
+  return is_met ? drag / (is_met ? energy : all(1)) : zero;
+}
+
 /// Predicts the motion x in the middle of a kick from guess_B: sample_twist, sample_momentum.
 /// `duration` [s]: half of the kick. Bodies with a resistance fall on the way.
 template <class Matrices>
@@ -73,19 +82,22 @@ Pairs underLoad(FlightLanes& bodies, int at, const Mask& active, const Pairs& x,
   const Matrices inverse(bodies.inverse_inertia, at);
   const Spatials load_B = load6(bodies.load_B, at);
   const Spatials surprise = load_B - load6(bodies.guess_B, at);
-  store(bodies.error + at,
-        relativeError(x, {inverse * surprise, surprise}, load(bodies.kick_time + at),
-                      load(bodies.fall_scale + at)));
+  const Lanes time = load(bodies.kick_time + at);
+  const Pairs sampled{load6(bodies.sample_twist, at), load6(bodies.sample_momentum, at)};
+  Lanes error =
+      relativeError(x, {inverse * surprise, surprise}, time, load(bodies.fall_scale + at));
+  if (bodies.has_resistance)
+    error = error / (1 + time * settlingRate<Matrices>(bodies, at, sampled));
+  store(bodies.error + at, error);
   const Spatials load_W = toWorld(orientationOf(bodies, at), load_B);
   store6(bodies.load_W, at, select(active, load_W, load6(bodies.load_W, at)));
-  const Pairs sample{load6(bodies.sample_twist, at), load6(bodies.sample_momentum, at)};
   const Pairs response{inverse * load_B, load_B};
   return whereViscous(
-      bodies, at, falls, [&] { return passiveKick(x, sample, response, duration); },
+      bodies, at, falls, [&] { return passiveKick(x, sampled, response, duration); },
       [&] {
         const Pairs fall{load6(bodies.fall_twist, at), load6(bodies.fall_momentum, at)};
         return withResistance<Matrices>(bodies, at, [&](const auto& terms) {
-          return viscousKick<Lanes>(x, sample, response, fall, terms, duration);
+          return viscousKick<Lanes>(x, sampled, response, fall, terms, duration);
         });
       });
 }

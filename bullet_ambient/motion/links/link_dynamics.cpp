@@ -256,6 +256,7 @@ void LinkDynamics::appliedForces(CoordinatesOut result) noexcept {
   AMBIENT_ASSERT(result.size() == coordinates_);
   kernel_.computeApplied(links_.data(), count(), tree_);
   kernel_.sumForces(links_.data(), count(), result.data());
+  if (!has_forces_) return;
   for (int l = 1; l < tree_.size(); ++l)
     for (int i = 0; i < links_[l].axis_count; ++i)
       result[links_[l].first + i] += tree_.links[l].joint_force[i];

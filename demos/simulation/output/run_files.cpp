@@ -49,17 +49,11 @@ bool hasTwoSides(const BodyDef& def, const PreparedBody& prepared) {
   return prepared.fluid_body ? prepared.fluid_body->volume == 0 : isSheet(def.shape);
 }
 
-/// The law of the body's pressure: balls have the published one.
-PressureLaw lawOf(const BodyDef& def, const PreparedBody& prepared) {
-  const bool is_ball = prepared.fluid_body && prepared.fluid_body->sphere_radius > 0;
-  return is_ball ? PressureLaw::kPublished : def.attach.flow.law;
-}
-
 RoundedJson toRoundedJson(const BodyDef& def, const PreparedBody& prepared) {
   const Surface surface = moved(prepared.surface, -prepared.centre_of_mass);
   return {{"name", def.name},
           {"mass", static_cast<float>(prepared.mass)},
-          {"law", wordOf(kPressureLawNames, lawOf(def, prepared))},
+          {"law", wordOf(kPressureLawNames, def.attach.flow.law)},
           {"separation_angle", static_cast<float>(def.attach.flow.separation_angle)},
           {"sheet", hasTwoSides(def, prepared)},
           {"vertices", std::vector<float>(surface.vertices.begin(), surface.vertices.end())},
