@@ -376,7 +376,8 @@ void checkFlow(const FluidBody& body, const FlowSettings& flow) {
   if (!(flow.stall_lag >= 0) || !(flow.stall_lag <= kLongestLag)) {
     reject(body, "stall lag [lengths over speed]", flow.stall_lag, "from 0 to 1e6");
   }
-  if (!(flow.roughness >= 0) || !(flow.roughness <= std::sqrt(body.area))) {
+  const bool is_rough = !(flow.roughness <= 0);
+  if (flow.roughness < 0 || (is_rough && !(flow.roughness <= std::sqrt(body.area)))) {
     reject(body, "roughness [m]", flow.roughness, "from 0 to the root of its area");
   }
   if (!(flow.maximum_load_error >= 0)) {
