@@ -55,8 +55,6 @@ def numbers_of(reality):
     for key, kind in KINDS.items():
         cases = [case for case in reality.cases if case.kind == kind]
         made.update({f"{key}_{law}": tables.factor(cases, law) for law in LAWS})
-    edged = [case for case in reality.cases if case.kind == KINDS["flat"] and case.row["id"] != "pc_cuboctahedron"]
-    made["edged_form"] = tables.factor(edged, "form")
     kinds = reality.curves.kinds()
     for key, kind in CURVE_KINDS.items():
         made.update({f"{key}_{law}": tables.factor(kinds[kind][0], law) for law in LAWS})

@@ -20,7 +20,7 @@ was fitted to a row but where that is said.
 | inside a crisis | 10 % of Re is a factor of 3 there | {inside_form} | {inside_published} |
 | long smooth cylinders across | 1e4 to 5e6 | {cylinders_form}, beyond 2e6 too little drag | {cylinders_published} |
 | hulls and drops: drag; side force | 1e6 to 3e7 | {hulls_form}; {side_form} (from memory) | {hulls_published}; {side_published} |
-| cubes, plates, discs broadside | 1e4 to 1e6 | {flat_form}; {edged_form} without cuboctahedra, whose edges of 54.7° count as smooth | no drag on flat faces |
+| cubes, plates, discs broadside | 1e4 to 1e6 | {flat_form} | no drag on flat faces |
 | cylinders across; end-on; cones | 1e4 to 1e6 | {across_form}; {end_form}; {cone_form} | {across_published}; no drag; {cone_published} |
 | plates at incidence | 1e5 | {incidence_form} | {incidence_published} |
 | long plates and rods, above 10 : 1 | 1e4 to 1e5 | {long_form}; rods have more than plates | no drag |
