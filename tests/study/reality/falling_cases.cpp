@@ -12,6 +12,7 @@
 #include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/mesh/shapes/primitives.h"
 #include "preprocess/potential_flow/results/ellipsoid_added_mass.h"
+#include "preprocess/resistance/known_viscous_flow.h"
 #include "preprocess/shape/json_schema.h"
 #include "preprocess/shape/shape_reader.h"
 
@@ -29,6 +30,7 @@ struct FallingShape {
   std::optional<Matrix6> added_mass = {};  ///< per unit density; none: the flow is solved
   bool is_round = true;                    ///< false: a box or rectangle
   double sphere_radius = 0;
+  KnownViscousFlow viscous_flow = {};
 
   double plan() const { return (is_round ? kPi / 4 : 1) * size.x() * size.y(); }
   double volume() const { return (is_round ? kPi / 6 : 1) * size.prod(); }
@@ -82,8 +84,13 @@ Vector3 inertiaOfCylinder(double mass, const Vector3& size) {
 }
 
 FallingShape shapeOf(const Ellipsoid& e, int faces) {
-  return {makeEllipsoidMesh(e.semi_axes, faces), 2 * e.semi_axes, inertiaOfEllipsoid,
-          addedMassOfEllipsoid(e.semi_axes)};
+  return {makeEllipsoidMesh(e.semi_axes, faces),
+          2 * e.semi_axes,
+          inertiaOfEllipsoid,
+          addedMassOfEllipsoid(e.semi_axes),
+          true,
+          0,
+          ellipsoidViscousFlow(e.semi_axes, addedMassOfEllipsoid(e.semi_axes))};
 }
 
 FallingShape shapeOf(const Sphere& s, int faces) {
@@ -107,11 +114,15 @@ FallingShape shapeOf(const Cylinder& c, int faces) {
   return {makeCylinderMesh(c.radius, c.height, faces),
           {d, d, c.height},
           inertiaOfCylinder,
-          addedMassOfDisc(c.radius)};
+          addedMassOfDisc(c.radius),
+          true,
+          0,
+          cylinderViscousFlow(c.radius, c.height, addedMassOfDisc(c.radius))};
 }
 
 FallingShape shapeOf(const Box& b, int faces) {
-  return {makeBoxMesh(b.half_sizes, faces), 2 * b.half_sizes, inertiaOfBox, {}, false};
+  return {makeBoxMesh(b.half_sizes, faces), 2 * b.half_sizes, inertiaOfBox, {}, false, 0,
+          boxViscousFlow(b.half_sizes)};
 }
 
 FallingShape shapeOf(const RectangleSheet& r, int faces) {
@@ -132,6 +143,7 @@ FluidBody bodyOf(const FallingShape& shape) {
   settings.flow.sheet = shape.size.z() == 0;
   settings.sphere_radius = shape.sphere_radius;
   settings.added_mass = shape.added_mass;
+  settings.viscous_flow = shape.viscous_flow;
   return makeFluidBody(shape.mesh, settings);
 }
 
@@ -140,6 +152,13 @@ double massOf(const json& fall, const FallingShape& shape, double scale) {
   if (!fall.contains("density"))
     return fall.at("mass_per_area").get<double>() * shape.size.x() * shape.size.y();
   return fall["density"].get<double>() * portable::pow(scale, 3) * shape.volume();
+}
+
+/// Zero without such a key.
+Vector3 vectorOf(const json& fall, const char* key) {
+  if (!fall.contains(key)) return Vector3::Zero();
+  const auto v = fall[key].get<std::vector<double>>();
+  return {v.at(0), v.at(1), v.at(2)};
 }
 
 /// Sets fluid, and in the unit fluid gravity, so that the terminal speed broadside is 1.
@@ -167,6 +186,11 @@ class CaseReader {
     falling.body = scaledBody(description.text, shape, scale);
     falling.mass = massOf(fall, shape, scale);
     falling.inertia = shape.inertia(falling.mass, scale * shape.size);
+    if (fall.value("hollow", false)) falling.inertia *= 5.0 / 3;
+    falling.velocity = vectorOf(fall, "velocity");
+    falling.spin = vectorOf(fall, "spin");
+    falling.end = vectorOf(fall, "end");
+    falling.roughness = fall.value("roughness", 0.0);
     immerse(falling, fall.at("fluid"), shape.plan());
     falling.time_step = 1 / fall.at("hertz").get<double>();
     falling.duration = fall.at("duration");

@@ -11,7 +11,7 @@
 
 namespace ambient {
 
-/// One body that falls or rises from rest, tilted about y. Its normal or axis is z.
+/// One body that falls, rises or flies, tilted about y. Its normal or axis is z.
 struct FallingCase {
   std::string family;    ///< "disc", "spheroid", "strip", "plate", "card", "coin", "cube", ...
   std::string name;      ///< the body within the family
@@ -22,6 +22,10 @@ struct FallingCase {
   Vector3 inertia = Vector3::Zero();  ///< principal moments [kg m^2]
   Medium medium = {};
   double gravity = 9.81;
+  Vector3 velocity = Vector3::Zero();  ///< at the release [m/s]
+  Vector3 spin = Vector3::Zero();      ///< at the release [rad/s]
+  double roughness = 0;                ///< [m]
+  Vector3 end = Vector3::Zero();       ///< measured place at the end, from the release [m]
   double time_step = 0;
   double duration = 0;
   bool keeps_path = false;

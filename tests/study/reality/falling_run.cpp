@@ -29,7 +29,10 @@ Scene sceneOf(const FallingCase& c, PressureLaw law) {
   body.shape.geometry = Sphere{1};  // it meets nothing
   body.mass = c.mass;
   body.orientation = rotationFromVector(c.tilt * kPi / 180 * Vector3::UnitY());
+  body.linear_velocity = c.velocity;
+  body.angular_velocity = c.spin;
   body.attach.medium = c.medium;
+  body.attach.flow.roughness = c.roughness;
   body.attach.flow.law = law;
   scene.bodies = {body};
   return scene;
@@ -83,18 +86,20 @@ FallingRun runFall(const FallingCase& c, PressureLaw law) {
 }
 
 std::string fallHeader() {
-  return "family,name,parameter,tilt,law,mode,descent,drift,spin,reach,swing,substeps,coarse\n";
+  return "family,name,parameter,tilt,law,mode,descent,drift,spin,reach,miss,swing,substeps,"
+         "coarse\n";
 }
 
 std::string fallLine(const FallingCase& c, PressureLaw law, const FallingRun& run) {
   const Vector3 velocity = meanVelocity(run.motion);
   char line[256];
-  std::snprintf(line, sizeof line, "%s,\"%s\",%g,%g,%s,%s,%.4g,%.4g,%.4g,%.4g,%.3g,%.3g,%.3g\n",
-                c.family.c_str(), c.name.c_str(), c.parameter, c.tilt, nameOf(law),
+  std::snprintf(line, sizeof line,
+                "%s,\"%s\",%g,%g,%s,%s,%.4g,%.4g,%.4g,%.4g,%.4g,%.3g,%.3g,%.3g\n", c.family.c_str(),
+                c.name.c_str(), c.parameter, c.tilt, nameOf(law),
                 fallingModeName(run.fall.mode).c_str(), -velocity.z(),
                 portable::hypot(velocity.x(), velocity.y()), meanSpin(run.motion),
-                reachAt(c.depth, run.motion), run.fall.largest_swing * 180 / kPi, run.substeps,
-                run.coarse);
+                reachAt(c.depth, run.motion), (run.motion.back().position - c.end).norm(),
+                run.fall.largest_swing * 180 / kPi, run.substeps, run.coarse);
   return line;
 }
 

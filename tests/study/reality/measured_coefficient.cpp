@@ -13,7 +13,6 @@
 namespace ambient {
 namespace {
 
-const Medium kFluid{1, 1e-5, Vector3::Zero(), Vector3::Zero()};
 constexpr int kDirections = 200;
 
 double radians(double degrees) { return degrees * kPi / 180; }
@@ -31,21 +30,28 @@ double frontalArea(const FluidBody& body, const Vector3& direction) {
   return area;
 }
 
-/// Wind tunnel at unit speed: a body in translation, or a spinning ball.
+/// Wind tunnel at some speed: a body in translation, or a spinning ball. Coefficients are those of
+/// speed 1 times the speed squared.
 class Tunnel {
  public:
-  Tunnel(const FluidBody& body, PressureLaw law) : body_(body) {
+  Tunnel(const FluidBody& body, const MeasuredFlow& flow, PressureLaw law) : body_(body) {
     FlowSettings settings;
     settings.law = law;
-    loads_ = makeSurfaceLoads(std::make_shared<FluidBody>(body), kFluid, settings);
+    settings.roughness = flow.roughness;
+    const Medium fluid{1, flow.length / flow.reynolds, Vector3::Zero(), Vector3::Zero()};
+    loads_ = makeSurfaceLoads(std::make_shared<FluidBody>(body), fluid, settings);
   }
 
-  /// Force over half the density and the speed squared.
+  void setSpeed(double speed) { speed_ = speed; }
+  /// Force over half the density.
   Vector3 force(const Vector3& direction) const {
-    return 2 * loads_->load({Vector3::Zero(), direction}).force;
+    return 2 * load({Vector3::Zero(), direction}).force;
   }
   double drag(const Vector3& direction) const { return -force(direction).dot(direction); }
-  Wrench load(const Twist& twist) const { return loads_->load(twist); }
+  /// `twist` at speed 1.
+  Wrench load(const Twist& twist) const {
+    return loads_->load({speed_ * twist.angular, speed_ * twist.linear});
+  }
 
   double meanDrag() const {
     double sum = 0;
@@ -69,6 +75,7 @@ class Tunnel {
 
  private:
   const FluidBody& body_;
+  double speed_ = 1;
   std::shared_ptr<const SurfaceLoads> loads_;
 };
 
@@ -87,9 +94,13 @@ MeasuredFlow readMeasuredFlow(const nlohmann::json& flow) {
   MeasuredFlow read;
   read.of = flow.at("of").get<std::string>();
   const bool is_known = read.of == "drag" || read.of == "lift" || read.of == "normal" ||
-                        read.of == "spin torque" || read.of == "stall angle";
+                        read.of == "side" || read.of == "spin torque" || read.of == "stall angle";
   if (!is_known) throw std::invalid_argument("\"" + read.of + "\" is nothing that is measured");
   read.spin = flow.value("spin", 0.0);
+  read.reynolds = flow.value("reynolds", read.reynolds);
+  read.length = flow.value("length", read.length);
+  read.roughness = flow.value("roughness", read.roughness);
+  read.area = flow.value("area", read.area);
   if (flow.contains("incidence")) read.velocity = atIncidence(flow["incidence"].get<double>());
   read.is_mean = flow.contains("velocity") && flow["velocity"].is_string();
   if (flow.contains("velocity") && !read.is_mean) {
@@ -99,16 +110,37 @@ MeasuredFlow readMeasuredFlow(const nlohmann::json& flow) {
   return read;
 }
 
-double computeCoefficient(const FluidBody& body, const MeasuredFlow& flow, PressureLaw law) {
-  const Tunnel tunnel(body, law);
+namespace {
+
+double coefficientAt(const Tunnel& tunnel, const FluidBody& body, const MeasuredFlow& flow) {
   if (flow.of == "stall angle") return tunnel.stallAngle();
   if (body.sphere_radius > 0 && !flow.is_mean) return ballCoefficient(tunnel, body, flow);
   if (flow.is_mean) return tunnel.meanDrag();
   const Vector3 force = tunnel.force(flow.velocity), &v = flow.velocity;
+  const Vector3 across(-v.z(), 0, v.x());
   const double plan = frontalArea(body, Vector3::UnitZ());
   if (flow.of == "normal") return -force.z() / plan;
-  if (flow.of == "lift") return -force.dot(Vector3(-v.z(), 0, v.x())) / plan;
-  return -force.dot(v) / frontalArea(body, v);
+  if (flow.of == "lift") return -force.dot(across) / plan;
+  if (flow.of == "side") return -force.x() / (plan * v.x());
+  return -force.dot(v) / (flow.area > 0 ? flow.area : frontalArea(body, v));
+}
+
+}  // namespace
+
+double computeCoefficient(const FluidBody& body, const MeasuredFlow& flow, PressureLaw law) {
+  return coefficientAt(Tunnel(body, flow, law), body, flow);
+}
+
+double computeSettling(const FluidBody& body, const MeasuredFlow& flow, double drag,
+                       PressureLaw law) {
+  Tunnel tunnel(body, flow, law);
+  double slow = 1e-2, fast = 1e2;
+  while (fast > slow * (1 + 1e-6)) {
+    const double speed = std::sqrt(slow * fast);
+    tunnel.setSpeed(speed);
+    (coefficientAt(tunnel, body, flow) < drag ? slow : fast) = speed;
+  }
+  return slow;
 }
 
 }  // namespace ambient

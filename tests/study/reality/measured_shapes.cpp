@@ -1,13 +1,18 @@
 #include "tests/study/reality/measured_shapes.h"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
-#include <utility>
+#include <string>
+#include <vector>
 
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
 #include "preprocess/builder/fluid_body_builder.h"
+#include "preprocess/builder/shape_builder.h"
+#include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/shapes/primitives.h"
+#include "preprocess/shape/shape_reader.h"
 #include "tests/study/reality/measured_meshes.h"
 
 namespace ambient {
@@ -15,12 +20,6 @@ namespace {
 
 constexpr int kMeshFaces = 4000;
 constexpr double kLong = 100;  // length for "infinite" in sources
-
-struct Made {
-  TriangleMesh mesh;
-  bool sheet = false;
-  double sphere_radius = 0;
-};
 
 TriangleMesh cuboctahedron() {
   std::vector<Eigen::Vector3d> corners;
@@ -45,50 +44,88 @@ TriangleMesh ellipticRod(double depth) {
   return mesh;
 }
 
-TriangleMesh cone(double half_angle) {
-  return makeConeMesh(0.5, 0.5 / portable::tan(half_angle * kPi / 180), kMeshFaces);
+/// Sharp-edged hull of 24 points on an ellipsoid, with the ellipsoid's volume.
+TriangleMesh angularGrain(const Vector3& size) {
+  constexpr int kCorners = 24;
+  std::vector<Eigen::Vector3d> corners;
+  for (int i = 0; i < kCorners; ++i) {
+    const double z = 1 - (2 * i + 1.0) / kCorners, r = std::sqrt(1 - z * z);
+    const double angle = kPi * (1 + std::sqrt(5.0)) * (i + 0.5);
+    corners.push_back(
+        size.cwiseProduct(Vector3(r * portable::cos(angle), r * portable::sin(angle), z)) / 2);
+  }
+  TriangleMesh mesh = hullMesh(corners);
+  const double volume = computeMassProperties(mesh).volume;
+  mesh.vertices *= portable::cbrt(kPi / 6 * size.prod() / volume);
+  return mesh;
 }
 
-Made meshOf(const std::string& type, double x) {
-  const auto sheet = [](TriangleMesh mesh) { return Made{std::move(mesh), true}; };
-  if (type == "ball") return {makeEllipsoidMesh({0.5, 0.5, 0.5}, 320), false, 0.5};
-  if (type == "cube") return {makeBoxMesh({0.5, 0.5, 0.5}, kMeshFaces)};
-  if (type == "rod") return {makeBoxMesh({x / 2, kLong / 2, 0.5}, kMeshFaces)};
-  if (type == "plate") return sheet(makeRectangularSheetMesh(1, x, kMeshFaces));
-  if (type == "disc") return sheet(makeEllipticSheetMesh(0.5, 0.5, kMeshFaces));
-  if (type == "cylinder") return {makeCylinderMesh(0.5, x, kMeshFaces)};
-  if (type == "cone") return {cone(x)};
-  if (type == "spheroid") return {makeEllipsoidMesh({0.5, 0.5, x / 2}, kMeshFaces)};
-  if (type == "hemisphere") return {hemisphereMesh(true)};
-  if (type == "cup") return sheet(hemisphereMesh(false));
-  if (type == "half pipe") return sheet(halfPipeMesh(kLong));
-  if (type == "hexagonal rod") return {hexagonalRod()};
-  if (type == "elliptic rod") return {ellipticRod(x)};
-  if (type == "aerofoil rod") return {aerofoilMesh(x, kLong)};
-  if (type == "delta") return sheet(deltaMesh(x, kMeshFaces));
-  if (type == "shuttlecock") return sheet(shuttlecockMesh());
-  if (type == "drop") return {dropMesh(x)};
+/// The shape as data/schema/shape.schema.json has it; null: that has none such.
+nlohmann::json primitiveOf(const nlohmann::json& shape) {
+  const std::string type = shape.at("type");
+  const double x = shape.value("size", 1.0);
+  const double half_width = shape.value("width", 1.0) / 2;
+  const double half_thickness = shape.value("thickness", 1.0) / 2;
+  const auto box = [](double length, double width) {
+    return nlohmann::json{{"type", "box"}, {"size", {length, width, 1}}};
+  };
+  if (type == "ball") return {{"type", "sphere"}, {"radius", 0.5}};
+  if (type == "cube") return box(1, 1);
+  if (type == "rod") return box(x, kLong);
+  if (type == "plate") return {{"type", "sheet"}, {"size", {1, x}}};
+  if (type == "disc") return {{"type", "sheet"}, {"semi_axes", {0.5, 0.5}}};
+  if (type == "cylinder") return {{"type", "cylinder"}, {"radius", 0.5}, {"height", x}};
+  if (type == "cone")
+    return {{"type", "cone"}, {"radius", 0.5}, {"height", 0.5 / portable::tan(x * kPi / 180)}};
+  if (type == "spheroid") return {{"type", "ellipsoid"}, {"semi_axes", {0.5, 0.5, x / 2}}};
+  if (type == "ellipsoid")
+    return {{"type", "ellipsoid"}, {"semi_axes", {0.5, half_width, half_thickness}}};
+  return nullptr;
+}
+
+TriangleMesh meshOf(const nlohmann::json& shape) {
+  const std::string type = shape.at("type");
+  const double x = shape.value("size", 1.0);
+  if (type == "hemisphere") return hemisphereMesh(true);
+  if (type == "cup") return hemisphereMesh(false);
+  if (type == "half pipe") return halfPipeMesh(kLong);
+  if (type == "hexagonal rod") return hexagonalRod();
+  if (type == "elliptic rod") return ellipticRod(x);
+  if (type == "aerofoil rod") return aerofoilMesh(x, kLong);
+  if (type == "delta") return deltaMesh(x, kMeshFaces);
+  if (type == "shuttlecock") return shuttlecockMesh();
+  if (type == "drop") return dropMesh(x);
+  if (type == "turned") return turnedMesh(shape.at("profile"));
+  if (type == "grain")
+    return angularGrain({1, shape.at("width").get<double>(), shape.at("thickness").get<double>()});
   if (type == "octahedron")
-    return {hullMesh({{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}})};
-  if (type == "tetrahedron") return {hullMesh({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}})};
-  if (type == "cuboctahedron") return {cuboctahedron()};
+    return hullMesh({{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}});
+  if (type == "tetrahedron") return hullMesh({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}});
+  if (type == "cuboctahedron") return cuboctahedron();
   if (type == "triangular rod")
-    return {prismMesh({{-0.5, 0}, {0.5, 0}, {0, std::sqrt(3.0) / 2}}, kLong)};
+    return prismMesh({{-0.5, 0}, {0.5, 0}, {0, std::sqrt(3.0) / 2}}, kLong);
   throw std::invalid_argument("shape \"" + type + "\" is not known");
 }
 
 }  // namespace
 
-FluidBody makeMeasuredShape(const std::string& type, double size) {
-  const Made made = meshOf(type, size);
+FluidBody makeMeasuredShape(const nlohmann::json& shape) {
+  CommonBuildSettings common;
+  common.name = shape.at("type");
+  common.flow.max_panels = 1000;
+  common.least_faces = common.name == "ball" ? 0 : 1000;
+  nlohmann::json primitive = primitiveOf(shape);
+  if (!primitive.is_null()) {
+    primitive["faces"] = kMeshFaces;
+    ShapeBuildSettings settings;
+    static_cast<CommonBuildSettings&>(settings) = common;
+    return buildShape(readShape(primitive, {}, common.name), settings).body;
+  }
   BuildSettings settings;
-  settings.name = type;
-  settings.flow.sheet = made.sheet;
-  settings.sphere_radius = made.sphere_radius;
-  if (made.sphere_radius > 0) settings.added_mass = Matrix6::Zero();
-  settings.flow.max_panels = 1000;
-  settings.least_faces = made.sphere_radius > 0 ? 0 : 1000;
-  return makeFluidBody(made.mesh, settings);
+  static_cast<CommonBuildSettings&>(settings) = common;
+  settings.flow.sheet = common.name == "cup" || common.name == "half pipe" ||
+                        common.name == "delta" || common.name == "shuttlecock";
+  return makeFluidBody(meshOf(shape), settings);
 }
 
 }  // namespace ambient

@@ -32,13 +32,35 @@ KINDS = {
 }
 
 
+CURVE_KINDS = {
+    "spheres": ("settling: spheres", True),
+    "discs": ("settling: discs broadside", True),
+    "spheroids": ("settling: spheroids", True),
+    "polyhedra": ("settling: polyhedra", True),
+    "grains": ("settling: grains, sand, rods", True),
+    "sand": ("settling: grains, sand, rods", False),
+    "crisis": ("crisis: smooth and sand-rough spheres", True),
+    "drag": ("crisis: balls, drag", True),
+    "lift": ("crisis: balls, lift", True),
+    "inside": ("inside the crisis", True),
+    "cylinders": ("crisis: long cylinders", True),
+    "hulls": ("hulls and drops: drag", True),
+    "side": ("hulls: side force", False),
+}
+
+
 def numbers_of(reality):
     """What the texts name."""
     made = {"floor": f"{FLOOR:g}"}
     for key, kind in KINDS.items():
         cases = [case for case in reality.cases if case.kind == kind]
         made.update({f"{key}_{law}": tables.factor(cases, law) for law in LAWS})
-    made.update(drawn=len(reality.drawn), drawn_motions=len(reality.drawn_motions()))
+    kinds = reality.curves.kinds()
+    for key, kind in CURVE_KINDS.items():
+        made.update({f"{key}_{law}": tables.factor(kinds[kind][0], law) for law in LAWS})
+    made["held"] = sum(len(held) for (_, verified), (_, held) in kinds.items() if verified)
+    made["memory_points"] = sum(len(points) for (_, verified), (points, _) in kinds.items() if not verified)
+    made.update(drawn=len(reality.drawn), drawn_motions=len(reality.motions("drawn")))
     families = [family for family, _, _ in tables.FAMILIES]
     for law in LAWS:
         made[f"rms_{law}"] = f"{rms(reality.cases, law):.2f}"
@@ -78,6 +100,17 @@ def add_motions(page, reality, numbers):
     page.add_picture("speeds", figures.draw_speeds(reality), "Speeds of cubes and balls in water over size")
 
 
+def add_curves(page, reality, numbers):
+    curves = reality.curves
+    page.add(texts.CURVES.format(**numbers))
+    head = ("kind", "points", "Re", "factor published", "factor form", "form, where nothing was fitted")
+    page.add(table(head, tables.curve_kind_rows(curves)))
+    page.add_picture("curves", figures.draw_curves(curves), "Drag and terminal speeds over the Reynolds number")
+    page.add(texts.FLIGHTS)
+    head = ("flight", "measured", "source", "published", "ratio", "form", "ratio")
+    page.add(table(head, tables.flight_rows(reality)))
+
+
 def add_tables(page, reality, numbers):
     page.add(texts.ROUND)
     page.add_picture("balls", figures.draw_balls(reality), "Lift and drag of spinning balls")
@@ -92,6 +125,9 @@ def add_tables(page, reality, numbers):
     page.add(texts.DRAWN_MOTIONS)
     head = ("motion", "measured", "source", "published", "ratio", "form", "ratio")
     page.add(table(head, tables.drawn_motion_rows(reality)))
+    page.add(texts.CURVE_TABLE)
+    head = ("body", "kind", "source", "points", "Re", "published", "form", "form, mean ratio", "fitted")
+    page.add(table(head, tables.curve_rows(reality.curves)))
     page.add(texts.TRIED)
     page.add(texts.NOT)
     page.add(table(("", "work", "seen", "pages"), tables.source_rows(reality)))
@@ -114,6 +150,7 @@ def main():
     page = Page(arguments.docs, "reality", "reality")
     add_sums(page, reality, numbers)
     add_motions(page, reality, numbers)
+    add_curves(page, reality, numbers)
     add_tables(page, reality, numbers)
     page.write()
 

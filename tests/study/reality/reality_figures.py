@@ -4,7 +4,7 @@ import math
 
 import matplotlib.pyplot as plt
 from reality_numbers import FLOOR, LAWS
-from reality_tables import terminal_speed
+from reality_tables import SINKING, terminal_speed
 
 COLOURS = {"published": "tab:orange", "form": "tab:blue"}
 MODES = {
@@ -39,7 +39,7 @@ def draw_plate(reality):
     figure, axes = plt.subplots(figsize=(9, 5.5))
     for law in LAWS:
         points = [(float(row["incidence"]), float(row[law])) for row in reality.curve]
-        axes.plot(*zip(*points), color=COLOURS[law], linewidth=2, label=f"{law} law, any plate")
+        axes.plot(*zip(*points), color=COLOURS[law], linewidth=2, label=f"{law} law, square plate")
     markers = iter("osD^vPX*<")
     for (origin, size), cases in groups_of_plates(reality).items():
         points = [(case.row["flow"]["incidence"], case.value) for case in cases]
@@ -134,7 +134,7 @@ FREE_CUBE = 1.39 * (math.pi / 4) * (6 / math.pi) ** (2 / 3)  # on a side, Haider
 SIZES = (0.05, 0.1, 0.2, 0.4)
 SPEED_PANELS = {
     "600": ("rise: 600 kg/m³ in water", 0.95, "ball, 0.95 (rising, Karamanev & Nikolov)"),
-    "2500": ("fall: 2500 kg/m³ in water", 0.47, "ball, 0.47"),
+    "2500": ("fall: 2500 kg/m³ in water", None, "ball, Achenbach 1972"),
 }
 
 
@@ -163,14 +163,14 @@ def draw_speeds(reality):
 
 def draw_measured_speeds(axes, density, measured):
     for family, drag, name, style in measured:
-        speeds = [terminal_speed(family, density, size, drag) for size in SIZES]
+        speeds = [terminal_speed(family, density, size, drag or SINKING[size]) for size in SIZES]
         axes.loglog(SIZES, speeds, style, color="k", linewidth=1, label=f"measured: {name}")
 
 
 def draw_own_speeds(axes, reality, density):
-    ball = ("form", "sphere", "o", "tab:green", "ball, both laws")
-    cubes = [(law, "cube", "s", COLOURS[law], f"cube, {law} law") for law in LAWS]
-    for law, family, marker, colour, name in (*cubes, ball):
+    bodies = [(law, family, marker) for law in LAWS for family, marker in (("cube", "s"), ("sphere", "o"))]
+    for law, family, marker in bodies:
+        colour, name = COLOURS[law], f"{'ball' if family == 'sphere' else family}, {law} law"
         falls = [fall for fall in reality.chosen(family, law) if fall.name == density]
         points = [(fall.parameter, abs(fall.descent)) for fall in falls]
         axes.loglog(*zip(*points), marker, color=colour, label=name)
@@ -186,14 +186,60 @@ def draw_balls(reality):
     }
     for axes, of, label in zip(panels, ("lift", "drag"), ("lift coefficient [1]", "drag coefficient [1]")):
         cases = [case for case in reality.cases if case.kind == "balls" and case.row["flow"]["of"] == of]
-        for origin, name in names.items():
-            points = [(c.row["flow"]["spin"], c.value) for c in cases if c.row["source"] == origin]
-            if points:
-                axes.plot(*zip(*points), "o", markersize=5, label=name)
-        points = sorted((c.row["flow"]["spin"], c.model["form"]) for c in cases)
-        axes.plot(*zip(*points), color="k", linewidth=1.5, label="both laws, separation at 90°")
-        axes.set(xlabel="spin R w / V [1]", ylabel=label, xlim=(0, 0.62), ylim=(0, None))
+        for (origin, name), colour in zip(names.items(), ("tab:blue", "tab:orange", "tab:green", "tab:red")):
+            points = sorted((c.row["flow"]["spin"], c.value, c.model["form"]) for c in cases if c.row["source"] == origin)
+            if not points:
+                continue
+            spins, measured, made = zip(*points)
+            axes.plot(spins, measured, "o", markersize=5, color=colour, label=name)
+            axes.plot(spins, made, "-x", linewidth=1.5, color=colour, label="form law, its roughness")
+        axes.axline((0, 0), slope=4 / 3, color="0.6", linewidth=1, label="published law") if of == "lift" else None
+        axes.set(xlabel="spin R w / V [1]", ylabel=label, xlim=(0, 0.62), ylim=(0, 0.55))
         axes.grid(True, linewidth=0.3)
         axes.legend(fontsize=8)
     figure.tight_layout()
     return figure
+
+
+def draw_curves(curves):
+    figure, panels = plt.subplots(2, 2, figsize=(12, 9))
+    balls = [entry for entry in curves.sets if entry["shape"]["type"] == "ball" and entry["flow"]["of"] == "drag"]
+    balls = [entry for entry in balls if "spin" not in entry["columns"]]
+    rough = [entry for entry in balls if "roughness" in entry["flow"]]
+    draw_drag(panels[0, 0], [entry for entry in balls if entry not in rough], "Smooth spheres")
+    draw_drag(panels[0, 1], rough, "Rough spheres, balls without spin", True)
+    draw_drag(panels[1, 0], [entry for entry in curves.sets if entry["shape"].get("size") == 100], "Long cylinders")
+    axes = panels[1, 1]
+    for kind in dict.fromkeys(entry["kind"] for entry in curves.sets if entry.get("settles")):
+        points = [point for entry in curves.sets if entry["kind"] == kind for point in entry["made"]]
+        axes.loglog(*zip(*((point.reynolds, point.ratio("form")) for point in points)), "o", markersize=3, label=kind)
+    axes.axhline(1, color="k", linewidth=0.8)
+    axes.set(xlabel="Reynolds number [1]", ylabel="terminal speed, form law over measured [1]", ylim=(0.6, 1.6))
+    axes.set_yticks((0.6, 0.8, 1, 1.25, 1.6), ("0.6", "0.8", "1", "1.25", "1.6"))
+    axes.minorticks_off()
+    axes.set_title("Settling", fontsize=10)
+    for axes in panels.flat:
+        axes.grid(True, linewidth=0.3)
+        axes.legend(fontsize=7)
+    figure.tight_layout()
+    return figure
+
+
+def draw_drag(axes, sets, title, apart=False):
+    """Marks: measured. The form law at these Reynolds numbers: a line for all smooth bodies, or crosses of each `apart`."""
+    series = {}
+    for entry in sets:
+        key = entry["source"], entry["flow"].get("roughness", 0)
+        points = [(point.reynolds, point.value, point.model["form"]) for point in entry["made"]]
+        series[key] = sorted(series.get(key, []) + points)
+    for marker, ((origin, rough), points) in zip("os^vD*Pp<>hd", series.items()):
+        reynolds, measured, made = zip(*points)
+        name = f"{origin}, k/D {rough:.2g}" if rough else origin
+        (drawn,) = axes.loglog(reynolds, measured, marker, markersize=4, alpha=0.8, label=name)
+        if apart or rough:
+            axes.loglog(reynolds, made, "x:", color=drawn.get_color(), linewidth=0.8)
+    smooth = sorted((reynolds, made) for (_, rough), points in series.items() if not rough for reynolds, _, made in points)
+    if smooth and not apart:
+        axes.loglog(*zip(*smooth), "-", color="k", linewidth=1.2)
+    axes.set(xlabel="Reynolds number [1]", ylabel="drag coefficient [1]")
+    axes.set_title(f"{title}: measured (marks), form law ({'crosses' if apart else 'line'})", fontsize=10)

@@ -47,6 +47,48 @@ class Case:
         return math.log(self.counted(law) / self.value)
 
 
+class Point:
+    """One point of a set of curves.json. A settling body's error is that of its terminal speed."""
+
+    def __init__(self, row, settles, floor):
+        self.floor = floor  # of measured and made coefficients; 0: of their ratio, FLOOR
+        self.reynolds, self.value = float(row["reynolds"]), float(row["value"])
+        self.model = {law: float(row[law]) for law in LAWS}
+        self.speed = {law: float(row[f"speed {law}"]) for law in LAWS} if settles else None
+
+    def ratio(self, law):
+        if self.speed:
+            return self.speed[law]
+        return max(max(self.model[law], self.floor) / max(self.value, self.floor), FLOOR)
+
+    def error(self, law):
+        return math.log(self.ratio(law))
+
+
+class Curves:
+    """Sets of measured coefficients over the Reynolds number, with what the laws make of them."""
+
+    def __init__(self, file, results):
+        data = json.loads(file.read_text(encoding="utf-8"))
+        self.sources, self.sets = data["sources"], data["sets"]
+        self.rows = {entry["id"]: entry for entry in self.sets}
+        for entry in self.sets:
+            settles, floor = entry.get("settles", False), FLOOR if entry["flow"]["of"] == "lift" else 0
+            entry["made"] = [Point(row, settles, floor) for row in results if row["id"] == entry["id"]]
+
+    def kinds(self):
+        """Kind, whether it was seen or is from memory, its points, and how many no number was fitted on."""
+        made = {}
+        for entry in self.sets:
+            kind = made.setdefault((entry["kind"], entry["verified"]), ([], []))
+            kind[0].extend(entry["made"])
+            kind[1].extend(entry["made"] if entry["fitted"] == "held" else [])
+        return made
+
+    def points(self, kind, verified=True, held=False):
+        return self.kinds()[kind, verified][held]
+
+
 def is_sea(measurements):
     """Whether a file of measurements is that of motions at sea, which names scenes."""
     return "scenes" in json.loads(measurements.read_text(encoding="utf-8"))
@@ -94,8 +136,8 @@ def within(cases, law, factor):
 class Fall:
     def __init__(self, row):
         self.family, self.name, self.law, self.mode = (row[key] for key in ("family", "name", "law", "mode"))
-        self.parameter, self.tilt, self.descent, self.drift, self.spin, self.reach, self.substeps, self.coarse = (
-            float(row[key]) for key in ("parameter", "tilt", "descent", "drift", "spin", "reach", "substeps", "coarse")
+        self.parameter, self.tilt, self.descent, self.drift, self.spin, self.reach, self.miss, self.substeps, self.coarse = (
+            float(row[key]) for key in ("parameter", "tilt", "descent", "drift", "spin", "reach", "miss", "substeps", "coarse")
         )
 
     def expected(self):
@@ -115,6 +157,7 @@ class Reality:
     def __init__(self, measurements, out):
         data = json.loads(measurements.read_text(encoding="utf-8"))
         self.sources = data["sources"]
+        self.curves = Curves(measurements.parent / "curves.json", read_rows(out / "curves.csv"))
         self.rows = {row["id"]: row for row in data["rows"]}
         models = {row["id"]: row for row in read_rows(out / "coefficients.csv")}
         cases = [Case(self.rows[name], model) for name, model in models.items()]
@@ -134,11 +177,11 @@ class Reality:
         """Neither fitted on nor in view when the form of the law was chosen."""
         return [case for case in self.cases if case.row["fitted"] in ("none", "fresh")]
 
-    def drawn_motions(self):
+    def motions(self, fitted):
         """Row and, by each law, what its releases give: numbers, or names of regimes."""
         made = []
         for row in self.rows.values():
-            if "motion" not in row:
+            if "motion" not in row or row["fitted"] != fitted:
                 continue
             family, name, what = (row["motion"][key] for key in ("family", "name", "what"))
             falls = {law: [fall for fall in self.chosen(family, law) if fall.name == name] for law in LAWS}
