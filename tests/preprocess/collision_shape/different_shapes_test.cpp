@@ -96,7 +96,7 @@ void expectCost(const MakeShape& make, const Cost& most) {
 
 TEST(DifferentShapes, SpheresCostNextToNothing) {
   expectCost([](const Sizes& s) { return std::make_unique<btSphereShape>(toScalar(s.x())); },
-             {16, 19, 96});
+             {18, 20, 96});
 }
 
 TEST(DifferentShapes, BoxesCostLittle) {
