@@ -124,7 +124,7 @@ class FluidBodyTest(Temporary):
         self.assertLess((wrenches * twists).sum(axis=1).max(), 0)  # the fluid only takes energy
         double = body.loads(2 * twists, ba.Medium(density=1))
         np.testing.assert_allclose(double, 4 * body.loads(twists, ba.Medium(density=1)), rtol=1e-12)
-        for setting in ({"law": "published"}, {"separation_angle": 2.0}, {"skin_friction": False}):
+        for setting in ({"law": "published"}, {"law": "published", "separation_angle": 2.0}, {"skin_friction": False}):
             self.assertGreater(abs(body.loads(twists, ba.water(), ba.FlowSettings(**setting)) - wrenches).max(), 0, setting)
         with self.assertRaisesRegex(ValueError, r"must be of shape \(N, 6\) or \(6,\), not \(2, 3\)"):
             body.loads(np.zeros((2, 3)), ba.water())
