@@ -203,7 +203,9 @@ TEST(WaterWorld, ASavedStateHasTheSurfaceThatABodyHasMet) {
   for (WaterWorld* world : {&run, &other, &without}) world->scene.step(1.0 / 60, 20);
   EXPECT_TRUE(run.bits() == other.bits());
   // Bullet's pose in double is as exact.
-  if (!kDouble) EXPECT_FALSE(run.bits() == without.bits());
+  if (!kDouble) {
+    EXPECT_FALSE(run.bits() == without.bits());
+  }
 }
 
 // Compares a free body after 2 s of wind with one on a rail along the wind.
