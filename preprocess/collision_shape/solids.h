@@ -75,6 +75,7 @@ bool arePolyhedra(const std::vector<Solid>& solids);
 /// they touch in an edge, they are blown up about their centres by 0.03 %, then by 0.12 %. The
 /// convex hull of those that cannot be united stands for them, with a warning. Cost O(T P) for
 /// triangles T of one and planes P of the other.
+/// @param solids of one shape, in its frame
 /// @param faces triangles aimed at
 /// @param name begins the warnings, which name two of them
 /// @param no_flow why the flow around their union could not be solved: none is united; empty: it

@@ -19,6 +19,8 @@ struct KnownViscousFlow {
 /// already: a program that fills a fluid body by hand, or changes one, calls this before it
 /// attaches the body. Spheres get none; without a surface `viscous` stays as it is. Cost O(F log
 /// F), 2 us per face, and where R is solved that of computeStokesResistance().
+/// @param body filled but for what this makes
+/// @param known of its viscous flow; by default nothing
 /// @param threads as StokesSettings::threads
 /// @throws std::invalid_argument as computeSharpness(), std::runtime_error as
 /// computeStokesResistance().

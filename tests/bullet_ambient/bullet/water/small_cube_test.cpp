@@ -99,9 +99,9 @@ TEST(SmallCube, StaysInTheWaterWhereAJointMovesItInLongSteps) {
   EXPECT_EQ(cube.timesSaid("less than four steps a period"), 1);
 }
 
-// The cube rises from the depth into air within a few steps. Measured gain: 0.049 where the lightest
-// one leaves from the greatest depth, 0.01 from two thirds of that, else none. It depends on where
-// within a step the surface is met. With buoyancy of the start of each step: 0.03 to 0.7.
+// The cube rises from the depth into air within a few steps. Measured gain: 0.049 where the
+// lightest one leaves from the greatest depth, 0.01 from two thirds of that, else none. It depends
+// on where within a step the surface is met. With buoyancy of the start of each step: 0.03 to 0.7.
 TEST(SmallCube, GainsNothingWhereItLeavesTheWaterOnAJoint) {
   for (const double specific_gravity : {0.1, 0.3, 0.5})
     for (const double depth : {0.5, 1.0, 2.0, 3.0}) {
