@@ -69,7 +69,7 @@ class ScriptsTest(unittest.TestCase):
         measurements = ROOT / "data/reality/measurements.json"
         for arguments, missing in (
             ((self.folder / "nosuch", self.folder), self.folder / "nosuch"),
-            ((measurements, self.folder), self.folder / "coefficients.csv"),
+            ((measurements, self.folder), self.folder / "curves.csv"),
         ):
             text = self.refusal("tests/study/reality/plot_reality.py", *arguments, "-o", self.folder)
             self.assertEqual(text, f"{missing}: No such file or directory")
