@@ -45,7 +45,7 @@ struct RowMotion {
   bool is_held = false;  ///< true: joints, or contacts with bodies that cannot move, hold the body
   double turn = 0;       ///< largest turn of the body during the step [rad]
   /// Momentum relative to the flow, about the centre of mass at the start, which the turn keeps;
-  /// none: a body with locked axes.
+  /// none: a body with locked axes, or one that the fluid settles, eq. (124).
   std::optional<Momentum> momentum_W;
   /// Twice the kinetic energy allowed at the next pose [J]; none: no bound.
   std::optional<double> energy_bound;

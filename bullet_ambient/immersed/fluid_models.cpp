@@ -30,11 +30,11 @@ Vector3 stillAxisOf(const FluidBody& body) {
 
 }  // namespace
 
-Matrix6 makeVelocityBasis(const BodyModel& model, const Vector3& moments) {
-  AMBIENT_ASSERT(moments.minCoeff() > 0 && model.mass > 0);
+Matrix6 makeVelocityBasis(const Matrix6& inertia, double mass, const Vector3& moments) {
+  AMBIENT_ASSERT(moments.minCoeff() > 0 && mass > 0);
   Vector6 scale;
-  scale << moments.cwiseSqrt(), Vector3::Constant(std::sqrt(model.mass));
-  return Cholesky<6>(model.inertia).inverseTransposed() * scale.asDiagonal();
+  scale << moments.cwiseSqrt(), Vector3::Constant(std::sqrt(mass));
+  return Cholesky<6>(inertia).inverseTransposed() * scale.asDiagonal();
 }
 
 BodyStations makeBodyStations(const AttachDef& def) {
@@ -86,7 +86,7 @@ MediumModel inMedium(const AttachDef& def, const InverseMass& mass, const FluidK
   const BodyModel model =
       makeBodyModel(*def.fluid_body, def.fluid_frame, propertiesOf(mass), kind.medium(), loads);
   checkFluidMass(*def.fluid_body, model);
-  return {kind, model, makeVelocityBasis(model, mass.moments())};
+  return {kind, model, makeVelocityBasis(model.inertia, model.mass, mass.moments())};
 }
 
 SurfaceMedia atSurface(const AttachDef& def, const InverseMass& mass, const SurfaceKind& kind) {

@@ -31,8 +31,8 @@ BodyStations makeBodyStations(const AttachDef& def);
 
 /// T in body axes with T D T^T = K^-1, D = diag(I^-1, 1/m) being what Bullet holds; docs/theory.md
 /// eq. (26). From one Cholesky factor K = L L^T: T = L^-T diag(sqrt I, sqrt m), upper triangular.
-/// `moments`: principal moments I of the dry body [kg m^2].
-Matrix6 makeVelocityBasis(const BodyModel& model, const Vector3& moments);
+/// `inertia`: K in B; `mass` m [kg], `moments` I [kg m^2]: those of the dry body, principal.
+Matrix6 makeVelocityBasis(const Matrix6& inertia, double mass, const Vector3& moments);
 
 /// A body in one medium.
 struct MediumModel {

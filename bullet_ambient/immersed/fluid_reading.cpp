@@ -41,7 +41,8 @@ void beginBodyReading(AmbientBody& ambient, const RigidState& start,
   reading.knows_impulse = !is_locked;
 }
 
-void readRows(AmbientBody& ambient, const Twist& change_W, double time_step) noexcept {
+void readRows(AmbientBody& ambient, const Twist& change_W,
+              const std::optional<Matrix6>& settled_inertia, double time_step) noexcept {
   FluidReading& reading = *ambient.reading;
   const RowMotion& rows = ambient.outcome.rows();
   reading.moved_W = rows.velocity_W;
@@ -52,7 +53,8 @@ void readRows(AmbientBody& ambient, const Twist& change_W, double time_step) noe
     reading.model = *StepModel(ambient, time_step);
     reading.model.loads = nullptr;  // which the StepModel holds
   }
-  const Wrench impulse_B = Wrench::fromVector(reading.model.inertia * change_B.vector());
+  const Matrix6& inertia = settled_inertia ? *settled_inertia : reading.model.inertia;
+  const Wrench impulse_B = Wrench::fromVector(inertia * change_B.vector());
   reading.impulse_W = {q * impulse_B.torque, q * impulse_B.force};
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "bullet_ambient/immersed/ambient_body.h"
 #include "bullet_ambient/reading.h"
 
@@ -49,7 +51,9 @@ void beginBodyReading(AmbientBody& ambient, const RigidState& start,
                       const Surroundings& surroundings, bool is_locked) noexcept;
 
 /// Reads the impulse of rows from the velocity change by them, after the solver's iterations.
-void readRows(AmbientBody& ambient, const Twist& change_W, double time_step) noexcept;
+/// `settled_inertia`: of RowVelocity.
+void readRows(AmbientBody& ambient, const Twist& change_W,
+              const std::optional<Matrix6>& settled_inertia, double time_step) noexcept;
 
 /// Computes the wrenches after the action has set the velocity. `end`: state then; `before_W`:
 /// velocity before the action.

@@ -41,9 +41,9 @@ Matrix3 rootInertia(const Vector3& inertia_diagonal, const Matrix3& R) {
   return R * inertia_diagonal.cwiseSqrt().asDiagonal() * R.transpose();
 }
 
-WorldBasis makeLockedBasis(const BodyModel& model, const Matrix3& root_inertia_W, const Matrix3& R,
-                           const AxisFactors& factors) {
-  const Matrix6 K_W = rotateAxes(model.inertia, R);
+WorldBasis makeLockedBasis(const Matrix6& inertia, double mass, const Matrix3& root_inertia_W,
+                           const Matrix3& R, const AxisFactors& factors) {
+  const Matrix6 K_W = rotateAxes(inertia, R);
   Matrix6 root = Cholesky<6>(freeInertia(K_W, factors)).inverseTransposed();
   // Rows scaled by the factors; columns of locked axes must not move the body.
   const Vector6 scale = stack(factors.angular, factors.linear);
@@ -52,7 +52,7 @@ WorldBasis makeLockedBasis(const BodyModel& model, const Matrix3& root_inertia_W
     root.row(axis) *= scale[axis];
   }
   root.leftCols<3>() = (root.leftCols<3>() * root_inertia_W).eval();
-  root.rightCols<3>() *= std::sqrt(model.mass);
+  root.rightCols<3>() *= std::sqrt(mass);
   return toBulletBasis(root);
 }
 

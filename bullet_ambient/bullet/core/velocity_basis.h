@@ -21,8 +21,8 @@ WorldBasis toWorld(const Vector6& basis_B, const Matrix3& rotation_WB);
 
 /// T in world axes for a body with locked axes: T D T^T = K_eff^-1 of docs/theory.md eq. (30). T is
 /// not constant in body axes, and it is singular: components of u' along locked axes do not move
-/// the body.
-WorldBasis makeLockedBasis(const BodyModel& model, const Matrix3& root_inertia_W,
+/// the body. `inertia`: K in B; `mass` of the dry body [kg].
+WorldBasis makeLockedBasis(const Matrix6& inertia, double mass, const Matrix3& root_inertia_W,
                            const Matrix3& rotation_WB, const AxisFactors& factors);
 
 /// sqrt(I) in world axes, for principal moments I [kg m^2].

@@ -103,13 +103,13 @@ Quaternion correctedAttitude(const Quaternion& start, const Vector3& turn_W,
   return corrected;
 }
 
-// Sets the momentum that the turn of a body keeps, and the bound of its energy, from the results of
-// FlightKernel::keep().
-void setKept(const RowLanes& lanes, int lane, bool is_locked, RowMotion& rows) {
+// Sets the momentum that the turn of a body keeps, if one is, and the bound of its energy, from the
+// results of FlightKernel::keep().
+void setKept(const RowLanes& lanes, int lane, bool is_kept, RowMotion& rows) {
   const FlightLane* momentum_W = lanes.momentum_W;
   AMBIENT_ASSERT(!(lanes.extent[lane] < 0));
   double extent = lanes.extent[lane];
-  if (!is_locked) {
+  if (is_kept) {
     rows.momentum_W = {vectorOf(momentum_W, lane), vectorOf(momentum_W + 3, lane)};
     extent = std::max(extent, lanes.moved_extent[lane]);
   }
@@ -275,7 +275,7 @@ void beginRowMotions(RowBatch& batch, RowBodies& row_bodies,
     rows.position =
         batch.positions[i] + time_step * toVector3(solver_body.internalGetPushVelocity());
     rows.turn = time_step * rows.velocity_W.angular.norm();
-    setKept(lanes, i, row_body.is_locked, rows);
+    setKept(lanes, i, !row_body.is_locked && !batch.settled_inertia[i], rows);
   }
 }
 

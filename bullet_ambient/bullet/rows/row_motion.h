@@ -2,6 +2,8 @@
 
 #include <BulletDynamics/ConstraintSolver/btSolverBody.h>
 
+#include <optional>
+
 #include "bullet_ambient/bullet/core/conversions.h"
 #include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/bullet/rows/row_rewriting.h"
@@ -33,8 +35,9 @@ struct RowBatch {
   RowLanes lanes;
   int count = 0;
   AmbientBody* bodies[kFlightsTogether] = {};
-  int solver_bodies[kFlightsTogether] = {};  ///< indices in the solver's pool
-  Vector3 positions[kFlightsTogether];       ///< centres of mass at the start [m]
+  int solver_bodies[kFlightsTogether] = {};                  ///< indices in the solver's pool
+  Vector3 positions[kFlightsTogether];                       ///< centres of mass at the start [m]
+  std::optional<Matrix6> settled_inertia[kFlightsTogether];  ///< of RowVelocity
 };
 
 /// Stores momentum, energy bound and start of the active bodies in AmbientBody::outcome for

@@ -137,7 +137,8 @@ void SolverGroup::finishBatch(RowBatch& batch, double turn_share,
   beginRowMotions(batch, *row_bodies_, solver_bodies, turn_share, time_step_);
   for (int i = 0; i < batch.count; ++i)
     if (batch.lanes.active[i] != 0 && batch.bodies[i]->reading)
-      readRows(*batch.bodies[i], changeByRows(solver_bodies[batch.solver_bodies[i]]), time_step_);
+      readRows(*batch.bodies[i], changeByRows(solver_bodies[batch.solver_bodies[i]]),
+               batch.settled_inertia[i], time_step_);
 }
 
 // Flies a body as soon as there are kFlightsTogether of them, while their data are in the cache; on

@@ -20,12 +20,18 @@
 AMBIENT_BEGIN
 namespace {
 
-// Returns the velocity basis T in body axes, docs/theory.md eq. (26). At a water surface it is
-// computed anew, because the inertia changes from step to step.
-Matrix6 basisOf(const AmbientBody& ambient, const BodyModel& model) {
-  if (!ambient.surface()) return ambient.in_medium->basis_B;
+// Returns the inertia that rows move, in B.
+const Matrix6& rowInertia(const BodyModel& model, const RowVelocity& row) {
+  return row.settled_inertia ? *row.settled_inertia : model.inertia;
+}
+
+// Returns the velocity basis T in body axes, docs/theory.md eq. (26). It is computed anew at a
+// water surface and where the fluid settles the body, because the inertia changes from step to
+// step.
+Matrix6 basisOf(const AmbientBody& ambient, const BodyModel& model, const RowVelocity& row) {
+  if (!ambient.surface() && !row.settled_inertia) return ambient.in_medium->basis_B;
   const Vector3 inverse_inertia = toVector3(ambient.body->getInvInertiaDiagLocal());
-  return makeVelocityBasis(model, inverse_inertia.cwiseInverse());
+  return makeVelocityBasis(rowInertia(model, row), model.mass, inverse_inertia.cwiseInverse());
 }
 
 // Returns 1 for each component that is zero, else 0.
@@ -35,12 +41,13 @@ btVector3 whereZero(const btVector3& v) {
 
 // Sets the basis of eq. (30) and Bullet's factors of locked axes to 1: T contains the locks, which
 // the solver must not apply twice. `R`: B to W.
-void lock(RowBody& row_body, const btRigidBody& body, const BodyModel& model, const Matrix3& R,
+void lock(RowBody& row_body, const btRigidBody& body, const Matrix6& row_inertia, const Matrix3& R,
           btSolverBody& solver_body) {
   const Vector3 inertia = toVector3(body.getInvInertiaDiagLocal()).cwiseInverse();
   const Matrix3 root = rootInertia(inertia, R);
   row_body.is_locked = true;
-  row_body.basis = makeLockedBasis(model, root, R, axisFactors(body));
+  row_body.basis = makeLockedBasis(row_inertia, 1 / static_cast<double>(body.getInvMass()), root, R,
+                                   axisFactors(body));
   row_body.root_inertia = toBulletMatrix(root);
   row_body.locked_angular = whereZero(body.getAngularFactor());
   row_body.locked_linear = whereZero(body.getLinearFactor());
@@ -96,9 +103,9 @@ void fill(const AmbientBody& ambient, const BodyModel& model, const Matrix3& R,
   row_body.velocity_aside = toBullet(row.isotropic_excess_W.linear);
   if (row_body.is_locked) return;
   const bool is_diagonal = model.has_diagonal_inertia;
+  const Matrix6 basis_B = basisOf(ambient, model, row);
   row_body.has_coupling = !is_diagonal;
-  row_body.basis = is_diagonal ? toWorld(Vector6(ambient.in_medium->basis_B.diagonal()), R)
-                               : toWorld(basisOf(ambient, model), R);
+  row_body.basis = is_diagonal ? toWorld(Vector6(basis_B.diagonal()), R) : toWorld(basis_B, R);
 }
 
 }  // namespace
@@ -153,11 +160,11 @@ void SolverGroup::prepareForRows(Member* const* members, int count,
   const auto taskOf = [&](int i) -> FlightTask {
     return {*models[i], departures.surroundings[i], batch.bodies[i]->def->flight, time_step_};
   };
-  FlightCount costs[kFlightsTogether];
+  RowLoad loads[kFlightsTogether];
   bool is_any_free = false;
   for (int i = 0; i < count; ++i) {
     if (members[i]->is_locked) continue;
-    costs[i] = setStart(taskOf(i), departures.states[i], i, lanes);
+    loads[i] = setStart(taskOf(i), departures.states[i], i, lanes);
     is_any_free = true;
   }
   if (is_any_free) kFlightKernels.fastest()->push(lanes);
@@ -168,19 +175,21 @@ void SolverGroup::prepareForRows(Member* const* members, int count,
     const Matrix3 R = start.orientation.toRotationMatrix();
     RowVelocity row = member.is_locked
                           ? computeLockedVelocity(taskOf(i), start, axisFactors(*ambient.body))
-                          : rowVelocityOf(lanes, i, costs[i]);
+                          : rowVelocityOf(lanes, i, loads[i]);
     complete(ambient, start, time_step_, bodies_.complaints, row);
     // Those of FlightKernel::keep().
     batch.positions[i] = start.position;
     lanes.kick_time[i] = time_step_;
     lanes.extent[i] = row.extent;
+    batch.settled_inertia[i] = row.settled_inertia;
     setLane(lanes.orientation, i, start.orientation);
     setLane(lanes.turning_W, i, row.turning_W);
     btSolverBody& solver_body = solver_bodies[member.solver_body];
     setExternalImpulse(solver_body, withoutTraces(row.change_W, time_step_));
     RowBody& row_body = row_bodies_->add(member.solver_body);
     row_body.is_held = member.is_held;
-    if (member.is_locked) lock(row_body, *ambient.body, *models[i], R, solver_body);
+    if (member.is_locked)
+      lock(row_body, *ambient.body, rowInertia(*models[i], row), R, solver_body);
     fill(ambient, *models[i], R, row, solver_body, row_body);
   }
 }

@@ -87,10 +87,10 @@ class Leapfrog {
     progress.has_load = memory.has_load && progress.flight->task.model.loads;
     setLane(lanes_.load_W, i, progress.has_load ? memory.load_W : Wrench{});
     setLane(lanes_.load_B, i, Wrench{});
+    lanes_.kick_time[i] = progress.flight->task.duration / progress.substeps;
     setGrowth(i, progress.has_load ? memory.growth : kCreeping);
     lanes_.error[i] = 0;
     progress.error = 0;
-    lanes_.kick_time[i] = progress.flight->task.duration / progress.substeps;
     lanes_.is_coarse[i] = 0;
     lanes_.energy_removed[i] = 0;
   }
@@ -146,7 +146,9 @@ class Leapfrog {
 
   void setGrowth(int i, const Growth& growth) {
     progress_[i].growth = growth;
-    setResistance(lanes_, i, progress_[i].flight->task.model.resistance.get(), growth);
+    const BodyModel& model = progress_[i].flight->task.model;
+    setResistance(lanes_, i, model.resistance.get(), growth);
+    lanes_.is_settled[i] = isSettled(model, growth, lanes_.kick_time[i]);
   }
 
   template <class Condition>

@@ -122,6 +122,24 @@ inline Spatials beyondEven(const RowLanes& push, int at, const Pairs& kick) {
 
 /// Implements FlightKernel::push for the lanes from `at` on.
 struct PushStep {
+  // Replaces the kick of bodies that the fluid settles in the step, and its momentum, by those of
+  // eq. (124), which have the turn in them.
+  template <class Matrices>
+  static void meet(const RowLanes& bodies, int at, const Pairs& x, const Spatials& wrench,
+                   const Mask& settles, Spatials& kick, Spatials& push, Turnings& turning) {
+    const Matrices inertia(bodies.inertia, at), inverse(bodies.inverse_inertia, at);
+    const Lanes duration = load(bodies.kick_time + at);
+    const Spatials load_B = load6(bodies.load_B, at);
+    const Spatials met = wrench + turningWrench(inertia, x);
+    const Pairs settled = withResistance<Matrices>(bodies, at, [&](const auto& terms) {
+      return settledKick<Lanes>(x, {inverse * load_B, load_B}, met, terms, duration);
+    });
+    kick = select(settles, settled.twist - x.twist, kick);
+    push = select(settles, duration * met, push);
+    turning.change = select(settles, noWrench<Lanes>().twist, turning.change);
+    turning.extent = settles ? Lanes{} : turning.extent;
+  }
+
   template <class Matrices>
   static void act(RowLanes& bodies, int at, const Mask&) {
     const Matrices inertia(bodies.inertia, at), inverse(bodies.inverse_inertia, at);
@@ -136,21 +154,20 @@ struct PushStep {
       // Equal to dt K^-1 F to first order, but never reverses the motion, for any dt.
       const Spatials load_B = load6(bodies.load_B, at);
       const Pairs response{inverse * load_B, load_B};
-      const Spatials fallen = kick;
-      kick = kick + (passiveKick(motion, motion, response, duration).twist - x);
-      if (bodies.has_resistance) {
-        // Rows meet all of the forces, but where the fluid settles the body within the step.
-        const Mask settles = load(bodies.is_settled + at) > Lanes{};
-        const Pairs fall =
-            select(settles, {all(0.5) * fallen, 0.5 * duration * wrench}, noWrench<Lanes>());
-        const Pairs settled = withResistance<Matrices>(bodies, at, [&](const auto& terms) {
-          return viscousKick<Lanes>(motion, motion, response, fall, terms, duration);
-        });
-        const Spatials change = settled.twist - x;
-        kick = select(viscousOf(bodies, at), select(settles, change, fallen + change), kick);
-      }
+      const Pairs moved = whereViscous(
+          bodies, at, true, [&] { return passiveKick(motion, motion, response, duration); },
+          [&] {
+            return withResistance<Matrices>(bodies, at, [&](const auto& terms) {
+              return viscousKick<Lanes>(motion, motion, response, noWrench<Lanes>(), terms,
+                                        duration);
+            });
+          });
+      kick = kick + (moved.twist - x);
     }
-    const Turnings turning = computeTurnings(inertia, inverse, motion, duration);
+    Turnings turning = computeTurnings(inertia, inverse, motion, duration);
+    Spatials push = inertia * kick;
+    const Mask settles = load(bodies.is_settled + at) > Lanes{};
+    if (anyOf(settles)) meet<Matrices>(bodies, at, motion, wrench, settles, kick, push, turning);
     const Lanes zero = Lanes{}, rest = 1 - turning.extent;
     const Lanes share = rest < zero ? zero : (rest > all(0.5) ? all(0.5) : rest);
     const Spatials turning_W = toWorld(q, share * turning.change);
@@ -158,8 +175,7 @@ struct PushStep {
     change_W.linear = change_W.linear + duration * load(bodies.acceleration_W, at);
     store6(bodies.change_W, at, change_W);
     store6(bodies.turning_W, at, turning_W);
-    store6(bodies.isotropic_excess_W, at,
-           toWorld(q, beyondEven(bodies, at, {kick, inertia * kick})));
+    store6(bodies.isotropic_excess_W, at, toWorld(q, beyondEven(bodies, at, {kick, push})));
     store(bodies.extent + at, turning.extent);
   }
 };
@@ -219,7 +235,13 @@ struct GravityStep {
   static void act(FlightLanes& bodies, int at, const Mask& active) {
     const Matrices inverse(bodies.inverse_inertia, at);
     const Orientations q = orientationOf(bodies, at);
-    const Spatials wrench = externalWrench(bodies, at, q);
+    Spatials wrench = externalWrench(bodies, at, q);
+    if (bodies.has_resistance) {
+      const Mask settles = load(bodies.is_settled + at) > Lanes{};
+      const Matrices inertia(bodies.inertia, at);
+      if (anyOf(settles))
+        wrench = select(settles, wrench + turningWrench(inertia, motionOf(bodies, at)), wrench);
+    }
     const Pairs fall = 0.5 * load(bodies.kick_time + at) * Pairs{inverse * wrench, wrench};
     store6(bodies.fall_twist, at, fall.twist);
     store6(bodies.fall_momentum, at, fall.momentum);

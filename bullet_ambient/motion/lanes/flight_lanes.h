@@ -39,6 +39,7 @@ struct alignas(64) BodyLanes {
   FlightLane inverse_inertia[kSymmetricEntries];  ///< K^-1
   FlightLane is_viscous;                          ///< 1: the body has a resistance; else 0
   FlightLane resistance[kSymmetricEntries];       ///< C of the last load, in B
+  FlightLane is_settled;                          ///< 1: it settles the body in kick_time; else 0
   bool has_diagonal_inertia;                      ///< K, K^-1 and C of all bodies are diagonal
   bool has_loads;                                 ///< at least one body has surface loads
   bool has_resistance;                            ///< at least one body has a resistance
@@ -140,8 +141,6 @@ extern const FlightKernel kFlightKernelBaseline, kFlightKernelAvx2, kFlightKerne
 /// keep() and carry(), one after the other. Twists relative to the flow; momenta about the centre
 /// of mass.
 struct alignas(64) RowLanes : BodyLanes {
-  FlightLane is_settled;  ///< 1: the resistance is strong for the length of the step; else 0
-
   // Input of push(), with orientations and twist_B at the start of the step, and load_B there.
   FlightLane acceleration_W[3];           ///< acceleration of the flow [m/s^2]
   FlightLane even_inverse_inertia[3][3];  ///< D' of eq. (28b), in B [1/(kg m^2)]

@@ -159,11 +159,8 @@ inline Motions select(const Mask& mask, const Motions& a, const Motions& b) {
           select(mask, a.motion, b.motion)};
 }
 
-/// Moves bodies with constant twist over `duration` [s]. The end twist follows from the world
-/// momenta, which are conserved.
-template <class Inverse>
-Motions coast(const Inverse& inverse, const Motions& start, const Lanes& duration) {
-  const Vectors rotation = duration * start.motion.twist.angular;
+/// Returns orientations after a turn by rotation vectors in B [rad].
+inline Orientations turned(const Orientations& start, const Vectors& rotation) {
   const Lanes angle = squareRoot(dot(rotation, rotation));
   Lanes cosine = all(1), scale = all(0.5);
   for (int i = 0; i < kWidth; ++i) {
@@ -171,19 +168,38 @@ Motions coast(const Inverse& inverse, const Motions& start, const Lanes& duratio
     cosine[i] = portable::cos(angle[i] / 2);
     scale[i] = portable::sin(angle[i] / 2) / angle[i];
   }
+  return normalized(start * Orientations{scale * rotation, cosine});
+}
+
+/// Moves bodies with constant velocities in W over `duration` [s]. Leaves the momentum as it is.
+inline Motions glide(const Motions& start, const Lanes& duration) {
+  const Spatials& x = start.motion.twist;
+  const Vectors velocity_W = start.orientation.toWorld(x.linear);
+  Motions end = start;
+  end.orientation = turned(start.orientation, duration * x.angular);
+  end.way_W = start.way_W + duration * velocity_W;
+  end.motion.twist.linear = end.orientation.toBody(velocity_W);
+  return end;
+}
+
+/// Moves bodies with constant twist over `duration` [s]. The end twist follows from the world
+/// momenta, which are conserved.
+template <class Inverse>
+Motions coast(const Inverse& inverse, const Motions& start, const Lanes& duration) {
   const Vectors way_W = start.orientation.toWorld(duration * start.motion.twist.linear);
   const Spatials& m = start.motion.momentum;
   const Vectors p_W = start.orientation.toWorld(m.linear);
   const Vectors l_W = start.orientation.toWorld(m.angular) - cross(way_W, p_W);
   Motions end;
-  end.orientation = normalized(start.orientation * Orientations{scale * rotation, cosine});
+  end.orientation = turned(start.orientation, duration * start.motion.twist.angular);
   end.way_W = start.way_W + way_W;
   end.motion.momentum = {end.orientation.toBody(l_W), end.orientation.toBody(p_W)};
   end.motion.twist = inverse * end.motion.momentum;
   return end;
 }
 
-/// Moves active bodies without loads, docs/theory.md eq. (22), see FlightKernel::flow.
+/// Moves active bodies without loads, docs/theory.md eq. (22), see FlightKernel::flow. A body that
+/// the fluid settles has its turning in the kick, eq. (124).
 template <class Matrices>
 void flow(FlightLanes& bodies, int at, const Mask& active) {
   constexpr int kMaxPieces = 1024;  // largest number of series, one after another
@@ -195,7 +211,13 @@ void flow(FlightLanes& bodies, int at, const Mask& active) {
               {load6(bodies.twist_B, at), load6(bodies.momentum_B, at)}};
   const Lanes energy = inner(now.motion, now.motion);
   const Mask moves = active & (energy > zero);
-  Lanes left = moves ? load(bodies.flow_time + at) : zero;
+  const Lanes duration = load(bodies.flow_time + at);
+  Lanes left = moves ? duration : zero;
+  if (bodies.has_resistance) {
+    const Mask glides = moves & (load(bodies.is_settled + at) > zero);
+    if (anyOf(glides)) now = select(glides, glide(now, duration), now);
+    left = glides ? zero : left;
+  }
   for (int i = 0; i < kMaxPieces && anyOf(left > zero); ++i) {
     const Mask is_left = left > zero;
     const auto end = MotionSeries<Matrices>(inverse, now.motion, left, precision, is_left).end();

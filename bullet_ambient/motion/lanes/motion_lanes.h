@@ -20,6 +20,15 @@ inline Spatials externalWrench(const BodyLanes& bodies, int at, const Orientatio
       q.toBody(load(bodies.force_W, at)) + buoyancy};
 }
 
+/// Returns the wrench in B that the turn of a body is to a velocity that stays in W, (2) and K (0,
+/// w x v): of Munk's moment and of the gyroscope.
+template <class Matrices>
+Spatials turningWrench(const Matrices& inertia, const Pairs& x) {
+  const Vectors &w = x.twist.angular, &l = x.momentum.angular, &p = x.momentum.linear;
+  const Spatials gyroscopic{cross(l, w) + cross(p, x.twist.linear), cross(p, w)};
+  return gyroscopic + inertia * Spatials{zeroVectors(), cross(w, x.twist.linear)};
+}
+
 /// Bodies of a register that have a resistance.
 inline Mask viscousOf(const BodyLanes& bodies, int at) {
   return load(bodies.is_viscous + at) > Lanes{};

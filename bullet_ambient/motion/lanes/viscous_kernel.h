@@ -193,6 +193,22 @@ inline PairsOf<Real> viscousKick(const PairsOf<Real>& x, const PairsOf<Real>& at
   return settle(turned, fall, terms, dragRate(shares, turned, half), half);
 }
 
+/// Returns the motion after `duration` h [s] of a body that the fluid settles meanwhile, eq. (124):
+/// Rot, then the wrench f, resistance and drag at once. `load`: pair of the load at x without
+/// resistance.
+template <class Real, class Terms>
+inline PairsOf<Real> settledKick(const PairsOf<Real>& x, const PairsOf<Real>& load,
+                                 const SpatialsOf<Real>& wrench, const Terms& terms,
+                                 const Real& duration) {
+  const LoadShares<Real> shares(x, load);
+  const PairsOf<Real> turned = shares.turned(x, liftAngle(shares, x, duration));
+  const Real z = duration * shares.decay;
+  const SpatialsOf<Real> push =
+      duration * (wrench - terms.drag(turned.twist)) - z * turned.momentum;
+  const SpatialsOf<Real> change = terms.solve(1 + z, duration, Real{}, push);
+  return {turned.twist + change, turned.momentum + terms.ofInertia(change)};
+}
+
 /// Returns the motion in the middle of that kick as the load at x itself predicts it.
 template <class Real, class Terms>
 inline PairsOf<Real> viscousSample(const PairsOf<Real>& x, const PairsOf<Real>& load,

@@ -87,20 +87,27 @@ RowVelocity computeLockedVelocity(const FlightTask& task, const RigidState& star
   const double dt = task.duration;
   AMBIENT_ASSERT(dt > 0);
   const Matrix3 R = start.orientation.toRotationMatrix();
-  BodyModel model = task.model;
-  model.inverse_inertia =
-      rotateAxes(lockedInverse(rotateAxes(model.inertia, R), factors), R.transpose());
-  model.has_diagonal_inertia = false;
   Twist relative = start.twist;
   relative.linear -= R.transpose() * s.ambient_velocity;
   const Vector6 x = relative.vector();
 
   RowVelocity result;
-  Vector6 forced = model.inverse_inertia * externalWrench(model, s, R).vector();
-  if (model.loads) {
-    const SurfaceLoad load = computeSurfaceLoad(model, relative, s);
+  SurfaceLoad load;
+  if (task.model.loads) {
+    load = computeSurfaceLoad(task.model, relative, s);
     result.count.load_evaluations = 1;
     result.count.guarded = load.guarded;
+    result.settled_inertia = settledInertia(task.model, load, relative, dt);
+  }
+  BodyModel model = task.model;
+  const Matrix6& row_inertia = result.settled_inertia ? *result.settled_inertia : model.inertia;
+  model.inverse_inertia =
+      rotateAxes(lockedInverse(rotateAxes(row_inertia, R), factors), R.transpose());
+  model.has_diagonal_inertia = false;
+  Vector6 forced = model.inverse_inertia * externalWrench(model, s, R).vector();
+  if (result.settled_inertia) {
+    forced += model.inverse_inertia * wholeLoad(load, model.resistance.get(), relative).vector();
+  } else if (model.loads) {
     if (turnsWithFluid(s)) {
       const Wrench mean = meanLoadInTurningFluid(task, model, relative, load.wrench);
       forced += model.inverse_inertia * mean.vector();
@@ -135,7 +142,7 @@ RowVelocity computeLockedVelocity(const FlightTask& task, const RigidState& star
   result.turning_W = inWorld(turning);
   const Vector6 kick = dt * forced;
   result.change_W = inWorld(turning + kick);
-  const Vector6 push = inWorld(model.inertia * kick).vector();  // momentum along free axes, in W
+  const Vector6 push = inWorld(row_inertia * kick).vector();  // momentum along free axes, in W
   const Vector6 push_B = stack(R.transpose() * push.head<3>(), R.transpose() * push.tail<3>());
   result.isotropic_excess_W = inWorld(model.even_response.beyond(push_B, kick));
   result.change_W.linear += dt * free.tail<3>().cwiseProduct(s.ambient_acceleration);

@@ -1,5 +1,7 @@
 #include "bullet_ambient/motion/rows/row_velocity.h"
 
+#include <algorithm>
+
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/motion/body/one_body.h"
 #include "bullet_ambient/motion/flight/flight_group.h"
@@ -42,8 +44,16 @@ void setModels(const BodyModel* const* models, int count, RowLanes& lanes) noexc
   }
 }
 
-FlightCount setStart(const FlightTask& task, const RigidState& start, int lane,
-                     RowLanes& lanes) noexcept {
+std::optional<Matrix6> settledInertia(const BodyModel& model, const SurfaceLoad& load,
+                                      const Twist& relative, double duration) noexcept {
+  if (!isSettled(model, load.growth, duration)) return std::nullopt;
+  const double energy = inertiaNormSquared(model, relative.vector());
+  const double drag = energy > 0 ? std::max(0.0, -power(load.wrench, relative) / energy) : 0.0;
+  return (1 + duration * drag) * model.inertia + duration * model.resistance->grown(load.growth);
+}
+
+RowLoad setStart(const FlightTask& task, const RigidState& start, int lane,
+                 RowLanes& lanes) noexcept {
   const Surroundings& s = task.surroundings;
   AMBIENT_ASSERT(task.duration > 0);
   lanes.kick_time[lane] = task.duration;
@@ -58,12 +68,16 @@ FlightCount setStart(const FlightTask& task, const RigidState& start, int lane,
   setLane(lanes.load_B, lane, Wrench{});
   setResistance(lanes, lane, nullptr, {});
   lanes.is_settled[lane] = 0;
-  FlightCount count;
-  if (!task.model.loads) return count;
+  RowLoad row;
+  if (!task.model.loads) return row;
   const SurfaceLoad load = computeSurfaceLoad(task.model, relative, s);
   setResistance(lanes, lane, task.model.resistance.get(), load.growth);
-  lanes.is_settled[lane] = isSettled(task.model, load.growth, task.duration) ? 1 : 0;
-  if (turnsWithFluid(s)) {
+  const bool is_constant = turnsWithFluid(s);
+  row.settled_inertia =
+      settledInertia(task.model, is_constant ? SurfaceLoad{{}, false, load.growth} : load, relative,
+                     task.duration);
+  lanes.is_settled[lane] = row.settled_inertia ? 1 : 0;
+  if (is_constant) {
     const Wrench mean = meanLoadInTurningFluid(task, task.model, relative, load.wrench);
     Surroundings with = s;
     const Quaternion& q = start.orientation;
@@ -72,23 +86,27 @@ FlightCount setStart(const FlightTask& task, const RigidState& start, int lane,
   } else {
     setLane(lanes.load_B, lane, load.wrench);
   }
-  count.load_evaluations = 1;
-  count.guarded = load.guarded;
-  return count;
+  row.count.load_evaluations = 1;
+  row.count.guarded = load.guarded;
+  return row;
 }
 
-RowVelocity rowVelocityOf(const RowLanes& lanes, int lane, const FlightCount& count) noexcept {
-  return {twistOf(lanes.change_W, lane), twistOf(lanes.turning_W, lane),
-          twistOf(lanes.isotropic_excess_W, lane), lanes.extent[lane], count};
+RowVelocity rowVelocityOf(const RowLanes& lanes, int lane, const RowLoad& load) noexcept {
+  return {twistOf(lanes.change_W, lane),
+          twistOf(lanes.turning_W, lane),
+          twistOf(lanes.isotropic_excess_W, lane),
+          lanes.extent[lane],
+          load.count,
+          load.settled_inertia};
 }
 
 RowVelocity computeRowVelocity(const FlightTask& task, const RigidState& start) noexcept {
   RowLanes lanes;
   const BodyModel* const model = &task.model;
   setModels(&model, 1, lanes);
-  const FlightCount count = setStart(task, start, 0, lanes);
+  const RowLoad load = setStart(task, start, 0, lanes);
   kFlightKernels.fastest()->push(lanes);
-  return rowVelocityOf(lanes, 0, count);
+  return rowVelocityOf(lanes, 0, load);
 }
 
 }  // namespace ambient

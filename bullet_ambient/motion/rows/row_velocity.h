@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "bullet_ambient/motion/body/body_model.h"
 #include "bullet_ambient/motion/flight/flight_task.h"
 #include "bullet_ambient/motion/lanes/flight_lanes.h"
@@ -19,7 +21,20 @@ struct RowVelocity {
   Twist isotropic_excess_W;  ///< k' - k of eq. (28b): with isotropic added mass minus the true one
   double extent = 0;         ///< m of eq. (28a); from 1 on X = 0, the turn is too large
   FlightCount count;
+  /// N of eq. (124), which rows move in place of K, in B; none: K.
+  std::optional<Matrix6> settled_inertia;
 };
+
+/// The load on a body when rows move it: what it cost, and RowVelocity::settled_inertia.
+struct RowLoad {
+  FlightCount count;
+  std::optional<Matrix6> settled_inertia;
+};
+
+/// Returns N of docs/theory.md eq. (124) if the fluid settles the body, at a twist relative to it,
+/// within a step of `duration` [s]; else none. `load`: of computeSurfaceLoad() at that twist.
+std::optional<Matrix6> settledInertia(const BodyModel& model, const SurfaceLoad& load,
+                                      const Twist& relative, double duration) noexcept;
 
 // Bodies that rows may move are up to kFlightsTogether side by side, in RowLanes: setModels(),
 // setStart() of each free body, FlightKernel::push(); after the rows FlightKernel::keep(), and
@@ -28,11 +43,11 @@ struct RowVelocity {
 /// Writes models into the first lanes, and makes these active. Others become 0.
 void setModels(const BodyModel* const* models, int count, RowLanes& lanes) noexcept;
 /// Writes the state of a body at the start of a step, and the forces and the load on it there.
-/// Returns what the load cost. @pre setModels()
-FlightCount setStart(const FlightTask& task, const RigidState& start, int lane,
-                     RowLanes& lanes) noexcept;
+/// @pre setModels()
+RowLoad setStart(const FlightTask& task, const RigidState& start, int lane,
+                 RowLanes& lanes) noexcept;
 /// Reads the result of FlightKernel::push().
-RowVelocity rowVelocityOf(const RowLanes& lanes, int lane, const FlightCount& count) noexcept;
+RowVelocity rowVelocityOf(const RowLanes& lanes, int lane, const RowLoad& load) noexcept;
 
 /// Computes the change of one body alone.
 RowVelocity computeRowVelocity(const FlightTask& task, const RigidState& start) noexcept;

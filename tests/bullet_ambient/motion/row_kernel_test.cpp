@@ -101,7 +101,7 @@ TEST(RowsTogether, GiveABodyTheBitsThatItHasAlone) {
   const auto number = [](int i) { return static_cast<std::size_t>(i); };
   for (const int count : {1, 3, kFlightsTogether}) {
     RowLanes lanes;
-    FlightCount costs[kFlightsTogether];
+    RowLoad costs[kFlightsTogether];
     setModels(models, count, lanes);
     for (int i = 0; i < count; ++i)
       costs[i] = setStart(tasks[number(i)], bodies[number(i)].state, i, lanes);
