@@ -149,7 +149,7 @@ BodyModel modelNow(const AmbientBody& ambient, const MotionView& now) {
     model.loads =
         std::make_shared<LoadsAtSurface>(surface->loads_below.loads, wetPart(*surface, stand));
     model.load_frame = surface->loads_below.frame;
-    model.resistance = surface->loads_below.resistance;
+    giveResistance(model, surface->loads_below.resistance);
   }
   return model;
 }
@@ -176,7 +176,7 @@ StepModel::AtSurface::AtSurface(const SurfaceModel& at, const SurfaceStand& stan
   loads = {at.loads_below.loads, wetPart(at, stand)};
   model.loads = {std::shared_ptr<void>(), &loads};
   model.load_frame = at.loads_below.frame;
-  model.resistance = at.loads_below.resistance;
+  giveResistance(model, at.loads_below.resistance);
 }
 
 void StepModel::freeze(const AmbientBody& ambient) noexcept {

@@ -88,6 +88,7 @@ void complete(AmbientBody& ambient, const RigidState& start, double time_step,
   ++ambient.counters.rejected;
   complaints.say(Complaint::kNotFinite);
   row.change_W = row.turning_W = row.isotropic_excess_W = {};
+  row.settled_inertia.reset();
 }
 
 // Fills what rows need of a body at the orientation R, B to W. @pre the body's inertia tensor fits

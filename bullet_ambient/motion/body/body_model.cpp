@@ -154,7 +154,7 @@ BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_fr
   checkLever(fluid_body, model);
   if (loads) {
     model.load_frame = loads->frame(fluid_frame);
-    model.resistance = resistanceInB(loads, model.load_frame);
+    giveResistance(model, resistanceInB(loads, model.load_frame));
   }
   const Resistance* const resistance = model.resistance.get();
   model.has_diagonal_inertia =
@@ -191,12 +191,17 @@ std::shared_ptr<const Resistance> resistanceInB(const std::shared_ptr<const Surf
   return std::make_shared<const Resistance>(in_B);
 }
 
-bool isSettled(const BodyModel& model, const Growth& growth, double duration) noexcept {
+void giveResistance(BodyModel& model, std::shared_ptr<const Resistance> resistance) noexcept {
+  model.resistance = std::move(resistance);
+  if (!model.resistance) return;
+  model.settling = model.resistance->matrix.bottomRightCorner<3, 3>().trace() /
+                   model.inertia.bottomRightCorner<3, 3>().trace();
+}
+
+double settlingIn(const BodyModel& model, const Growth& growth, double duration) noexcept {
   constexpr double kSettled = 0.02;
-  if (!model.resistance) return false;
-  const double drag = model.resistance->matrix.bottomRightCorner<3, 3>().trace();
-  return duration * growth.translation * growth.translation * drag >
-         kSettled * model.inertia.bottomRightCorner<3, 3>().trace();
+  const double rate = growth.translation * growth.translation * model.settling;
+  return duration * rate > kSettled ? rate : 0;
 }
 
 Wrench gyroscopicWrench(const DualPair& motion) {

@@ -114,8 +114,9 @@ struct BodyModel {
   std::shared_ptr<const SurfaceLoads> loads;     ///< null: no surface loads
   FrameOffset load_frame;                        ///< pose in B of the frame of the loads
   std::shared_ptr<const Resistance> resistance;  ///< of the loads, in B; null: none
-  double reference_length = 0;                   ///< sqrt(area) [m]
-  double largest_mass = 0;  ///< largest eigenvalue of K's translation block [kg]
+  double settling = 0;  ///< of the resistance in a creeping flow, over K in translation [1/s]
+  double reference_length = 0;  ///< sqrt(area) [m]
+  double largest_mass = 0;      ///< largest eigenvalue of K's translation block [kg]
 };
 
 /// Throws std::invalid_argument, naming value and limit, if the medium is not physical.
@@ -138,14 +139,18 @@ SurfaceLoad computeSurfaceLoad(const BodyModel& model, const Twist& relative_twi
 std::shared_ptr<const Resistance> resistanceInB(const std::shared_ptr<const SurfaceLoads>& loads,
                                                 const FrameOffset& frame);
 
+/// Sets the resistance of a model and how quickly it settles the body. @pre the inertia is set
+void giveResistance(BodyModel& model, std::shared_ptr<const Resistance> resistance) noexcept;
+
 /// All of a load: with what the resistance (null: none) makes of the twist.
 inline Wrench wholeLoad(const SurfaceLoad& load, const Resistance* resistance, const Twist& x) {
   return resistance ? load.wrench + resistance->load(load.growth, x) : load.wrench;
 }
 
-/// True if the resistance of a body settles it within some times `duration` [s]. Then a step has to
-/// take up forces and resistance at once for a steady motion to be right.
-bool isSettled(const BodyModel& model, const Growth& growth, double duration) noexcept;
+/// Returns the rate at which the resistance settles a body [1/s] if that is within some times
+/// `duration` [s], else 0. Then a step has to take up forces and resistance at once for a steady
+/// motion to be right.
+double settlingIn(const BodyModel& model, const Growth& growth, double duration) noexcept;
 
 /// Pair of a twist x and its momentum K x.
 inline DualPair pairOfTwist(const BodyModel& model, const Vector6& x) {

@@ -148,7 +148,7 @@ class Leapfrog {
     progress_[i].growth = growth;
     const BodyModel& model = progress_[i].flight->task.model;
     setResistance(lanes_, i, model.resistance.get(), growth);
-    lanes_.is_settled[i] = isSettled(model, growth, lanes_.kick_time[i]);
+    lanes_.settling[i] = settlingIn(model, growth, lanes_.kick_time[i]);
   }
 
   template <class Condition>

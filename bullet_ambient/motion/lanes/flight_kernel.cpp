@@ -125,12 +125,15 @@ struct PushStep {
   // Replaces the kick of bodies that the fluid settles in the step, and its momentum, by those of
   // eq. (124), which have the turn in them.
   template <class Matrices>
-  static void meet(const RowLanes& bodies, int at, const Pairs& x, const Spatials& wrench,
-                   const Mask& settles, Spatials& kick, Spatials& push, Turnings& turning) {
+  static void meet(RowLanes& bodies, int at, const Pairs& x, const Spatials& wrench, Spatials& kick,
+                   Spatials& push, Turnings& turning) {
     const Matrices inertia(bodies.inertia, at), inverse(bodies.inverse_inertia, at);
+    const Spatials of_turn = turningWrench(inertia, x);
+    const Mask settles = settledOf<Matrices>(bodies, at, x, of_turn);
+    store(bodies.settling + at, settles ? load(bodies.settling + at) : Lanes{});
     const Lanes duration = load(bodies.kick_time + at);
     const Spatials load_B = load6(bodies.load_B, at);
-    const Spatials met = wrench + turningWrench(inertia, x);
+    const Spatials met = wrench + of_turn;
     const Pairs settled = withResistance<Matrices>(bodies, at, [&](const auto& terms) {
       return settledKick<Lanes>(x, {inverse * load_B, load_B}, met, terms, duration);
     });
@@ -166,8 +169,8 @@ struct PushStep {
     }
     Turnings turning = computeTurnings(inertia, inverse, motion, duration);
     Spatials push = inertia * kick;
-    const Mask settles = load(bodies.is_settled + at) > Lanes{};
-    if (anyOf(settles)) meet<Matrices>(bodies, at, motion, wrench, settles, kick, push, turning);
+    if (anyOf(load(bodies.settling + at) > Lanes{}))
+      meet<Matrices>(bodies, at, motion, wrench, kick, push, turning);
     const Lanes zero = Lanes{}, rest = 1 - turning.extent;
     const Lanes share = rest < zero ? zero : (rest > all(0.5) ? all(0.5) : rest);
     const Spatials turning_W = toWorld(q, share * turning.change);
@@ -237,10 +240,11 @@ struct GravityStep {
     const Orientations q = orientationOf(bodies, at);
     Spatials wrench = externalWrench(bodies, at, q);
     if (bodies.has_resistance) {
-      const Mask settles = load(bodies.is_settled + at) > Lanes{};
-      const Matrices inertia(bodies.inertia, at);
-      if (anyOf(settles))
-        wrench = select(settles, wrench + turningWrench(inertia, motionOf(bodies, at)), wrench);
+      if (anyOf(load(bodies.settling + at) > Lanes{})) {
+        const Pairs x = motionOf(bodies, at);
+        const Spatials turning = turningWrench(Matrices(bodies.inertia, at), x);
+        wrench = select(settledOf<Matrices>(bodies, at, x, turning), wrench + turning, wrench);
+      }
     }
     const Pairs fall = 0.5 * load(bodies.kick_time + at) * Pairs{inverse * wrench, wrench};
     store6(bodies.fall_twist, at, fall.twist);

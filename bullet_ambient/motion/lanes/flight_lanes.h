@@ -39,10 +39,10 @@ struct alignas(64) BodyLanes {
   FlightLane inverse_inertia[kSymmetricEntries];  ///< K^-1
   FlightLane is_viscous;                          ///< 1: the body has a resistance; else 0
   FlightLane resistance[kSymmetricEntries];       ///< C of the last load, in B
-  FlightLane is_settled;                          ///< 1: it settles the body in kick_time; else 0
-  bool has_diagonal_inertia;                      ///< K, K^-1 and C of all bodies are diagonal
-  bool has_loads;                                 ///< at least one body has surface loads
-  bool has_resistance;                            ///< at least one body has a resistance
+  FlightLane settling;        ///< how quickly it settles the body [1/s]; 0 if not within the step
+  bool has_diagonal_inertia;  ///< K, K^-1 and C of all bodies are diagonal
+  bool has_loads;             ///< at least one body has surface loads
+  bool has_resistance;        ///< at least one body has a resistance
   FlightLane torque_W[3], force_W[3];  ///< wrench without buoyancy and loads, about the centre of
                                        ///< mass
   FlightLane buoyancy_W[3];

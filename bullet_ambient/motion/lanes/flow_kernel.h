@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bullet_ambient/base/elementary.h"
+#include "bullet_ambient/motion/lanes/motion_lanes.h"
 #include "bullet_ambient/motion/lanes/spatial_lanes.h"
 
 // Only for sources compiled once per instruction set, see spatial_lanes.h.
@@ -214,9 +215,13 @@ void flow(FlightLanes& bodies, int at, const Mask& active) {
   const Lanes duration = load(bodies.flow_time + at);
   Lanes left = moves ? duration : zero;
   if (bodies.has_resistance) {
-    const Mask glides = moves & (load(bodies.is_settled + at) > zero);
-    if (anyOf(glides)) now = select(glides, glide(now, duration), now);
-    left = glides ? zero : left;
+    const Mask may_glide = moves & (load(bodies.settling + at) > zero);
+    if (anyOf(may_glide)) {
+      const Spatials turning = turningWrench(Matrices(bodies.inertia, at), now.motion);
+      const Mask glides = may_glide & settledOf<Matrices>(bodies, at, now.motion, turning);
+      now = select(glides, glide(now, duration), now);
+      left = glides ? zero : left;
+    }
   }
   for (int i = 0; i < kMaxPieces && anyOf(left > zero); ++i) {
     const Mask is_left = left > zero;

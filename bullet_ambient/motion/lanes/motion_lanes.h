@@ -29,6 +29,18 @@ Spatials turningWrench(const Matrices& inertia, const Pairs& x) {
   return gyroscopic + inertia * Spatials{zeroVectors(), cross(w, x.twist.linear)};
 }
 
+/// Returns the bodies that the fluid stops in less time than it takes them to turn, eq. (124).
+/// `turning`: result of turningWrench() at the motion x.
+template <class Matrices>
+Mask settledOf(const BodyLanes& bodies, int at, const Pairs& x, const Spatials& turning) {
+  constexpr double kTimes = 2;
+  const Lanes rate = load(bodies.settling + at), square = rate * rate;
+  const Pairs turn{Matrices(bodies.inverse_inertia, at) * turning, turning};
+  const Lanes most = kTimes * kTimes * inner(turn, turn);
+  const Lanes spin = kTimes * kTimes * dot(x.twist.angular, x.twist.angular);
+  return (rate > Lanes{}) & (most <= square * inner(x, x)) & (spin <= square);
+}
+
 /// Bodies of a register that have a resistance.
 inline Mask viscousOf(const BodyLanes& bodies, int at) {
   return load(bodies.is_viscous + at) > Lanes{};

@@ -59,8 +59,7 @@ void LinkKick::sampleAll(LinkDynamics& dynamics, const CoordinatesIn& u,
     const Wrench& load = found.wrench;
     if (link.model->resistance && found.growth.translation > 0) {
       sample.growth = found.growth;
-      const auto mass = link.model->inertia.bottomRightCorner<3, 3>();
-      sample.settling = resistanceOf(l).bottomRightCorner<3, 3>().trace() / mass.trace();
+      sample.settling = found.growth.translation * found.growth.translation * link.model->settling;
       has_resistance_ = true;
     }
     const Wrench momentum = dynamics.relativeMomentum(l);
@@ -150,7 +149,7 @@ void LinkKick::resist(const LinkDynamics& dynamics, int link, double h) noexcept
 bool LinkKick::isStiff(double h) const noexcept {
   for (int l = 0; l < tree_.size(); ++l) {
     const Link& link = tree_.links[l];
-    if (isLoaded(link) && isSettled(*link.model, samples_[l].growth, h)) return true;
+    if (isLoaded(link) && settlingIn(*link.model, samples_[l].growth, h) > 0) return true;
   }
   return false;
 }

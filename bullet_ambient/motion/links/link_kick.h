@@ -32,7 +32,7 @@ class LinkKick {
   /// the motion. @pre kick() was called after that sample, at its pose
   double error(LinkDynamics& dynamics, double h) noexcept;
 
-  /// True if isSettled() of a link at the last sample, for h [s].
+  /// True if the fluid settles a link at the last sample within h [s], settlingIn().
   bool isStiff(double h) const noexcept;
 
   /// Replaces `u` by the velocity after the time h [s] under the loads of the last sample alone,

@@ -7,6 +7,7 @@
 #include "bullet_ambient/motion/flight/flight_group.h"
 #include "bullet_ambient/motion/lanes/body_kernel.h"
 #include "bullet_ambient/motion/lanes/flight_lanes.h"
+#include "bullet_ambient/spatial/cholesky.h"
 
 namespace ambient {
 
@@ -46,10 +47,13 @@ void setModels(const BodyModel* const* models, int count, RowLanes& lanes) noexc
 
 std::optional<Matrix6> settledInertia(const BodyModel& model, const SurfaceLoad& load,
                                       const Twist& relative, double duration) noexcept {
-  if (!isSettled(model, load.growth, duration)) return std::nullopt;
+  if (!(settlingIn(model, load.growth, duration) > 0)) return std::nullopt;
   const double energy = inertiaNormSquared(model, relative.vector());
   const double drag = energy > 0 ? std::max(0.0, -power(load.wrench, relative) / energy) : 0.0;
-  return (1 + duration * drag) * model.inertia + duration * model.resistance->grown(load.growth);
+  const Matrix6 inertia =
+      (1 + duration * drag) * model.inertia + duration * model.resistance->grown(load.growth);
+  if (!inertia.allFinite() || !Cholesky<6>(inertia).isPositive()) return std::nullopt;
+  return inertia;
 }
 
 RowLoad setStart(const FlightTask& task, const RigidState& start, int lane,
@@ -67,7 +71,7 @@ RowLoad setStart(const FlightTask& task, const RigidState& start, int lane,
   setLane(lanes.twist_B, lane, relative);
   setLane(lanes.load_B, lane, Wrench{});
   setResistance(lanes, lane, nullptr, {});
-  lanes.is_settled[lane] = 0;
+  lanes.settling[lane] = 0;
   RowLoad row;
   if (!task.model.loads) return row;
   const SurfaceLoad load = computeSurfaceLoad(task.model, relative, s);
@@ -76,7 +80,8 @@ RowLoad setStart(const FlightTask& task, const RigidState& start, int lane,
   row.settled_inertia =
       settledInertia(task.model, is_constant ? SurfaceLoad{{}, false, load.growth} : load, relative,
                      task.duration);
-  lanes.is_settled[lane] = row.settled_inertia ? 1 : 0;
+  if (row.settled_inertia)
+    lanes.settling[lane] = settlingIn(task.model, load.growth, task.duration);
   if (is_constant) {
     const Wrench mean = meanLoadInTurningFluid(task, task.model, relative, load.wrench);
     Surroundings with = s;
@@ -97,7 +102,7 @@ RowVelocity rowVelocityOf(const RowLanes& lanes, int lane, const RowLoad& load) 
           twistOf(lanes.isotropic_excess_W, lane),
           lanes.extent[lane],
           load.count,
-          load.settled_inertia};
+          lanes.settling[lane] > 0 ? load.settled_inertia : std::nullopt};
 }
 
 RowVelocity computeRowVelocity(const FlightTask& task, const RigidState& start) noexcept {
