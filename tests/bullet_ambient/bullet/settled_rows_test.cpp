@@ -94,6 +94,20 @@ TEST_P(SettledRows, TheGroundBearsTheWholeWeight) {
   EXPECT_NEAR(impulse / GetParam() / weight(7850), 1, 5e-3);
 }
 
+// A body with locked axes has no flight, with or without rows.
+TEST_P(SettledRows, ALockedBallMovesAsFarAsItsForceGoes) {
+  btRigidBody& body = add(1500, {0, 0, 0});
+  body.setLinearFactor({1, 0, 0});
+  constexpr double kForce = 0.01;  // [N]
+  for (int i = 0; i < 30; ++i) {
+    body.applyCentralForce({bt(kForce), 0, 0});
+    step(1);
+  }
+  const double speed = kForce / (kStokes * kPitch.viscosity);
+  EXPECT_NEAR(static_cast<double>(body.getLinearVelocity().x()) / speed, 1, 2e-3);
+  EXPECT_EQ(sinks(body), 0);
+}
+
 INSTANTIATE_TEST_SUITE_P(Steps, SettledRows, ::testing::Values(1.0 / 30, 1.0 / 60, 1.0 / 240));
 
 }  // namespace
