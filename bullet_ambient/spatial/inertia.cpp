@@ -11,11 +11,14 @@ Matrix3 crossMatrix(const Vector3& d) {
 }
 
 Matrix6 shiftOrigin(const Matrix6& inertia, const Vector3& d) {
-  // X maps the twist at the new origin to the twist at the old one:
-  // v_old = v_new + w x (-d) = v_new + d x w.
-  Matrix6 X = Matrix6::Identity();
-  X.bottomLeftCorner<3, 3>() = crossMatrix(d);
-  return X.transpose() * inertia * X;
+  // By blocks: [d]x^T M = M.colwise() x d, M [d]x = M.rowwise() x d.
+  Matrix6 K = inertia;
+  const Matrix3 M = K.bottomRightCorner<3, 3>(), C = K.topRightCorner<3, 3>();
+  K.topRightCorner<3, 3>() += M.colwise().cross(d);
+  K.bottomLeftCorner<3, 3>() += M.rowwise().cross(d);
+  const Matrix3 below = K.bottomLeftCorner<3, 3>();
+  K.topLeftCorner<3, 3>() += C.rowwise().cross(d) + below.colwise().cross(d);
+  return K;
 }
 
 Matrix6 rotateAxes(const Matrix6& inertia, const Matrix3& rotation) {

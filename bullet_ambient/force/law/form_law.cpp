@@ -78,7 +78,7 @@ double grown(double x) noexcept {
 }  // namespace
 
 FormLift::FormLift(const FluidBody& body, const ShapeFactors& factors, double stall_lag)
-    : wing_(factors.shape.wing), centre_(body.centre_of_volume) {
+    : wing_(factors.shape.wing) {
   AMBIENT_ASSERT(stall_lag >= 0);
   AMBIENT_ASSERT(body.volume >= 0 && body.area >= 0);
   const SymmetricEigen<3> eigen = symmetricEigen<3>(body.added_mass.bottomRightCorner<3, 3>());
@@ -104,14 +104,12 @@ void FormLift::setWing(const FormShape& shape, double length) {
   stall_sq_ = stallSine(shape.aspect) * stallSine(shape.aspect);
 }
 
-Wrench FormLift::load(const Twist& x, double density, double munk_share) const noexcept {
+Wrench FormLift::load(const Vector3& w, const Vector3& v, double density,
+                      double munk_share) const noexcept {
   AMBIENT_ASSERT(density >= 0);
-  const Vector3& w = x.angular;
-  const Vector3 v = x.at(centre_);
   Wrench about_centre{Vector3::Zero(), (circulation_ * w).cross(v)};
   addStall(w, v, munk_share, about_centre);
-  const Vector3 force = density * about_centre.force;
-  return {density * about_centre.torque + centre_.cross(force), force};
+  return density * about_centre;
 }
 
 double FormLift::separatedShare(double phi, double turning) const noexcept {

@@ -38,9 +38,11 @@ class FormLift {
   /// @pre stall_lag >= 0, in lengths of the body over its speed.
   FormLift(const FluidBody& body, const ShapeFactors& factors, double stall_lag);
 
-  /// Wrench about F's origin for a twist relative to the ambient flow; density [kg/m^3]. Its power
-  /// is 0. Homogeneous of degree 2 in the twist. munk_share: factor of eq. (118) on the loss.
-  Wrench load(const Twist& relative_twist, double density, double munk_share = 1) const noexcept;
+  /// Wrench about the centre of volume for the motion there relative to the ambient flow; density
+  /// [kg/m^3]. Its power is 0. Homogeneous of degree 2 in the motion. munk_share: factor of eq.
+  /// (118) on the loss.
+  Wrench load(const Vector3& w, const Vector3& v, double density,
+              double munk_share = 1) const noexcept;
 
  private:
   void setWing(const FormShape& shape, double length);
@@ -57,7 +59,6 @@ class FormLift {
   double wing_;          ///< W
   double attached_ = 1;  ///< f_0: circulation of a wing over that of an endless one
   double stall_sq_ = 1;  ///< sigma^2
-  Vector3 centre_;       ///< centre of volume [m]
 };
 
 }  // namespace ambient

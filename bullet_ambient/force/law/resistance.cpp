@@ -5,11 +5,9 @@
 namespace ambient {
 
 Matrix6 Resistance::grown(const Growth& growth) const noexcept {
-  Matrix6 at_centre = matrix;
-  at_centre.topRows<3>() *= growth.rotation;
-  at_centre.leftCols<3>() *= growth.rotation;
-  at_centre.bottomRows<3>() *= growth.translation;
-  at_centre.rightCols<3>() *= growth.translation;
+  const Vector6 scale =
+      stack(Vector3::Constant(growth.rotation), Vector3::Constant(growth.translation));
+  const Matrix6 at_centre = scale.asDiagonal() * matrix * scale.asDiagonal();
   if (centre.isZero(0)) return at_centre;
   return shiftOrigin(at_centre, -centre);
 }

@@ -35,11 +35,6 @@ constexpr double kBallThickness = 0.3578988, kBallBubble = 0.5920629, kBallSmoot
                  kBallNoseFriction = 0.3619262;
 
 double square(double x) { return x * x; }
-/// sqrt(a^2 + b^2) of positive numbers, without overflow.
-double hypotenuse(double a, double b) {
-  const double large = std::max(a, b);
-  return large > 0 ? large * std::sqrt(1 + square(std::min(a, b) / large)) : 0;
-}
 /// x^8/(1 + x^8).
 double steep(double x) {
   constexpr double kMost = 1e3;
@@ -59,8 +54,10 @@ double translationGrowth(double Q, double layer) {
 double rotationGrowth(double reynolds) {
   return 0.36 * (std::sqrt(std::sqrt(1 + square(reynolds / 8))) - 1);
 }
-/// Takes the part of eq. (112) out of l_t where attached flow makes little pressure.
-double fadedBy(double b, double g) { return 1 - g * b / (b + kAttached); }
+/// Factor of eq. (112) on l_t where attached flow makes little pressure; `power`: b times `whole`.
+double fadedBy(double power, double whole, double g) {
+  return power > 0 ? 1 - g * power / (power + kAttached * whole) : 1;
+}
 
 /// Coefficient of the lift of a ball that spins, eq. (119), but for S_p in its first two terms:
 /// C_L = 0.19 S/(S + 0.035) + 0.39 S/(1 + 0.6 S) - crisis.
@@ -76,12 +73,6 @@ SpinLift spinLift(double S, const LayerState& layers) {
 }
 
 }  // namespace
-
-double LayerState::blend(double laminar, double bubble, double smooth, double rough,
-                         double most) const {
-  const double nose = std::min(most, smooth + (rough - smooth) * growth);
-  return (1 - turbulent) * laminar + turbulent * ((1 - from_nose) * bubble + from_nose * nose);
-}
 
 LayerState layerState(double thickness, double reynolds, double relative_roughness) noexcept {
   LayerState state;
@@ -104,188 +95,185 @@ LayerState layerState(double thickness, double reynolds, double relative_roughne
 
 ViscousLaw::ViscousLaw(const FluidBody& body, const FormShape& shape, const Vector3& own_drag,
                        const ViscousFluid& fluid)
-    : fluid_(fluid),
-      axes_(body.viscous.separation.axes),
-      centre_(body.centre_of_volume),
-      gyration_(body.viscous.surface.gyration),
+    : density_(fluid.density),
       diameter_(body.viscous.surface.diameter),
       area_(body.area),
-      half_volume_(body.volume / 2),
       sharp_share_(body.viscous.sharp_share),
-      frontal_(body.viscous.surface.frontal),
-      moments_(body.viscous.surface.moments) {
+      relative_roughness_(fluid.roughness / diameter_),
+      reynolds_per_speed_(fluid.density * diameter_ / fluid.viscosity),
+      axes_(body.viscous.separation.axes),
+      turn_speed_(1.5 / diameter_ * body.viscous.surface.gyration) {
+  for (int j = 0; j < 3; ++j) projections_[j] = axes_.col(j) * axes_.col(j).transpose();
   const ViscousForm& viscous = body.viscous;
-  resistance_ = {fluid.viscosity * shiftOrigin(viscous.resistance, viscous.centre_of_reaction),
-                 viscous.centre_of_reaction};
-  drag_matrix_ =
-      shiftOrigin(viscous.resistance, viscous.centre_of_reaction).bottomRightCorner<3, 3>();
-  drag_trace_ = drag_matrix_.trace();
+  const Matrix6 at_reaction = shiftOrigin(viscous.resistance, viscous.centre_of_reaction);
+  resistance_ = {fluid.viscosity * at_reaction, viscous.centre_of_reaction};
+  drag_ = at_reaction.bottomRightCorner<3, 3>() / (3 * kPi * diameter_);
+  turn_drag_ = drag_.trace() / 3;
   const double edges = viscous.is_primitive ? 1 : std::max(0.0, 1 - 2 * shape.edges);
   share_ = edges * (1 - shape.wing) * viscous.separation.smooth_base;
   if (!body.drag.isZero(0)) share_.setZero();  // measured drag knows where the flow leaves
   is_smooth_ = !share_.isZero(0);
-  for (int i = 0; i < 3; ++i) {
-    const double a = moments_[(i + 1) % 3], b = moments_[(i + 2) % 3];
-    uneven_[i] = a + b > 0 ? std::abs(a - b) / (a + b) : 0;
-  }
   if (!is_smooth_) return;
+  setTurning(body);
   setWays(body, own_drag);
   const Vector3 masses = symmetricEigen<3>(body.added_mass.bottomRightCorner<3, 3>()).values;
   setTail(body, shape, masses);
+}
+
+void ViscousLaw::setTurning(const FluidBody& body) {
+  const Vector3& m = body.viscous.surface.moments;
+  uneven_.setZero();
+  Vector3 even(1, 1, 1);  // (1 - nu_i)^4
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, l = (i + 2) % 3;
+    const double sum = m[j] + m[l];
+    if (!(sum > 0)) continue;
+    const double uneven = std::abs(m[j] - m[l]) / sum;
+    uneven_(i, j) = uneven * m[l] / sum;
+    uneven_(i, l) = uneven * m[j] / sum;
+    even[i] = square(square(1 - uneven));
+  }
+  spin_mass_ = density_ * body.volume / 2 * axes_ * even.asDiagonal() * axes_.transpose();
 }
 
 void ViscousLaw::setWays(const FluidBody& body, const Vector3& own_drag) {
   constexpr double kBallLaminarFriction = 6.586;
   for (int axis = 0; axis < 3; ++axis) {
     const double chi = share_[axis], own = own_drag[axis];
-    const double drag = axes_.col(axis).dot(drag_matrix_ * axes_.col(axis));
-    const double per_ball = diameter_ * drag * std::sqrt(drag / (3 * kPi * diameter_));
+    const double frontal = body.viscous.surface.frontal[axis];
+    const double drag = 3 * kPi * axes_.col(axis).dot(drag_ * axes_.col(axis));  // R_jj/D_A
+    const double per_ball = square(diameter_) * drag * std::sqrt(drag / (3 * kPi));
     const auto kept = [&](double k) {
       if (!(own > 0)) return 1.0;
       return 1 - chi * (1 - portable::cbrt(std::min(1.0, kSuction * k / own)));
     };
-    for (const int way : {2 * axis, 2 * axis + 1}) {
-      const SeparationWay& of = body.viscous.separation.ways[way];
-      const double beta =
-          3 * of.friction_laminar / kBallLaminarFriction * frontal_[axis] / per_ball;
-      const double layer = beta > 0 ? 0.25 + chi * (3 / (16 * beta) - 0.75) : 0.25;
-      ways_[way] = {square(of.thickness),    of.friction_bubble,
-                    of.friction_turbulent,   layer,
-                    kept(of.wake_laminar),   kept(of.wake_bubble),
-                    kept(of.wake_turbulent), kept(of.wake_rough)};
+    for (const int side : {0, 1}) {
+      const SeparationWay& of = body.viscous.separation.ways[2 * axis + side];
+      const int way = axis + 3 * side;
+      const double beta = 3 * of.friction_laminar / kBallLaminarFriction * frontal / per_ball;
+      thickness_sq_[way] = square(of.thickness);
+      layer_[way] = beta > 0 ? 0.25 + chi * (3 / (16 * beta) - 0.75) : 0.25;
+      laminar_[way] = kept(of.wake_laminar);
+      bubble_[way] = kept(of.wake_bubble);
+      smooth_[way] = kept(of.wake_turbulent);
+      rough_[way] = kept(of.wake_rough);
+      bubble_friction_[way] = frontal * chi * of.friction_bubble;
+      nose_friction_[way] = frontal * chi * of.friction_turbulent;
     }
   }
 }
 
 void ViscousLaw::setTail(const FluidBody& body, const FormShape& shape, const Vector3& masses) {
   if (!shape.isSlender() || !(body.volume > 0)) return;
-  tail_ = 2 * shape.slender.squaredNorm() * ((masses[1] + masses[2]) / 2 - masses[0]) / body.volume;
-  tail_place_ = kTailPlace * std::sqrt(moments_[0]);
+  const ViscousForm& viscous = body.viscous;
+  tail_ = density_ * viscous.surface.frontal[0] * shape.slender.squaredNorm() *
+          ((masses[1] + masses[2]) / 2 - masses[0]) / body.volume;
+  tail_place_ = kTailPlace * std::sqrt(viscous.surface.moments[0]);
   for (const int way : {0, 1}) {
-    const SeparationWay& of = body.viscous.separation.ways[way];
+    const SeparationWay& of = viscous.separation.ways[way];
     tail_ways_[way] = {of.wake_laminar, of.wake_bubble, of.wake_turbulent, of.wake_rough};
   }
-}
-
-double ViscousLaw::wayBlend(const Scalars& s, int axis, double Way::*number) const noexcept {
-  return s.ahead[axis] * (ways_[2 * axis].*number) +
-         (1 - s.ahead[axis]) * (ways_[2 * axis + 1].*number);
 }
 
 ViscousLaw::Scalars ViscousLaw::scalars(const Twist& x) const noexcept {
   Scalars s;
   const Vector3 &w = x.angular, v = x.at(resistance_.centre);
-  const double spin = w.norm();
-  const double by_spin = spin > 0 ? 1.5 * (w / spin).dot(gyration_ * w) / diameter_ : 0;
-  s.speed = hypotenuse(v.norm(), by_spin);
+  const double spin_sq = w.squaredNorm(), turning = w.dot(turn_speed_ * w);
+  const double turn_sq = spin_sq > 0 ? turning / spin_sq * turning : 0;  // u_w^2
+  const double speed_sq = v.squaredNorm() + turn_sq;
+  s.speed = std::sqrt(speed_sq);
   s.moves = s.speed > 0;
   if (!s.moves) return s;
-  s.reynolds = std::min(fluid_.density * diameter_ * s.speed / fluid_.viscosity, kMostReynolds);
-  const Vector3 direction = v / s.speed, e = axes_.transpose() * direction;
-  const double turn_sq = square(by_spin / s.speed);
-  for (int j = 0; j < 3; ++j) {
-    s.along_sq[j] = e[j] * e[j] + turn_sq / 3;
-    s.ahead[j] = (1 + e[j] * (3 - e[j] * e[j]) / 2) / 2;
-  }
-  s.sharp_growth = wakeGrowth(sharp_share_, s.reynolds);
-  s.pressure = (1 + s.sharp_growth) / 2;
+  const double reynolds = std::min(reynolds_per_speed_ * s.speed, kMostReynolds);
+  s.sharp_growth = wakeGrowth(sharp_share_, reynolds);
+  s.pressure = s.munk = (1 + s.sharp_growth) / 2;
   double layer = 0.25;
   if (is_smooth_) {
-    addLayers(s);
-    layer = 0;
-    for (int j = 0; j < 3; ++j) layer += s.along_sq[j] * wayBlend(s, j, &Way::layer);
-  } else if (fluid_.roughness > 0) {
-    s.layers = layerState(0, s.reynolds, fluid_.roughness / diameter_);
+    layer = addLayers(s, reynolds, v / s.speed, turn_sq / speed_sq);
+  } else if (relative_roughness_ > 0) {
+    s.layers = layerState(0, reynolds, relative_roughness_);
   }
-  const double Q = s.reynolds *
-                   (direction.dot(drag_matrix_ * direction) + turn_sq * drag_trace_ / 3) /
-                   (3 * kPi * diameter_);
-  s.h_moving = translationGrowth(Q, layer);
-  s.h_turning = rotationGrowth(s.reynolds);
+  const double Q = reynolds * (v.dot(drag_ * v) + turn_sq * turn_drag_) / speed_sq;
   const double of_smooth = s.smooth * s.layers.turbulent * s.layers.from_nose;
-  const double of_rest = (1 - s.smooth) * square(std::max(0.0, 1 - kPlateTransition / s.reynolds));
-  const double rest = 1 - of_smooth - of_rest;
-  const double power = std::sqrt(s.reynolds) * reynoldsPower(s.reynolds);  // Re^0.3
-  s.l_moving = rest + kPlate * s.layers.roughness * power * of_rest;
-  s.l_turning = rest + kDisc * s.layers.roughness * power * (of_smooth + of_rest);
+  const double of_rest = (1 - s.smooth) * square(std::max(0.0, 1 - kPlateTransition / reynolds));
+  const double laminar = 1 - of_smooth - of_rest;
+  const double rough = s.layers.roughness * std::sqrt(reynolds) * reynoldsPower(reynolds);
+  s.of_moving = (laminar + kPlate * rough * of_rest) * translationGrowth(Q, layer);
+  s.of_turning = (laminar + kDisc * rough * (of_smooth + of_rest)) * rotationGrowth(reynolds);
   return s;
 }
 
-void ViscousLaw::addLayers(Scalars& s) const noexcept {
-  double thickness_sq = 0;
-  for (int j = 0; j < 3; ++j) thickness_sq += s.along_sq[j] * wayBlend(s, j, &Way::thickness_sq);
-  s.layers = layerState(std::sqrt(thickness_sq), s.reynolds, fluid_.roughness / diameter_);
-  const LayerState& layers = s.layers;
-  const double z = reynoldsPower(s.reynolds);
+/// Adds what depends on the state of the layers. Returns the mean of x, eq. (109).
+double ViscousLaw::addLayers(Scalars& s, double reynolds, const Vector3& direction,
+                             double turn_sq) const noexcept {
+  const Vector3 e = axes_.transpose() * direction;
+  const Vector3 along_sq = (e.array().square() + turn_sq / 3).matrix();  // E_j
+  Ways ahead;                                                            // p_+-j
   for (int j = 0; j < 3; ++j) {
-    const auto kept = [&](const Way& way) {
-      return layers.blend(way.laminar, way.bubble, way.smooth, way.rough, 1);
-    };
-    const auto friction = [&](const Way& way) {
-      return layers.turbulent * ((1 - layers.from_nose) * way.bubble_friction +
-                                 layers.from_nose * layers.roughness * way.nose_friction);
-    };
-    const double ahead = s.ahead[j];
-    s.moving[j] = ahead * kept(ways_[2 * j]) + (1 - ahead) * kept(ways_[2 * j + 1]);
-    s.layer_area += z * s.along_sq[j] * frontal_[j] * share_[j] *
-                    (ahead * friction(ways_[2 * j]) + (1 - ahead) * friction(ways_[2 * j + 1]));
+    const double more = e[j] * (3 - e[j] * e[j]) / 4;
+    ahead[j] = 0.5 + more;
+    ahead[3 + j] = 0.5 - more;
   }
-  for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3, l = (i + 2) % 3;
-    const double sum = moments_[j] + moments_[l];
-    if (!(sum > 0)) continue;
-    const double mean = (s.moving[j] * moments_[l] + s.moving[l] * moments_[j]) / sum;
-    s.turning[i] = 1 - uneven_[i] * (1 - mean);
-  }
-  s.smooth = s.along_sq.dot(share_);
+  s.ahead = ahead[0];
+  Ways weights;
+  weights.head<3>() = along_sq.array() * ahead.head<3>();
+  weights.tail<3>() = along_sq.array() * ahead.tail<3>();
+  s.layers = layerState(std::sqrt((weights * thickness_sq_).sum()), reynolds, relative_roughness_);
+  const Ways kept =
+      ahead * s.layers.blend<Ways>(laminar_, bubble_, s.layers.atNose(smooth_, rough_).min(1.0));
+  s.moving = (kept.head<3>() + kept.tail<3>()).matrix();
+  s.turning -= uneven_ * (Vector3::Ones() - s.moving);
+  s.munk *= along_sq.dot(s.moving);
+  s.smooth = along_sq.dot(share_);
+  s.layer_area = reynoldsPower(reynolds) *
+                 s.layers.blend<double>(0, (weights * bubble_friction_).sum(),
+                                        s.layers.roughness * (weights * nose_friction_).sum());
+  return (weights * layer_).sum();
 }
 
 Growth ViscousLaw::growth(const Scalars& s, double power) const noexcept {
-  const double whole = fluid_.density * s.speed * s.speed * s.speed * area_ / 2;
-  const double b = whole > 0 ? std::max(0.0, power) / whole : 0;
-  const double faded = s.l_moving * fadedBy(b, s.sharp_growth);
-  return {std::sqrt(1 + s.l_turning * s.h_turning), std::sqrt(1 + faded * s.h_moving)};
+  const double whole = density_ * s.speed * s.speed * s.speed * area_ / 2;
+  const double faded = fadedBy(power, whole, s.sharp_growth);
+  return {std::sqrt(1 + s.of_turning), std::sqrt(1 + faded * s.of_moving)};
+}
+
+Wrench ViscousLaw::smoothLoad(const Scalars& s, const Vector3& w, const Vector3& v) const noexcept {
+  Wrench load = tailLoad(s, w, v);
+  load.force += spinForce(s, w, v);
+  return load;
 }
 
 Vector3 ViscousLaw::layerForce(const Scalars& s, const Vector3& v) const noexcept {
-  return -fluid_.density / 2 * v.norm() * s.layer_area * v;
+  return -density_ / 2 * v.norm() * s.layer_area * v;
 }
 
 Wrench ViscousLaw::tailLoad(const Scalars& s, const Vector3& w, const Vector3& v) const noexcept {
   if (!(tail_ > 0)) return {};
   const Vector3 axis = axes_.col(0);
   const double along = axis.dot(v);
-  double kept = 0;
-  for (const int way : {0, 1}) {
-    const auto& k = tail_ways_[way];
-    const double share = way == 0 ? s.ahead[0] : 1 - s.ahead[0];
-    constexpr double kNoLimit = 1e300;
-    kept += share * std::min(1.0, std::sqrt(s.layers.blend(k[0], k[1], k[2], k[3], kNoLimit)));
-  }
-  const double slope = tail_ * (kTailLost + (1 - kTailLost) * kept);
+  const auto kept = [&](const std::array<double, 4>& k) {
+    return std::min(1.0, std::sqrt(s.layers.blend(k[0], k[1], s.layers.atNose(k[2], k[3]))));
+  };
+  const double mean = s.ahead * kept(tail_ways_[0]) + (1 - s.ahead) * kept(tail_ways_[1]);
+  const double slope = tail_ * (kTailLost + (1 - kTailLost) * mean);
   const Vector3 place = (along > 0 ? -tail_place_ : tail_place_) * axis;
   Vector3 there = v + w.cross(place);
   there -= axis.dot(there) * axis;
-  return Wrench::ofForceAt(
-      -s.pressure * fluid_.density / 2 * frontal_[0] * slope * std::abs(along) * there, place);
+  return Wrench::ofForceAt(-s.pressure * slope * std::abs(along) * there, place);
 }
 
 Vector3 ViscousLaw::spinForce(const Scalars& s, const Vector3& w, const Vector3& v) const noexcept {
-  const Vector3 across = w.cross(v);
-  const double speed = v.norm(), across_size = across.norm();
-  if (!(s.smooth > 0) || !(across_size > 0) || !(speed > 0)) return {0, 0, 0};
-  const double S = diameter_ / 2 * (across_size / speed) / speed;
+  const double across_sq = w.cross(v).squaredNorm(), speed_sq = v.squaredNorm();
+  if (!(across_sq > 0) || !(speed_sq > 0)) return {0, 0, 0};
+  const double S = diameter_ / 2 * (std::sqrt(across_sq) / speed_sq);
   const SpinLift of = spinLift(S, s.layers);
   constexpr double kLeastSpin = 1e-4;
   const double crisis = S > kLeastSpin ? 0.75 * of.crisis / S : 0;
   const double lambda = 0.75 * of.fresh - crisis;
-  Vector3 even;
-  for (int i = 0; i < 3; ++i) even[i] = s.smooth * square(square(1 - uneven_[i]));
-  const Vector3 spin = axes_ * even.cwiseProduct(axes_.transpose() * w);
-  const Vector3 fresh = fluid_.density * half_volume_ * spin.cross(v);
-  const Vector3 lift = lambda * fresh;
-  const double drag = kLiftDrag * lift.squaredNorm() / (fluid_.density / 8 * area_ * speed * speed);
-  return (lambda - 1) * fresh - drag / speed * v;
+  const Vector3 fresh = s.smooth * (spin_mass_ * w).cross(v);
+  const double drag = kLiftDrag * square(lambda) * fresh.squaredNorm() /
+                      (density_ / 8 * area_ * speed_sq * std::sqrt(speed_sq));
+  return (lambda - 1) * fresh - drag * v;
 }
 
 Resistance ballResistance(double radius, double viscosity) noexcept {
@@ -299,42 +287,41 @@ Resistance ballResistance(double radius, double viscosity) noexcept {
 BallLoad computeBallLoad(double radius, const ViscousFluid& fluid, const Twist& x) noexcept {
   BallLoad load;
   const Vector3 &w = x.angular, &v = x.linear;
-  const double speed = v.norm(), U = hypotenuse(speed, radius * w.norm() / 2);
+  const double speed_sq = v.squaredNorm(), speed = std::sqrt(speed_sq);
+  const double U = std::sqrt(speed_sq + square(radius / 2) * w.squaredNorm());
   if (!(U > 0)) {
     if (fluid.viscosity > 0) load.growth = kCreeping;
     return load;
   }
   const double section = kPi * radius * radius;
   LayerState layers;
-  double g = 1, friction = 0;
+  double g = 1, friction = 0, suction3 = 1;
   if (fluid.viscosity > 0) {
     const double diameter = 2 * radius;
     const double reynolds = std::min(fluid.density * diameter * U / fluid.viscosity, kMostReynolds);
     layers = layerState(kBallThickness, reynolds, fluid.roughness / diameter);
     g = wakeGrowth(0, reynolds);
-    load.suction = layers.blend(1, kBallBubble, kBallSmooth, kBallRough, 1);
+    load.suction =
+        layers.blend(1.0, kBallBubble, std::min(1.0, layers.atNose(kBallSmooth, kBallRough)));
+    suction3 = square(load.suction) * load.suction;
     const double z = reynoldsPower(reynolds), of_nose = layers.turbulent * layers.from_nose;
-    friction = z * (layers.turbulent * (1 - layers.from_nose) * kBallBubbleFriction +
-                    of_nose * layers.roughness * kBallNoseFriction);
-    const double b = square(load.suction) * load.suction * square(speed / U) * (speed / U) / 8;
+    friction = z * layers.blend(0.0, kBallBubbleFriction, layers.roughness * kBallNoseFriction);
+    const double faded = fadedBy(suction3 * speed_sq * speed, 8 * U * U * U, g);
     const double l_turning =
         1 - of_nose + kDisc * layers.roughness * std::sqrt(reynolds) * z * of_nose;
-    const double l_moving = (1 - of_nose) * fadedBy(b, g);
     load.growth = {std::sqrt(1 + l_turning * rotationGrowth(reynolds)),
-                   std::sqrt(1 + l_moving * translationGrowth(reynolds, 0.25))};
+                   std::sqrt(1 + (1 - of_nose) * faded * translationGrowth(reynolds, 0.25))};
   }
   load.share = (1 + g) / 2;
-  if (!(speed > 0)) return load;
   const double dynamic = fluid.density / 2 * section * speed;
   const Vector3 across = w.cross(v);
-  const double S = radius * (across.norm() / speed) / speed;
-  const SpinLift of = spinLift(S, layers);
-  // C_L v^2 (w x v)/|w x v|, as C_L = S (fresh) - crisis.
-  const double per_spin = S > 0 ? of.crisis / S : 0;
-  const double lift = (of.fresh - per_spin) * S;
-  load.whole =
-      dynamic * (radius * (of.fresh - per_spin) / speed * across - kLiftDrag * lift * lift * v);
-  const double suction3 = load.suction * load.suction * load.suction;
+  const double across_sq = across.squaredNorm();
+  if (across_sq > 0 && speed_sq > 0) {
+    const double S = radius * (std::sqrt(across_sq) / speed_sq);
+    const SpinLift of = spinLift(S, layers);
+    const double slope = of.fresh - of.crisis / S;  // C_L/S
+    load.whole = dynamic * (radius * slope / speed * across - kLiftDrag * square(slope * S) * v);
+  }
   load.pressure.force = -dynamic * load.share * suction3 / 2 * v + load.whole;
   load.layer.force = -dynamic * friction * v;
   return load;

@@ -24,8 +24,16 @@ struct LayerState {
   double growth = 0;  ///< min(sqrt(r) - 1, 1.5): between the smooth and the rough wake of k_1, k_4
   double onset = 0;   ///< X of eq. (104), 1 in the middle of the crisis
 
-  /// Blends values of the four states: laminar, bubble, smooth and rough.
-  double blend(double laminar, double bubble, double smooth, double rough, double most) const;
+  /// Blends values of the states: laminar, from a bubble on, from the nose on.
+  template <class Value>
+  Value blend(const Value& laminar, const Value& bubble, const Value& nose) const {
+    return (1 - turbulent) * laminar + turbulent * ((1 - from_nose) * bubble + from_nose * nose);
+  }
+  /// Blends values of the nose's state on a smooth and on a rough surface.
+  template <class Value>
+  Value atNose(const Value& smooth, const Value& rough) const {
+    return smooth + growth * (rough - smooth);
+  }
 };
 
 /// Computes the state. `thickness`: N; Re on D_A; relative_roughness: k/D_A.
@@ -39,65 +47,69 @@ class ViscousLaw {
   ViscousLaw(const FluidBody& body, const FormShape& shape, const Vector3& own_drag,
              const ViscousFluid& fluid);
 
-  /// Axes q_j of all scalars, in columns.
-  const Matrix3& axes() const { return axes_; }
+  /// Returns the matrix that scales by s_j along the axes q_j.
+  Matrix3 scaling(const Vector3& s) const {
+    return s[0] * projections_[0] + s[1] * projections_[1] + s[2] * projections_[2];
+  }
   const Resistance& resistance() const { return resistance_; }
   /// True if some of the base separates from a smooth surface; else S = 1 in every motion.
   bool isSmooth() const { return is_smooth_; }
 
   struct Scalars {
-    bool moves = false;   ///< false: no load
-    double speed = 0;     ///< U [m/s]
-    double reynolds = 0;  ///< on D_A and U
+    bool moves = false;  ///< false: no load
+    double speed = 0;    ///< U [m/s]
     LayerState layers;
-    Vector3 along_sq{0, 0, 0};           ///< E_j, sum 1
-    Vector3 ahead{0, 0, 0};              ///< p_+j: share of the numbers of the way +q_j
-    Vector3 turning{1, 1, 1};            ///< of S, about q_j
-    Vector3 moving{1, 1, 1};             ///< s_j of S, along q_j
-    double pressure = 1;                 ///< c
-    double smooth = 0;                   ///< chi, share of the smooth base
-    double layer_area = 0;               ///< X of eq. (114) [m^2]
-    double sharp_growth = 0;             ///< g
-    double h_turning = 0, h_moving = 0;  ///< h_r, h_t
-    double l_turning = 1, l_moving = 1;  ///< l_r, and l_t but for its factor of b
+    double ahead = 0;          ///< p_+1: share of the numbers of the way +q_1
+    Vector3 turning{1, 1, 1};  ///< of S, about q_j
+    Vector3 moving{1, 1, 1};   ///< s_j of S, along q_j
+    double pressure = 1;       ///< c
+    double munk = 1;           ///< factor of eq. (118) on the loss of Munk's moment
+    double smooth = 0;         ///< chi, share of the smooth base
+    double layer_area = 0;     ///< Re^(-1/5) times the sum in eq. (114) [m^2]
+    double sharp_growth = 0;   ///< g
+    double of_turning = 0;     ///< l_r h_r
+    double of_moving = 0;      ///< l_t h_t, but for the factor of b in l_t
   };
   /// Computes the scalars of a motion: w, and v at F's origin, relative to the fluid, in F.
   Scalars scalars(const Twist& x) const noexcept;
   /// Lambda of eq. (113); `power`: -F_P.x of the pressure [W], eq. (111).
   Growth growth(const Scalars& s, double power) const noexcept;
-  /// Friction of the smooth share's layer, eq. (114), about O for the velocity there.
+  /// What only smooth bodies have, about O for the motion there: c times the lift of the tail, eq.
+  /// (115), and its drag; what eq. (116) and (117) add to the lift of the rotation (47).
+  Wrench smoothLoad(const Scalars& s, const Vector3& w, const Vector3& v) const noexcept;
+  /// Friction of the smooth share's layer, eq. (114), at O for the velocity there.
   Vector3 layerForce(const Scalars& s, const Vector3& v) const noexcept;
-  /// c times the lift of the tail, eq. (115), and its drag. About O, for the motion there.
-  Wrench tailLoad(const Scalars& s, const Vector3& w, const Vector3& v) const noexcept;
-  /// What eq. (116) and (117) add to the lift of the rotation (47) at O: less lift, more drag.
-  Vector3 spinForce(const Scalars& s, const Vector3& w, const Vector3& v) const noexcept;
-  /// Factor of eq. (118) on the loss of Munk's moment.
-  double munkShare(const Scalars& s) const { return s.pressure * s.along_sq.dot(s.moving); }
 
  private:
-  /// Numbers of one way along an axis that a step needs.
-  struct Way {
-    double thickness_sq, bubble_friction, nose_friction;
-    double layer;                           ///< x of eq. (107)
-    double laminar, bubble, smooth, rough;  ///< sigma of eq. (106)
-  };
+  /// Numbers of both ways along the axes: +q_1, +q_2, +q_3, -q_1, -q_2, -q_3.
+  using Ways = Eigen::Array<double, 6, 1, Eigen::DontAlign>;
+
+  void setTurning(const FluidBody& body);
   void setWays(const FluidBody& body, const Vector3& own_drag);
   void setTail(const FluidBody& body, const FormShape& shape, const Vector3& masses);
-  void addLayers(Scalars& s) const noexcept;
-  double wayBlend(const Scalars& s, int axis, double Way::*number) const noexcept;
+  double addLayers(Scalars& s, double reynolds, const Vector3& direction,
+                   double turn_sq) const noexcept;
+  Wrench tailLoad(const Scalars& s, const Vector3& w, const Vector3& v) const noexcept;
+  Vector3 spinForce(const Scalars& s, const Vector3& w, const Vector3& v) const noexcept;
 
-  ViscousFluid fluid_;
-  Matrix3 axes_;
-  Vector3 centre_;
+  double density_, diameter_, area_, sharp_share_, relative_roughness_;
+  double reynolds_per_speed_;  ///< [s/m]
+  Matrix3 axes_;               ///< q_j of all scalars, in columns
+  Matrix3 projections_[3];     ///< q_j q_j^T
   Resistance resistance_;
-  Matrix3 gyration_, drag_matrix_;  ///< G, R_vv
-  double diameter_, area_, half_volume_, sharp_share_, drag_trace_;
-  Vector3 frontal_, moments_;
-  Vector3 share_{0, 0, 0};   ///< chi_j
-  Vector3 uneven_{0, 0, 0};  ///< nu_i
+  Matrix3 turn_speed_;      ///< 3 G/(2 D_A) [m]
+  Matrix3 drag_;            ///< R_vv/(3 pi D_A)
+  double turn_drag_;        ///< a third of its trace
+  Vector3 share_{0, 0, 0};  ///< chi_j
   bool is_smooth_ = false;
-  std::array<Way, 6> ways_{};
-  double tail_ = 0, tail_place_ = 0;                  ///< C_t0, x_t [m]
+
+  // Of smooth bodies.
+  Ways thickness_sq_, layer_;               ///< N^2, x of eq. (107)
+  Ways laminar_, bubble_, smooth_, rough_;  ///< sigma of eq. (106)
+  Ways bubble_friction_, nose_friction_;    ///< A_j chi_j f_B, A_j chi_j f_T of eq. (114) [m^2]
+  Matrix3 uneven_;                          ///< nu_i times the weights of s_j in eq. (108)
+  Matrix3 spin_mass_;                       ///< rho V/2 diag((1 - nu_i)^4) in F [kg]
+  double tail_ = 0, tail_place_ = 0;        ///< rho/2 A_1 C_t0 [kg/m], x_t [m]
   std::array<std::array<double, 4>, 2> tail_ways_{};  ///< k_L, k_B, k_1, k_4 of +-q_1
 };
 

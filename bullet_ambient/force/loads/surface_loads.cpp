@@ -6,6 +6,7 @@
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/force/law/form_law.h"
+#include "bullet_ambient/force/law/viscous_law.h"
 #include "bullet_ambient/force/loads/face_loads.h"
 #include "bullet_ambient/force/loads/load_tables.h"
 #include "bullet_ambient/force/loads/unit_sphere.h"
@@ -172,17 +173,18 @@ class FormLoads final : public ViscousLoads {
  protected:
   Parts compute(const Twist& x, const WetPart* wet) const noexcept override {
     const double share = wet ? wet->share : 1;
-    if (!law_) return {drag_.scaled(onFaces(x, wet), x) + share * lift_.load(x, density_), {}, {}};
+    const Vector3 &w = x.angular, v = x.at(centre_);
+    if (!law_)
+      return {
+          drag_.scaled(onFaces(x, wet), x) + share * atCentre(lift_.load(w, v, density_)), {}, {}};
     const ViscousLaw::Scalars s = law_->scalars(x);
     if (!s.moves) return {{}, {}, resistance_ ? inWater(kCreeping, wet) : Growth{}};
-    const Wrench on_faces = drag_.scaled(pressure(s, x, wet), x);
-    const Vector3 &w = x.angular, v = x.at(centre_);
-    Wrench whole = law_->tailLoad(s, w, v);
-    whole.force += law_->spinForce(s, w, v);
-    whole = atCentre(whole) + lift_.load(x, density_, law_->munkShare(s));
-    Parts parts{s.pressure * on_faces + share * whole, {}, {}};
+    const Wrench on_faces = drag_.scaled(pressure(s, x, v, wet), x);
+    Wrench whole = lift_.load(w, v, density_, s.munk);
+    if (law_->isSmooth()) whole += law_->smoothLoad(s, w, v);
+    Parts parts{s.pressure * on_faces + share * atCentre(whole), {}, {}};
     if (!resistance_) return parts;
-    parts.layer = share * atCentre({Vector3::Zero(), law_->layerForce(s, v)});
+    if (law_->isSmooth()) parts.layer = share * atCentre({Vector3::Zero(), law_->layerForce(s, v)});
     parts.growth = inWater(law_->growth(s, share > 0 ? -power(on_faces, x) / share : 0), wet);
     return parts;
   }
@@ -194,13 +196,12 @@ class FormLoads final : public ViscousLoads {
   Wrench atCentre(const Wrench& about) const noexcept {
     return {about.torque + centre_.cross(about.force), about.force};
   }
-  /// F_P of eq. (111): S P(S x), with S about the centre of volume in the axes q_j.
-  Wrench pressure(const ViscousLaw::Scalars& s, const Twist& x, const WetPart* wet) const noexcept {
+  /// F_P of eq. (111): S P(S x), with S about the centre of volume in the axes q_j. `v`: there.
+  Wrench pressure(const ViscousLaw::Scalars& s, const Twist& x, const Vector3& v,
+                  const WetPart* wet) const noexcept {
     if (!law_->isSmooth()) return onFaces(x, wet);
-    const Matrix3& axes = law_->axes();
-    const Matrix3 turning = axes * s.turning.asDiagonal() * axes.transpose();
-    const Matrix3 moving = axes * s.moving.asDiagonal() * axes.transpose();
-    Twist seen{turning * x.angular, moving * x.at(centre_)};
+    const Matrix3 turning = law_->scaling(s.turning), moving = law_->scaling(s.moving);
+    Twist seen{turning * x.angular, moving * v};
     seen.linear -= seen.angular.cross(centre_);
     const Wrench load = onFaces(seen, wet);
     return atCentre({turning * (load.torque - centre_.cross(load.force)), moving * load.force});

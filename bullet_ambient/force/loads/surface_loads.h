@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "bullet_ambient/force/law/flow_settings.h"
-#include "bullet_ambient/force/law/viscous_law.h"
+#include "bullet_ambient/force/law/resistance.h"
 #include "bullet_ambient/force/loads/face_loads.h"
 #include "bullet_ambient/force/medium/medium.h"
 #include "bullet_ambient/force/medium/surface_plane.h"

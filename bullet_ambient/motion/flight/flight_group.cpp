@@ -33,11 +33,10 @@ void setResistance(BodyLanes& lanes, int body, const Resistance* resistance,
   const bool is_viscous = resistance && growth.translation > 0;
   lanes.is_viscous[body] = is_viscous ? 1 : 0;
   if (lanes.has_diagonal_inertia) {
-    for (int i = 0; i < 6; ++i) {
-      const double root = i < 3 ? growth.rotation : growth.translation;
+    const double roots[2] = {growth.rotation, growth.translation};
+    for (int i = 0; i < 6; ++i)
       lanes.resistance[symmetricEntry(i, i)][body] =
-          is_viscous ? resistance->matrix(i, i) * root * root : 0;
-    }
+          is_viscous ? resistance->matrix(i, i) * roots[i / 3] * roots[i / 3] : 0;
     return;
   }
   setSymmetric(lanes.resistance, body,

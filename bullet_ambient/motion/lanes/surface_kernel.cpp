@@ -128,22 +128,21 @@ void keepLoad(SurfaceLanes& bodies, int at, const Mask& active) {
   const Pairs x = motionOf(flight, at);
   const Pairs response{FullMatrices(flight.inverse_inertia, at) * load_B, load_B};
   const Pairs kicked = passiveKick(x, x, response, halfKick(flight, at));
-  setTwist(flight, at, active,
-           underResistance<FullMatrices>(flight, at, kicked, halfKick(flight, at)).twist);
+  setTwist(flight, at, active, underResistance(flight, at, kicked, halfKick(flight, at)).twist);
 }
 
 void predictLoad(SurfaceLanes& bodies, int at, const Mask&) {
   FlightLanes& flight = bodies.flight;
   store6(flight.guess_B, at, toBody(orientationOf(flight, at), load6(flight.load_W, at)));
   const Lanes time = halfKick(flight, at);
-  const Pairs x = underResistance<FullMatrices>(flight, at, motionOf(flight, at), time);
+  const Pairs x = underResistance(flight, at, motionOf(flight, at), time);
   sampleLoad<FullMatrices>(flight, at, x, time, false);
 }
 
 void takeLoad(SurfaceLanes& bodies, int at, const Mask& active) {
   FlightLanes& flight = bodies.flight;
   const Lanes time = halfKick(flight, at);
-  const Pairs x = underResistance<FullMatrices>(flight, at, motionOf(flight, at), time);
+  const Pairs x = underResistance(flight, at, motionOf(flight, at), time);
   setTwist(flight, at, active, underLoad<FullMatrices>(flight, at, active, x, time, false).twist);
 }
 

@@ -75,16 +75,15 @@ class Settling {
  public:
   Settling(const SymmetricOf<Real>& inertia, const SymmetricOf<Real>& inverse,
            const SymmetricOf<Real>& resistance)
-      : K_(inertia), inverse_(inverse), C_(resistance) {
+      : K_(inertia), C_(resistance) {
     for (int j = 0; j < 6; ++j) {
-      const SpatialsOf<Real> column = C_ * (inverse_ * columnOf(C_, j));
+      const SpatialsOf<Real> column = C_ * (inverse * columnOf(C_, j));
       const Real entries[6] = {column.angular.x, column.angular.y, column.angular.z,
                                column.linear.x,  column.linear.y,  column.linear.z};
       for (int i = 0; i <= j; ++i) entry(square_, i, j) = entries[i];
     }
   }
   SpatialsOf<Real> ofInertia(const SpatialsOf<Real>& x) const { return K_ * x; }
-  SpatialsOf<Real> ofInverse(const SpatialsOf<Real>& f) const { return inverse_ * f; }
   SpatialsOf<Real> drag(const SpatialsOf<Real>& x) const { return C_ * x; }
   /// Returns (a K + b C + c C K^-1 C)^-1 f.
   SpatialsOf<Real> solve(const Real& a, const Real& b, const Real& c,
@@ -102,7 +101,6 @@ class Settling {
   }
 
   const SymmetricOf<Real>& K_;
-  const SymmetricOf<Real>& inverse_;
   const SymmetricOf<Real>& C_;
   SymmetricOf<Real> square_;  // C K^-1 C
 };
@@ -114,7 +112,6 @@ class DiagonalSettling {
                    const DiagonalMatrices& resistance)
       : K_(inertia), inverse_(inverse), C_(resistance) {}
   Spatials ofInertia(const Spatials& x) const { return K_ * x; }
-  Spatials ofInverse(const Spatials& f) const { return inverse_ * f; }
   Spatials drag(const Spatials& x) const { return C_ * x; }
   Spatials solve(const Lanes& a, const Lanes& b, const Lanes& c, const Spatials& f) const {
     const auto of = [&](int i, const Lanes& y) {
@@ -146,20 +143,25 @@ inline PairsOf<Real> noWrench() {
   return {{zero, zero}, {zero, zero}};
 }
 
-/// V of eq. (120): the motion x after `duration` t [s] under the wrench f, the resistance C and a
-/// drag q K x, implicitly. Exact in the steady state, never turns the motion round, and without f
-/// only takes energy, for any t. `fall`: pair t K^-1 f, t f; q [1/s], >= 0.
+/// V of eq. (120) for the momentum K x of a motion x, after `duration` t [s] under the resistance C
+/// and a drag q K x, implicitly: never turns the motion round, and only takes energy, for any t.
+/// q [1/s], >= 0.
+template <class Real, class Terms>
+inline PairsOf<Real> settle(const SpatialsOf<Real>& momentum, const Terms& terms, const Real& q,
+                            const Real& duration) {
+  const Real tq = duration * q;
+  const SpatialsOf<Real> twist = terms.solve(1 + tq + 0.5 * tq * tq, duration + duration * tq,
+                                             0.5 * duration * duration, momentum);
+  return {twist, terms.ofInertia(twist)};
+}
+
+/// The same under a wrench f, too: exact in the steady state. `fall`: pair t K^-1 f, t f.
 template <class Real, class Terms>
 inline PairsOf<Real> settle(const PairsOf<Real>& x, const PairsOf<Real>& fall, const Terms& terms,
                             const Real& q, const Real& duration) {
-  const Real half = 0.5 * duration, tq = duration * q;
-  const SpatialsOf<Real> drag = duration * terms.drag(x.twist);
-  const SpatialsOf<Real> push = fall.momentum - drag - tq * x.momentum;
-  const SpatialsOf<Real> response = fall.twist - terms.ofInverse(drag) - tq * x.twist;
-  const SpatialsOf<Real> right = (1 + 0.5 * tq) * push + half * terms.drag(response);
-  const SpatialsOf<Real> change =
-      terms.solve(1 + tq + 0.5 * tq * tq, duration + duration * tq, half * duration, right);
-  return {x.twist + change, x.momentum + terms.ofInertia(change)};
+  const Real half = 0.5 * duration;
+  return settle(x.momentum + ((1 + half * q) * fall.momentum + half * terms.drag(fall.twist)),
+                terms, q, duration);
 }
 
 /// q of eq. (121) over half a kick of `duration` [s].

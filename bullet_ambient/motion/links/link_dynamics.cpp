@@ -51,6 +51,19 @@ InertiaBlocks blocksOf(const Matrix6& matrix) {
           matrixOf(matrix.bottomRightCorner<3, 3>())};
 }
 
+Wrench product(const InertiaBlocks& I, const Twist& x) {
+  const AxisRow(&J)[3] = I.rotation.column, (&C)[3] = I.coupling.column,
+        (&M)[3] = I.translation.column;
+  AxisRow torque{}, force{};
+  for (int j = 0; j < 3; ++j) {
+    torque.at += x.angular[j] * J[j].at + x.linear[j] * C[j].at;
+    force.at += x.linear[j] * M[j].at;
+  }
+  const Vector3 v = x.angular;
+  return {vectorOf(torque), vectorOf(force) + Vector3(vectorOf(C[0]).dot(v), vectorOf(C[1]).dot(v),
+                                                      vectorOf(C[2]).dot(v))};
+}
+
 LinkDynamics::LinkDynamics(const LinkTree& tree) : tree_(tree), kernel_(*kLinkKernels.fastest()) {
   checkTree(tree);
   coordinates_ = coordinateCount(tree);
@@ -143,11 +156,8 @@ Wrench LinkDynamics::appliedWrench(int link) const noexcept {
   return {applied.torque + R * damping.torque, applied.force + R * damping.force};
 }
 
-bool LinkDynamics::factor(const std::vector<double>* drag,
-                          const std::vector<InertiaBlocks>* resistance) noexcept {
-  AMBIENT_ASSERT(!drag || drag->size() == links_.size());
-  const bool is_positive = kernel_.articulate(links_.data(), count(), drag ? drag->data() : nullptr,
-                                              resistance ? resistance->data() : nullptr);
+bool LinkDynamics::factor(const KickTerms* kick) noexcept {
+  const bool is_positive = kernel_.articulate(links_.data(), count(), kick);
   if (links_[0].is_kept) return is_positive;
   base_ = factorsOf(links_[0].articulated);
   return is_positive && base_.isPositive();

@@ -10,8 +10,9 @@ namespace ambient {
 inline Vector3 vectorOf(const AxisRow& a) { return {a.at[0], a.at[1], a.at[2]}; }
 inline Wrench wrenchOf(const AxisPair& f) { return {vectorOf(f.angular), vectorOf(f.linear)}; }
 
-/// Blocks of a symmetric matrix.
+/// Blocks of a symmetric matrix, and its product with a twist.
 InertiaBlocks blocksOf(const Matrix6& matrix);
+Wrench product(const InertiaBlocks& matrix, const Twist& x);
 
 /// Equations of motion of a tree at one pose, docs/theory.md eq. (76) to (79):
 ///
@@ -52,11 +53,9 @@ class LinkDynamics {
   Vector3 position(int link) const { return vectorOf(links_[link].position_W); }
 
   /// Factors H by articulated inertias, eq. (79), for accelerations and responses. Returns false if
-  /// H is not positive definite or not finite. Cost: O(links). With a `drag_l` >= 0 for each link
-  /// [1], and perhaps a matrix C_l, factors M = sum J_l^T ((1 + drag_l) K_l + C_l) J_l of eq. (81)
-  /// and (123) in place of H.
-  bool factor(const std::vector<double>* drag = nullptr,
-              const std::vector<InertiaBlocks>* resistance = nullptr) noexcept;
+  /// H is not positive definite or not finite. Cost: O(links). With the terms of a kick factors
+  /// M = sum J_l^T ((1 + drag_l) K_l + h C_l) J_l of eq. (81) and (123) in place of H.
+  bool factor(const KickTerms* kick = nullptr) noexcept;
 
   /// Returns an estimate of normSquared() from diagonals of the factor, within its order of
   /// magnitude, at almost no cost [J]. @pre factor()

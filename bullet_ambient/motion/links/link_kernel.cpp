@@ -302,16 +302,18 @@ bool takeOutJoint(LinkState& link, InertiaBlocks& I) {
   return is_positive;
 }
 
-bool articulate(LinkState* links, int count, const double* drag,
-                const InertiaBlocks* resistance) noexcept {
+bool articulate(LinkState* links, int count, const KickTerms* kick) noexcept {
   for (int l = 0; l < count; ++l) {
     const InertiaBlocks& K = links[l].inertia;
     InertiaBlocks& M = links[l].articulated;
-    const double s = drag ? 1 + drag[l] : 1;
+    M = K;
+    if (!kick) continue;
+    const double s = 1 + kick->drags[l], h = kick->h;
     M = {s * K.rotation, s * K.coupling, s * K.translation};
-    if (!resistance) continue;
-    const InertiaBlocks& C = resistance[l];
-    M = {M.rotation + C.rotation, M.coupling + C.coupling, M.translation + C.translation};
+    if (!kick->resistance) continue;
+    const InertiaBlocks& C = kick->resistance[l];
+    M = {M.rotation + h * C.rotation, M.coupling + h * C.coupling,
+         M.translation + h * C.translation};
   }
   bool is_positive = true;
   for (int l = count - 1; l > 0; --l) {

@@ -25,6 +25,13 @@ struct InertiaBlocks {
   AxisMatrix rotation, coupling, translation;
 };
 
+/// What a kick of h [s] has besides the inertias of the links, docs/theory.md eq. (81) and (123).
+struct KickTerms {
+  const double* drags;              ///< drag_l >= 0 of each link [1]
+  const InertiaBlocks* resistance;  ///< C_l of each link; null: all zero
+  double h;
+};
+
 /// State of one link. Vectors are in the link's frame unless their names end in _W.
 struct LinkState {
   int parent = -1;
@@ -97,11 +104,10 @@ struct LinkKernel {
   double (*norm)(const LinkState* links, int count) noexcept;
   /// Adds f of each link to its parent's, and writes the generalized forces sum J_l^T f_l.
   void (*sumForces)(LinkState* links, int count, double* force) noexcept;
-  /// Takes the joints out of the sum of J_l^T ((1 + drag_l) K_l + C_l) J_l, eq. (79), (123); `drag`
-  /// null: all zero, and so are resistances C_l. What is left is LinkState::articulated of the
-  /// base. Returns false if the part of a joint is not positive definite.
-  bool (*articulate)(LinkState* links, int count, const double* drag,
-                     const InertiaBlocks* resistance) noexcept;
+  /// Takes the joints out of the sum of J_l^T ((1 + drag_l) K_l + h C_l) J_l, eq. (79), (123);
+  /// `kick` null: of J_l^T K_l J_l. What is left is LinkState::articulated of the base. Returns
+  /// false if the part of a joint is not positive definite.
+  bool (*articulate)(LinkState* links, int count, const KickTerms* kick) noexcept;
   /// Sets LinkState::articulated of the base to the inertia of the tree with its joints held.
   /// Overwrites that of the other links, and keeps all else that articulate() has set.
   void (*holdJoints)(LinkState* links, int count) noexcept;

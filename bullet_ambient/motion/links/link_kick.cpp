@@ -52,6 +52,7 @@ void LinkKick::sampleAll(LinkDynamics& dynamics, const CoordinatesIn& u,
     Sample& sample = samples_[l];
     const Sample last = sample;
     sample = {};
+    resistances_[l] = {};
     const Link& link = tree_.links[l];
     if (!isLoaded(link)) continue;
     const Twist y = dynamics.relativeTwist(l);
@@ -60,6 +61,7 @@ void LinkKick::sampleAll(LinkDynamics& dynamics, const CoordinatesIn& u,
     if (link.model->resistance && found.growth.translation > 0) {
       sample.growth = found.growth;
       sample.settling = found.growth.translation * found.growth.translation * link.model->settling;
+      resistances_[l] = blocksOf(link.model->resistance->grown(found.growth));
       has_resistance_ = true;
     }
     const Wrench momentum = dynamics.relativeMomentum(l);
@@ -133,19 +135,6 @@ double LinkKick::error(LinkDynamics& dynamics, double h) noexcept {
   return motion > 0 ? h * std::sqrt(dynamics.normSquared(change_) / motion) : 0;
 }
 
-Matrix6 LinkKick::resistanceOf(int link) const noexcept {
-  return tree_.links[link].model->resistance->grown(samples_[link].growth);
-}
-
-void LinkKick::resist(const LinkDynamics& dynamics, int link, double h) noexcept {
-  if (!has_resistance_) return;
-  resistances_[link] = {};
-  if (!(samples_[link].growth.translation > 0)) return;
-  const Matrix6 C = h * resistanceOf(link);
-  resistances_[link] = blocksOf(C);
-  drag_impulses_[link] -= Wrench::fromVector(C * dynamics.relativeTwist(link).vector());
-}
-
 bool LinkKick::isStiff(double h) const noexcept {
   for (int l = 0; l < tree_.size(); ++l) {
     const Link& link = tree_.links[l];
@@ -171,9 +160,11 @@ void LinkKick::kick(LinkDynamics& dynamics, double h, CoordinatesOut u,
       drag_impulses_[l] = -drags_[l] * momentum;
       lift_impulses_[l] = h * ratio * ratio * sample.lift;
     }
-    resist(dynamics, l, h);
+    if (sample.growth.translation > 0)
+      drag_impulses_[l] -= h * product(resistances_[l], dynamics.relativeTwist(l));
   }
-  dynamics.factor(&drags_, has_resistance_ ? &resistances_ : nullptr);
+  const KickTerms terms{drags_.data(), has_resistance_ ? resistances_.data() : nullptr, h};
+  dynamics.factor(&terms);
   dynamics.respond(drag_impulses_, change_);
   u += change_;
   if (force) {

@@ -63,15 +63,12 @@ class LinkKick {
   template <class LoadOn>
   void sampleAll(LinkDynamics& dynamics, const CoordinatesIn& u, const LoadOn& load_on) noexcept;
   void applyLift(LinkDynamics& dynamics, CoordinatesOut u) noexcept;
-  Matrix6 resistanceOf(int link) const noexcept;
-  /// Adds the resistance of a link over h [s] to its impulse and to the matrix of the kick.
-  void resist(const LinkDynamics& dynamics, int link, double h) noexcept;
 
   const LinkTree& tree_;
   std::vector<Sample> samples_;
   std::vector<double> drags_;
   std::vector<Wrench> drag_impulses_, lift_impulses_, surprises_;
-  std::vector<InertiaBlocks> resistances_;  ///< h C of the links
+  std::vector<InertiaBlocks> resistances_;  ///< C of the links at the last sample
   bool has_resistance_ = false;             ///< a link of the last sample has one
   Coordinates change_, flow_;
 };
