@@ -7,7 +7,7 @@
 
 #include "tests/demos/scene/scene_text.h"
 #include "tests/support/run_program.h"
-#include "tests/support/text_files.h"
+#include "tests/support/temporary_folder.h"
 
 namespace ambient {
 namespace {

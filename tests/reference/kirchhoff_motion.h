@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "tests/reference/elliptic.h"
+#include "tests/reference/ellipsoid_added_mass.h"
 
 namespace ambient::reference {
 

@@ -9,7 +9,6 @@
 #include "preprocess/base/fluid_body_writer.h"
 #include "tests/bullet_ambient/fluid_body/example_body.h"
 #include "tests/support/temporary_folder.h"
-#include "tests/support/text_files.h"
 
 namespace ambient {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "bullet_ambient/force/medium/waves.h"
-#include "tests/demos/scene/scene_refusals.h"
+#include "tests/demos/scene/scene_text.h"
 
 namespace ambient {
 namespace {

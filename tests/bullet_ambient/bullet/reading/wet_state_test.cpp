@@ -6,7 +6,7 @@
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/force/medium/waves.h"
 #include "tests/bullet_ambient/bullet/regions/region_world.h"
-#include "tests/bullet_ambient/bullet/robots/robot_fixture.h"
+#include "tests/bullet_ambient/bullet/robots/robot_world.h"
 #include "tests/support/bodies/part_bodies.h"
 
 // Checks the wet part of a body against elementary geometry.

@@ -8,7 +8,7 @@
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/saved_state.h"
 #include "tests/bullet_ambient/bullet/regions/region_world.h"
-#include "tests/bullet_ambient/bullet/state/saved_run.h"
+#include "tests/bullet_ambient/bullet/state/state_scene.h"
 #include "tests/support/bodies/part_bodies.h"
 
 // Fluids whose velocity changes from step to step, without an acceleration: docs/theory.md eq.

@@ -8,7 +8,7 @@
 #include "bullet_ambient/force/medium/waves.h"
 #include "bullet_ambient/saved_state.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
-#include "tests/bullet_ambient/bullet/state/saved_run.h"
+#include "tests/bullet_ambient/bullet/state/state_scene.h"
 #include "tests/support/bodies/part_bodies.h"
 #include "tests/support/floating_runs.h"
 #include "tests/support/thread_pool.h"

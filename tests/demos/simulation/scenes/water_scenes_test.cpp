@@ -8,7 +8,6 @@
 
 #include "bullet_ambient/base/pi.h"
 #include "tests/demos/simulation/scenes/run_scene.h"
-#include "tests/demos/simulation/scenes/scene_loads.h"
 
 namespace ambient {
 namespace {
