@@ -339,12 +339,6 @@ TEST_F(WingedSeed, AutorotatesFromRest) {
   EXPECT_LT(flight.descent, 1.2);
 }
 
-TEST_F(WingedSeed, WeightPaysForTheDragOfItsTurning) {
-  const MotionSample end = runPrepared(scene_, bodies_).motion[0].back();
-  const double given = weightIn(scene_, bodies_[0]) * -end.twist.linear.z();
-  EXPECT_NEAR(-powerOfLoads(scene_, bodies_[0], end), given, 0.05 * given);
-}
-
 TEST_F(WingedSeed, SpunByHandKeepsTurningWhereverItsMassLiesAcrossTheChord) {
   scene_.bodies[0].orientation = Quaternion::Identity();
   scene_.bodies[0].angular_velocity = Vector3(0, 0, 230);

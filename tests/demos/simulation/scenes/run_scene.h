@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -11,6 +13,7 @@
 #include "demos/scene/scene_reader.h"
 #include "demos/simulation/body_preparation.h"
 #include "demos/simulation/scene_run.h"
+#include "demos/simulation/simulation.h"
 #include "preprocess/base/fluid_body_writer.h"
 #include "preprocess/builder/shape_builder.h"
 #include "tests/reference/ellipsoid_flight.h"
@@ -124,6 +127,24 @@ inline double powerOfLoads(const Scene& scene, const PreparedBody& body, const M
 /// Weight less buoyancy [N].
 inline double weightIn(const Scene& scene, const PreparedBody& body) {
   return (body.mass - scene.medium.density * body.fluid_body->volume) * -scene.gravity.z();
+}
+
+/// Expects that a simulation and one that has got its saved state go on alike, bit for bit; again
+/// and again after 17 more steps.
+inline void expectSavedStatesGoOn(const Scene& scene, int rounds = 1) {
+  const std::vector<PreparedBody> bodies = prepare(scene);
+  Simulation simulation(scene, bodies), other(scene, bodies);
+  for (int round = 0; round < rounds; ++round) {
+    for (int i = 0; i < 17; ++i) simulation.step();
+    simulation.applyForce(0, Vector3(0, 1e-3, 0), simulation.sample()[0].position);
+    other.restoreState(simulation.saveState());
+    EXPECT_EQ(other.time(), simulation.time());
+    for (int i = 0; i < 30; ++i) {
+      simulation.step();
+      other.step();
+    }
+    EXPECT_TRUE(other.saveState() == simulation.saveState()) << scene.name << ", " << round;
+  }
 }
 
 }  // namespace ambient
