@@ -56,18 +56,6 @@ const std::vector<SmoothBody> kBodies = {{{1, 1, 1}, 1.2e-5, 0},      {{3, 2, 1}
                                          {{1, 1, 0.1}, 5e-4, 1.1e-3}, {{2, 1, 1}, 1e-4, 7e-4},
                                          {{1, 1, 0.02}, 9e-4, 1.5e-3}};
 
-TEST(EllipsoidFlow, Of1280TrianglesIsWithin1Point5PercentOfTheSmoothBody) {
-  for (const SmoothBody& body : kBodies) {
-    // Facets cut off 0.86 % of the volume: 0.86 % in translation, 5/3 of this in rotation.
-    const Matrix6 K = addedMassOf(makeEllipsoidMesh(body.semi_axes, 1300));
-    const double limit = body.semi_axes.z() < 0.05 ? 0.016 : 0.015;
-    EXPECT_LT(blockError(K, body.semi_axes, 1), 0.0095) << body.semi_axes.transpose();
-    if (body.rotation > 0) {
-      EXPECT_LT(blockError(K, body.semi_axes, 0), limit) << body.semi_axes.transpose();
-    }
-  }
-}
-
 TEST(EllipsoidFlow, WithTheTrueVolumeTheFacetsHardlyMatter) {
   for (const SmoothBody& body : kBodies) {
     const Matrix6 K =
@@ -89,15 +77,6 @@ TEST(EllipsoidFlow, ConvergesWithSecondOrder) {
       });
       EXPECT_NEAR(convergence.order(), 2, 0.12) << semi_axes.transpose() << " block " << block;
     }
-}
-
-TEST(SphereFlow, HasAlmostNoRotationalInertia) {
-  // Rotation of a smooth sphere has no added mass. The facets' falls with the fourth power of their
-  // size.
-  const double coarse = addedMassOf(makeEllipsoidMesh({1, 1, 1}, 320))(0, 0);
-  const double fine = addedMassOf(makeEllipsoidMesh({1, 1, 1}, 1280))(0, 0);
-  EXPECT_LT(fine, 1e-5);
-  EXPECT_GT(std::log2(coarse / fine), 3);
 }
 
 TEST(SphereFlow, PotentialIsHalfTheNormalVelocity) {
@@ -124,12 +103,6 @@ TEST(EllipsoidFlow, PotentialOfRotationIsLambs) {
   const double K = -factor * volumeOf(semi_axes) *
                    (semi_axes.z() * semi_axes.z() - semi_axes.y() * semi_axes.y()) / 5;
   EXPECT_NEAR(std::abs(K) / reference::ellipsoidAddedMass(semi_axes)[0], 1, 0.02);
-}
-
-TEST(EllipsoidFlow, OffDiagonalEntriesVanishBySymmetry) {
-  Matrix6 K = addedMassOf(makeEllipsoidMesh({3, 2, 1}, 1300));
-  K.diagonal().setZero();
-  EXPECT_LT(K.cwiseAbs().maxCoeff(), 1e-8 * 35);
 }
 
 // Lamb's formulae with Carlson's integrals from another library, checked by quadrature.
@@ -171,17 +144,6 @@ TEST(EllipsoidAddedMass, SizeScales) {
 
 using reference::RevolutionAddedMass;
 
-TEST(SharpBodyFlow, CubeIsWithinHalfAPercent) {
-  const TriangleMesh mesh = makeBoxMesh({1, 1, 1}, 3000);
-  ASSERT_LE(mesh.triangleCount(), 3000);
-  const Matrix6 K = addedMassOf(mesh);
-  // 2352 graded triangles; measured 8e-4 and 5e-3.
-  for (int k = 0; k < 3; ++k) {
-    EXPECT_LT(relativeError(K(k + 3, k + 3), 8 * reference::cubeAddedMassCoefficient()), 1e-3);
-    EXPECT_LT(relativeError(K(k, k), reference::cubeRotationalAddedMass()), 6e-3);
-  }
-}
-
 TEST(SharpBodyFlow, CubeConvergesFasterThanSecondOrderOnGradedMeshes) {
   const double exact = 8 * reference::cubeAddedMassCoefficient();
   const TriangleMesh coarse = makeBoxMesh({1, 1, 1}, 192), fine = makeBoxMesh({1, 1, 1}, 768);
@@ -191,14 +153,6 @@ TEST(SharpBodyFlow, CubeConvergesFasterThanSecondOrderOnGradedMeshes) {
                        std::log2(static_cast<double>(fine.triangleCount()) /
                                  static_cast<double>(coarse.triangleCount()));
   EXPECT_GT(order, 2.2);
-}
-
-TEST(SharpBodyFlow, TetrahedronIsWithinHalfAPercent) {
-  const TriangleMesh mesh = test::gradedTetrahedron(24);
-  ASSERT_LE(mesh.triangleCount(), 3000);
-  const Matrix6 K = addedMassOf(mesh);
-  const double exact = reference::tetrahedronAddedMassCoefficient() * 8.0 / 3.0;
-  for (int k = 3; k < 6; ++k) EXPECT_LT(relativeError(K(k, k), exact), 2.5e-3);
 }
 
 /// Largest relative error of the entries of a body of revolution about z.
@@ -217,15 +171,6 @@ TEST(SharpBodyFlow, HemisphereIsWithinOnePercentCouplingIncluded) {
   ASSERT_LE(mesh.triangleCount(), 3000);
   // Measured 7.4e-3, in rotation; the coupling 5e-3.
   EXPECT_LT(revolutionError(addedMassOf(mesh), reference::hemisphereAddedMass()), 0.01);
-}
-
-TEST(SharpBodyFlow, HemisphereHasNoOtherCoupling) {
-  Matrix6 K = addedMassOf(test::gradedHemisphere(8));
-  const double scale = K.cwiseAbs().maxCoeff();
-  EXPECT_GT(K(1, 3), 0.08);
-  K(0, 4) = K(4, 0) = K(1, 3) = K(3, 1) = 0;
-  K.diagonal().setZero();
-  EXPECT_LT(K.cwiseAbs().maxCoeff(), 1e-6 * scale);
 }
 
 TEST(SharpBodyFlow, CylindersAreWithinTheirFacets) {
@@ -306,13 +251,6 @@ TEST(SheetFlow, RectanglesAreLowerBoundsThatConvergeQuadratically) {
   }
 }
 
-TEST(SheetFlow, OnlyBroadsideMotionMovesFluid) {
-  Matrix6 K = sheetAddedMassOf(makeRectangularSheetMesh(2, 1, 300));
-  const double scale = K.cwiseAbs().maxCoeff();
-  for (int i : {0, 1, 5}) K(i, i) = 0;
-  EXPECT_LT(K.cwiseAbs().maxCoeff(), 1e-6 * scale);
-}
-
 TEST(SheetFlow, PotentialJumpOfADiskIsAnEllipse) {
   // phi(front) - phi(back) = -(4/pi) sqrt(a^2 - r^2) for unit velocity along the normal.
   const TriangleMesh mesh = makeEllipticSheetMesh(1, 1, 1200);
@@ -340,17 +278,6 @@ TEST(SheetFlow, IsTheLimitOfThinPlates) {
     EXPECT_GT(K(5, 5), 0.99 * exact.v_z);
   }
   EXPECT_LT(previous, 0.01);
-}
-
-TEST(SheetFlow, EdgewiseInertiaOfAThinPlateFallsWithTheSquareOfTheThickness) {
-  // Edge strips of width h and length L add about L h^2.
-  for (double thickness : {0.01, 0.001}) {
-    const Matrix6 K = test::addedMassOf(makeBoxMesh({1, 0.5, thickness / 2}, 1200));
-    for (int k : {3, 4}) {
-      EXPECT_GT(K(k, k), 0.5 * thickness * thickness) << thickness;
-      EXPECT_LT(K(k, k), 10 * thickness * thickness) << thickness;
-    }
-  }
 }
 
 TEST(SheetFlow, TwoSheetsFarApartAddUp) {

@@ -42,16 +42,6 @@ TEST(FlowInvariance, RotatedMeshGivesRotatedInertia) {
             kIdentity);
 }
 
-TEST(FlowInvariance, RotationHoldsForRegularMeshesFullOfEqualDistances) {
-  // Rounding must not change the quadrature of any pair of panels.
-  const Eigen::Matrix3d R = someRotation();
-  for (const TriangleMesh& mesh :
-       {makeBoxMesh({1, 1, 1}, 432), makeEllipsoidMesh({1, 1, 1}, 320)}) {
-    EXPECT_LT(differenceOf(addedMassOf(rotated(mesh, R)), rotateAxes(addedMassOf(mesh), R)),
-              kIdentity);
-  }
-}
-
 TEST(FlowInvariance, MovedMeshGivesShiftedInertia) {
   const Vector3d d(0.7, -1.3, 2.1);
   // New origin = old origin - d, seen from the moved mesh.
@@ -95,14 +85,6 @@ TEST(FlowInvariance, MirroredMeshGivesMirroredInertia) {
   EXPECT_LT(differenceOf(addedMassOf(mirror(skewBox())), expected), kIdentity);
   const Matrix6 sheet = signs.asDiagonal() * sheetAddedMassOf(skewSheet()) * signs.asDiagonal();
   EXPECT_LT(differenceOf(sheetAddedMassOf(mirror(skewSheet())), sheet), kIdentity);
-}
-
-TEST(FlowInvariance, HandednessOfATwistedBodyIsTheSignOfItsCoupling) {
-  const TriangleMesh body = makeEllipsoidMesh({1.2, 0.6, 1.0}, 320);
-  const Matrix6 left = addedMassOf(test::twisted(body, -1)),
-                right = addedMassOf(test::twisted(body, 1));
-  EXPECT_GT(right(0, 3), 0.15);
-  EXPECT_NEAR(left(0, 3), -right(0, 3), 1e-3);
 }
 
 TEST(FlowInvariance, TurningASheetOverChangesNothing) {
@@ -257,32 +239,20 @@ std::string complaint(const TriangleMesh& mesh, const PotentialFlowSettings& set
   return messageOf([&] { solvePotentialFlow(mesh, settings); });
 }
 
-TEST(PotentialFlowInput, OpenSurfaceNamesItsEdges) {
-  EXPECT_EQ(complaint(withoutTriangle(makeBoxMesh({1, 1, 1}, 48), 5)),
+TEST(PotentialFlowInput, SurfacesThatCannotBeSolvedAreNamed) {
+  const TriangleMesh box = makeBoxMesh({1, 1, 1}, 48);
+  TriangleMesh collapsed = box, unknown = box;
+  collapsed.triangles(1, 7) = collapsed.triangles(0, 7);
+  unknown.vertices(1, 3) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(complaint({}), "potential flow: the mesh has 0 triangles; it needs at least 1");
+  EXPECT_EQ(complaint(collapsed), "potential flow: triangle 7 has no area");
+  EXPECT_NE(complaint(unknown).find("has no area"), std::string::npos);
+  EXPECT_EQ(complaint(withoutTriangle(box, 5)),
             "potential flow: the surface is open at 3 edges; it must be closed, or be declared a "
             "sheet");
-}
-
-TEST(PotentialFlowInput, InsideOutSurfaceIsRefused) {
-  EXPECT_EQ(complaint(insideOut(makeBoxMesh({1, 1, 1}, 48))),
+  EXPECT_EQ(complaint(insideOut(box)),
             "potential flow: the surface is inside out or encloses no volume; triangles must be "
             "counter-clockwise seen from the fluid");
-}
-
-TEST(PotentialFlowInput, TriangleWithoutAreaIsNamed) {
-  TriangleMesh mesh = makeBoxMesh({1, 1, 1}, 48);
-  mesh.triangles(1, 7) = mesh.triangles(0, 7);
-  EXPECT_EQ(complaint(mesh), "potential flow: triangle 7 has no area");
-}
-
-TEST(PotentialFlowInput, CoordinateThatIsNotANumberIsRefused) {
-  TriangleMesh mesh = makeBoxMesh({1, 1, 1}, 48);
-  mesh.vertices(1, 3) = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_NE(complaint(mesh).find("has no area"), std::string::npos);
-}
-
-TEST(PotentialFlowInput, EmptyMeshIsRefused) {
-  EXPECT_EQ(complaint({}), "potential flow: the mesh has 0 triangles; it needs at least 1");
 }
 
 TEST(PotentialFlowInput, SheetNeedsAVertexInside) {
