@@ -1,7 +1,10 @@
 #pragma once
 
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
+#include <gtest/gtest.h>
 
+#include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "tests/bullet_ambient/bullet/contact/coupled_body.h"
@@ -111,6 +114,23 @@ btContactSolverInfo convergingSettings(double dt);
 /// Least independence() compared. Below it rows are nearly dependent: iterations converge slowly,
 /// and rounding decides the split between impulses.
 constexpr Real kIndependent = 0.05L;
+
+/// Expects errors of random cases below a tolerance: errorOf(arbitrary, i) for i = 0 ... count - 1.
+/// `least` cases at least have an error, a std::optional<double>.
+template <class Case>
+void expectErrors(unsigned seed, int count, int least, double tolerance, const Case& errorOf) {
+  Arbitrary arbitrary(seed);
+  double worst = 0;
+  int compared = 0;
+  for (int i = 0; i < count; ++i) {
+    const std::optional<double> error = errorOf(arbitrary, i);
+    if (!error) continue;
+    ++compared;
+    worst = std::max(worst, *error);
+  }
+  EXPECT_GE(compared, least);
+  EXPECT_LT(worst, tolerance);
+}
 
 /// Tells if a row pushes. Bodies without any impulse fly freely, which the dense solution does not
 /// contain.

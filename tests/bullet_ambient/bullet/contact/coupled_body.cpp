@@ -106,17 +106,6 @@ reference::DenseBody CoupledBody::dense(Real dt) const {
   return result;
 }
 
-Real CoupledBody::kineticEnergy(const DenseVector6& velocity) const {
-  return velocity.dot(inertia() * velocity) / 2;
-}
-
-DenseVector6 CoupledBody::momentum(const DenseVector6& velocity) const {
-  DenseVector6 m = inertia() * velocity;
-  const Vector3r centre = exact(body_->getWorldTransform().getOrigin());
-  m.head<3>() += centre.cross(Vector3r(m.tail<3>()));
-  return m;
-}
-
 double CoupledBody::gyroscopicTime(double part) const {
   const DenseMatrix6 K = inertia();
   const DenseVector6 u = velocity();

@@ -47,9 +47,6 @@ class CoupledBody {
   DenseMatrix6 inertia() const;  ///< K in world axes
   /// Body for the dense solver: K and the velocity of docs/theory.md eq. (28) after dt.
   reference::DenseBody dense(Real dt) const;
-  Real kineticEnergy(const DenseVector6& velocity) const;
-  /// Linear momentum, and angular momentum about the world's origin, at this velocity.
-  DenseVector6 momentum(const DenseVector6& velocity) const;
   /// Largest duration for which gyroscopic terms change the velocity by less than `part`, in the
   /// norm of K.
   double gyroscopicTime(double part) const;
