@@ -99,7 +99,7 @@ class ContactTerms : public ::testing::Test {};
 TYPED_TEST_SUITE(ContactTerms, AllSolvers, SolverName);
 
 TYPED_TEST(ContactTerms, PositionErrorsSoftnessAndRelaxationEqualTheDenseSolution) {
-  expectErrors(41, 300, 150, kTolerance, [](Arbitrary& arbitrary, int i) -> std::optional<double> {
+  expectErrors(41, 300, 150, kTolerance, [](Arbitrary& arbitrary, int i) -> CaseError {
     ContactPair pair = pairWithContacts<TypeParam>(arbitrary, kOthers[i % 3]);
     btContactSolverInfo info = convergingSettings(gyroscopicTime(pair, 0.05));
     pushAtRandom(arbitrary, pair, info.m_timeStep);
@@ -132,7 +132,7 @@ TYPED_TEST(ContactTerms, PositionErrorsSoftnessAndRelaxationEqualTheDenseSolutio
 
 // The second solve starts from impulses of the first one, at a different velocity.
 TYPED_TEST(ContactTerms, WarmStartsChangeNothingButTheWay) {
-  expectErrors(42, 300, 100, kTolerance, [](Arbitrary& arbitrary, int i) -> std::optional<double> {
+  expectErrors(42, 300, 100, kTolerance, [](Arbitrary& arbitrary, int i) -> CaseError {
     ContactPair pair = pairWithContacts<TypeParam>(arbitrary, kOthers[i % 3]);
     btContactSolverInfo info = convergingSettings(gyroscopicTime(pair, 0.02));
     info.m_solverMode |= SOLVER_USE_WARMSTARTING;
@@ -161,7 +161,7 @@ TYPED_TEST_SUITE(IteratedContactTerms, IteratingSolvers, SolverName);
 
 // Without warm starting, one iteration over two contacts leaves gaps open.
 TYPED_TEST(IteratedContactTerms, AWarmStartFromTheSolutionNeedsOneIteration) {
-  expectErrors(43, 150, 75, kTolerance, [](Arbitrary& arbitrary, int i) -> std::optional<double> {
+  expectErrors(43, 150, 75, kTolerance, [](Arbitrary& arbitrary, int i) -> CaseError {
     ContactPair pair = pairWithContacts<TypeParam>(arbitrary, kOthers[i % 3]);
     btContactSolverInfo info = convergingSettings(gyroscopicTime(pair, 0.05));
     info.m_solverMode |= SOLVER_USE_WARMSTARTING;

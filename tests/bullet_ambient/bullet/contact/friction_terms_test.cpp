@@ -23,7 +23,7 @@ TYPED_TEST_SUITE(FrictionTerms, FrictionSolvers, SolverName);
 // softness of friction is a multiple of the row's response. Complementarity solvers ignore this
 // softness.
 TYPED_TEST(FrictionTerms, MovingAndAnchoredEqualTheDenseSolution) {
-  expectErrors(45, 300, 200, kTolerance, [](Arbitrary& arbitrary, int i) -> std::optional<double> {
+  expectErrors(45, 300, 200, kTolerance, [](Arbitrary& arbitrary, int i) -> CaseError {
     ContactPair pair = arbitraryPair(arbitrary, kOthers[i % 3]);
     btContactSolverInfo info = convergingSettings(gyroscopicTime(pair, 0.05));
     pushAtRandom(arbitrary, pair, info.m_timeStep);

@@ -141,58 +141,54 @@ TEST(MultiBodyImpact, WithLockedAxesEqualsTheDenseSolution) {
 // Large coefficients: contacts between a link and a body neither slide nor roll nor spin. All rows
 // of the contact act, in Bullet's default mode with cones of friction.
 TEST(MultiBodyImpact, StickingRollingAndSpinningRowsEqualTheDenseSolution) {
-  expectErrors(53, 300, 50, kLinkTolerance,
-               [](Arbitrary& arbitrary, int i) -> std::optional<double> {
-                 ChainTask task = arbitraryChainTask(arbitrary, i % 2 == 0);
-                 task.touch(arbitrary, i / 2 % 2 == 0);
-                 const btContactSolverInfo info = chainSettings(pushedTime(arbitrary, task));
-                 btManifoldPoint& contact = task.contact();
-                 contact.m_combinedFriction = btScalar(1e6);
-                 contact.m_combinedSpinningFriction = btScalar(1e6);
-                 contact.m_combinedRollingFriction = btScalar(1e6);
-                 const BeforeChain before(task);
-                 auto [bodies, rows] = task.dense(info.m_timeStep);
-                 const auto normal = rows.size();
-                 rows.push_back(task.row(exact(contact.m_normalWorldOnB)));
-                 btVector3 tangent[2];
-                 btPlaneSpace1(contact.m_normalWorldOnB, tangent[0], tangent[1]);
-                 for (const btVector3& direction : tangent)
-                   rows.push_back(task.row(exact(direction)));
-                 for (const btVector3& direction : tangent)
-                   rows.push_back(task.spinRow(exact(direction)));
-                 rows.push_back(task.spinRow(exact(contact.m_normalWorldOnB)));
-                 const auto expected = reference::solveDense(bodies, rows);
-                 if (!(expected.impulses[normal] > 1e-3L)) return std::nullopt;
-                 if (!task.solve(info)) return std::nullopt;
-                 // Bullet keeps rolling and spinning impulses of a contact with an impulse that
-                 // became 0 during iterations. Ordinary bodies show it, too; skipped.
-                 if (contact.m_appliedImpulse == 0) return std::nullopt;
-                 return before.error(task, expected);
-               });
+  expectErrors(53, 300, 50, kLinkTolerance, [](Arbitrary& arbitrary, int i) -> CaseError {
+    ChainTask task = arbitraryChainTask(arbitrary, i % 2 == 0);
+    task.touch(arbitrary, i / 2 % 2 == 0);
+    const btContactSolverInfo info = chainSettings(pushedTime(arbitrary, task));
+    btManifoldPoint& contact = task.contact();
+    contact.m_combinedFriction = btScalar(1e6);
+    contact.m_combinedSpinningFriction = btScalar(1e6);
+    contact.m_combinedRollingFriction = btScalar(1e6);
+    const BeforeChain before(task);
+    auto [bodies, rows] = task.dense(info.m_timeStep);
+    const auto normal = rows.size();
+    rows.push_back(task.row(exact(contact.m_normalWorldOnB)));
+    btVector3 tangent[2];
+    btPlaneSpace1(contact.m_normalWorldOnB, tangent[0], tangent[1]);
+    for (const btVector3& direction : tangent) rows.push_back(task.row(exact(direction)));
+    for (const btVector3& direction : tangent) rows.push_back(task.spinRow(exact(direction)));
+    rows.push_back(task.spinRow(exact(contact.m_normalWorldOnB)));
+    const auto expected = reference::solveDense(bodies, rows);
+    if (!(expected.impulses[normal] > 1e-3L)) return std::nullopt;
+    if (!task.solve(info)) return std::nullopt;
+    // Bullet keeps rolling and spinning impulses of a contact with an impulse that
+    // became 0 during iterations. Ordinary bodies show it, too; skipped.
+    if (contact.m_appliedImpulse == 0) return std::nullopt;
+    return before.error(task, expected);
+  });
 }
 
 // The second solve starts from impulses of the first one, at different velocities.
 TEST(MultiBodyImpact, WarmStartsChangeNothingButTheWay) {
-  expectErrors(55, 300, 150, kLinkTolerance,
-               [](Arbitrary& arbitrary, int i) -> std::optional<double> {
-                 ChainTask task = arbitraryChainTask(arbitrary, i % 2 == 0);
-                 task.touch(arbitrary, i / 2 % 2 == 0);
-                 btContactSolverInfo info = chainSettings(task.body().gyroscopicTime(0.02));
-                 info.m_solverMode |= SOLVER_USE_ARTICULATED_WARMSTARTING;
-                 const DenseVector6 first = task.body().velocity();
-                 const Eigen::VectorXd first_rates = velocityOf(task.robot());
-                 if (!task.solve(info)) return std::nullopt;
-                 task.body().setVelocity(arbitrary.between(0.8, 1.2) * first);
-                 writeVelocity(task.robot(), first_rates);
-                 const BeforeChain before(task);
-                 auto [bodies, rows] = task.dense(info.m_timeStep);
-                 rows.push_back(task.row(exact(task.contact().m_normalWorldOnB)));
-                 rows.back().lower = 0;
-                 const auto expected = reference::solveDense(bodies, rows);
-                 if (!(expected.impulses[rows.size() - 1] > 1e-9L)) return std::nullopt;
-                 if (!task.solve(info)) return std::nullopt;
-                 return before.error(task, expected);
-               });
+  expectErrors(55, 300, 150, kLinkTolerance, [](Arbitrary& arbitrary, int i) -> CaseError {
+    ChainTask task = arbitraryChainTask(arbitrary, i % 2 == 0);
+    task.touch(arbitrary, i / 2 % 2 == 0);
+    btContactSolverInfo info = chainSettings(task.body().gyroscopicTime(0.02));
+    info.m_solverMode |= SOLVER_USE_ARTICULATED_WARMSTARTING;
+    const DenseVector6 first = task.body().velocity();
+    const Eigen::VectorXd first_rates = velocityOf(task.robot());
+    if (!task.solve(info)) return std::nullopt;
+    task.body().setVelocity(arbitrary.between(0.8, 1.2) * first);
+    writeVelocity(task.robot(), first_rates);
+    const BeforeChain before(task);
+    auto [bodies, rows] = task.dense(info.m_timeStep);
+    rows.push_back(task.row(exact(task.contact().m_normalWorldOnB)));
+    rows.back().lower = 0;
+    const auto expected = reference::solveDense(bodies, rows);
+    if (!(expected.impulses[rows.size() - 1] > 1e-9L)) return std::nullopt;
+    if (!task.solve(info)) return std::nullopt;
+    return before.error(task, expected);
+  });
 }
 
 // Joints of btMultiBody between a link and an ambient body, against the dense solution.
@@ -272,38 +268,36 @@ INSTANTIATE_TEST_SUITE_P(Kinds, MultiBodyJoint,
                          });
 
 TEST_P(MultiBodyJoint, EqualsTheDenseSolution) {
-  expectErrors(54, 300, 50, kLinkTolerance,
-               [](Arbitrary& arbitrary, int i) -> std::optional<double> {
-                 ChainTask task = arbitraryChainTask(arbitrary, i % 2 == 0);
-                 btContactSolverInfo info = chainSettings(pushedTime(arbitrary, task));
-                 info.m_erp = btScalar(correction(GetParam()));
-                 const Vector3r offset = arbitrary.vector(0.1 * info.m_timeStep).cast<Real>();
-                 const BeforeChain before(task);
-                 const ChainJoint joint = makeJoint(GetParam(), task, offset, info);
-                 const auto expected = reference::solveDense(joint.dense.bodies, joint.dense.rows);
-                 if (!task.solve(info, joint.constraint.get())) return std::nullopt;
-                 return before.error(task, expected);
-               });
+  expectErrors(54, 300, 50, kLinkTolerance, [](Arbitrary& arbitrary, int i) -> CaseError {
+    ChainTask task = arbitraryChainTask(arbitrary, i % 2 == 0);
+    btContactSolverInfo info = chainSettings(pushedTime(arbitrary, task));
+    info.m_erp = btScalar(correction(GetParam()));
+    const Vector3r offset = arbitrary.vector(0.1 * info.m_timeStep).cast<Real>();
+    const BeforeChain before(task);
+    const ChainJoint joint = makeJoint(GetParam(), task, offset, info);
+    const auto expected = reference::solveDense(joint.dense.bodies, joint.dense.rows);
+    if (!task.solve(info, joint.constraint.get())) return std::nullopt;
+    return before.error(task, expected);
+  });
 }
 
 TEST_P(MultiBodyJoint, WarmStartsChangeNothingButTheWay) {
-  expectErrors(56, 500, 50, kLinkTolerance,
-               [](Arbitrary& arbitrary, int i) -> std::optional<double> {
-                 ChainTask task = arbitraryChainTask(arbitrary, i % 2 == 0);
-                 btContactSolverInfo info = chainSettings(task.body().gyroscopicTime(0.02));
-                 info.m_solverMode |= SOLVER_USE_ARTICULATED_WARMSTARTING;
-                 const DenseVector6 first = task.body().velocity();
-                 const Eigen::VectorXd first_rates = velocityOf(task.robot());
-                 const ChainJoint joint = makeJoint(GetParam(), task, Vector3r::Zero(), info);
-                 if (!task.solve(info, joint.constraint.get())) return std::nullopt;
-                 task.body().setVelocity(arbitrary.between(0.5, 2) * first);
-                 writeVelocity(task.robot(), first_rates);
-                 const BeforeChain before(task);
-                 const auto expected =
-                     reference::solveDense(task.dense(info.m_timeStep).bodies, joint.dense.rows);
-                 if (!task.solve(info, joint.constraint.get())) return std::nullopt;
-                 return before.error(task, expected);
-               });
+  expectErrors(56, 500, 50, kLinkTolerance, [](Arbitrary& arbitrary, int i) -> CaseError {
+    ChainTask task = arbitraryChainTask(arbitrary, i % 2 == 0);
+    btContactSolverInfo info = chainSettings(task.body().gyroscopicTime(0.02));
+    info.m_solverMode |= SOLVER_USE_ARTICULATED_WARMSTARTING;
+    const DenseVector6 first = task.body().velocity();
+    const Eigen::VectorXd first_rates = velocityOf(task.robot());
+    const ChainJoint joint = makeJoint(GetParam(), task, Vector3r::Zero(), info);
+    if (!task.solve(info, joint.constraint.get())) return std::nullopt;
+    task.body().setVelocity(arbitrary.between(0.5, 2) * first);
+    writeVelocity(task.robot(), first_rates);
+    const BeforeChain before(task);
+    const auto expected =
+        reference::solveDense(task.dense(info.m_timeStep).bodies, joint.dense.rows);
+    if (!task.solve(info, joint.constraint.get())) return std::nullopt;
+    return before.error(task, expected);
+  });
 }
 
 }  // namespace
