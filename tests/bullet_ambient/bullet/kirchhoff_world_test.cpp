@@ -8,7 +8,7 @@
 
 #include "bullet_ambient/base/pi.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
-#include "tests/reference/kirchhoff_integration.h"
+#include "tests/reference/kirchhoff_motion.h"
 #include "tests/support/bodies/free_body.h"
 #include "tests/support/bodies/random_bodies.h"
 #include "tests/support/matrices.h"

@@ -13,7 +13,6 @@
 #include "preprocess/base/surface_form.h"
 #include "tests/support/bodies/random_bodies.h"
 #include "tests/support/bodies/wing_bodies.h"
-#include "tests/support/runs.h"
 
 namespace ambient {
 namespace {

@@ -22,8 +22,8 @@
 #include "preprocess/potential_flow/results/solver_revision.h"
 #include "preprocess/shape/shape_reader.h"
 #include "tests/preprocess/mesh/mesh_files.h"
-#include "tests/support/no_more_threads.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/thread_pool.h"
 
 namespace ambient::test {
 namespace {

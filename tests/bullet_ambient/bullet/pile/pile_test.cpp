@@ -6,7 +6,7 @@
 
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/bullet_ambient/bullet/pile/pile_scene.h"
-#include "tests/support/energy_rise.h"
+#include "tests/support/convergence.h"
 
 namespace ambient::test {
 namespace {

@@ -12,8 +12,8 @@
 #include "tests/bullet_ambient/bullet/water/water_run.h"
 #include "tests/bullet_ambient/bullet/water/water_steps.h"
 #include "tests/support/bodies/part_bodies.h"
-#include "tests/support/energy_rise.h"
-#include "tests/support/runs.h"
+#include "tests/support/bodies/random_bodies.h"
+#include "tests/support/convergence.h"
 
 namespace ambient::test {
 namespace {

@@ -8,7 +8,7 @@
 #include "bullet_ambient/bullet/core/conversions.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/bullet_ambient/bullet/worlds/vacuum_scene.h"
-#include "tests/reference/kirchhoff_integration.h"
+#include "tests/reference/kirchhoff_motion.h"
 #include "tests/support/bodies/ellipsoid_body.h"
 #include "tests/support/matrices.h"
 
