@@ -140,17 +140,29 @@ TEST(SetMedium, KeepsTheOldMediumWhenTheNewOneIsRefused) {
   EXPECT_EQ(scene.of(body).medium().density, air().density);
 }
 
+// Fluid: by the energy that it has in a motion, from the velocity of its own frame.
 TEST(Fluid, TotalInertiaIsThatOfBodyAndFluid) {
   FluidWorld scene;
   BodyDef def;
   def.mass = 2;
   def.moments = Vector3(0.3, 0.4, 0.5);
-  const FluidBody shape = facelessEllipsoid(Vector3(1, 2, 3));
-  const btRigidBody& body = scene.add(def, shape, water());
-  Vector6 expected = water().density * shape.added_mass.diagonal();
-  expected += (Vector6() << 0.3, 0.4, 0.5, 2, 2, 2).finished();
-  const Vector6 diagonal = scene.of(body).inertia().diagonal();
-  EXPECT_LT((diagonal - expected).norm(), 1e-6 * expected.norm());
+  AttachDef attach;
+  attach.fluid_body = std::make_shared<FluidBody>(facelessEllipsoid(Vector3(1, 2, 3)));
+  attach.medium = water();
+  attach.fluid_frame.translation = {0.3, -0.2, 0.5};
+  attach.fluid_frame.rotation = Eigen::AngleAxisd(0.7, Vector3(1, 2, 3).normalized()).matrix();
+  const Matrix6 K = scene.fluid.add(scene.add(def), attach).inertia();
+  const auto& [R, t] = std::pair(attach.fluid_frame.rotation, attach.fluid_frame.translation);
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j) {
+      const Vector6 x = Vector6::Unit(i) + Vector6::Unit(j);
+      const Vector3 w = x.head<3>(), v = x.tail<3>();
+      const Vector6 in_fluid = stack(R.transpose() * w, R.transpose() * (v + w.cross(t)));
+      const double body = def.mass * v.squaredNorm() + w.dot(def.moments.cwiseProduct(w)),
+                   energy = body + water().density *
+                                       in_fluid.dot(attach.fluid_body->added_mass * in_fluid);
+      EXPECT_NEAR(x.dot(K * x) / energy, 1, byPrecision(1e-12, 1e-6)) << i << ", " << j;
+    }
 }
 
 }  // namespace

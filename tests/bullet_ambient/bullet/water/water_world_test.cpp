@@ -273,15 +273,6 @@ TEST(WaterWorld, FloatingBodiesSleepInStillWaterButNotOnASaddle) {
   EXPECT_GT(heightOf(flat), 0.1);
 }
 
-TEST(WaterWorld, SaysNothingOfBodiesThatFloat) {
-  WaterWorld water(seaAt(0));
-  std::string said;
-  water.scene.fluid.setReport([&](const std::string& text) { said = text; });
-  water.addBox(0.1, at(-20));
-  water.scene.step(1.0 / 60);
-  EXPECT_EQ(said, "");
-}
-
 TEST(WaterWorld, NobodySleepsInWaves) {
   FluidRegion sea = seaAt(0);
   sea.surface = std::make_shared<AiryWaves>(CalmSea{}, std::vector<WaveComponent>{});
