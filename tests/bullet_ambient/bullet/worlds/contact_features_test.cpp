@@ -9,15 +9,6 @@
 namespace ambient::test {
 namespace {
 
-// Body with K of its free axes; no response along locked ones.
-reference::DenseBody locked(const reference::DenseBody& body, const DenseVector6& free) {
-  reference::DenseBody result = body;
-  result.inertia = free.asDiagonal() * body.inertia * free.asDiagonal();
-  result.inertia.diagonal() += DenseVector6::Ones() - free;
-  result.free_velocity = free.asDiagonal() * body.free_velocity;
-  return result;
-}
-
 reference::DenseBody fixedBody() {
   reference::DenseBody result;
   result.fixed = true;
@@ -50,33 +41,6 @@ TEST(ContactFeatures, AKinematicBodyPushesWithItsVelocity) {
     EXPECT_GT(expected.velocities[0].norm(), 1.4);
     EXPECT_LT(scene.coupled.error(expected.velocities[0], expected.velocities[0]), kTolerance);
     scene.scene.world.removeRigidBody(&paddle);
-  }
-}
-
-TEST(ContactFeatures, ABodyLockedToAPlaneHasTheInertiaOfThatPlane) {
-  for (unsigned seed = 0; seed < 20; ++seed) {
-    CoupledScene scene(seed);
-    const Vector3 direction(scene.arbitrary.vector().x(), scene.arbitrary.vector().y(), 0);
-    const btVector3 normal = toBt(direction.normalized());
-    DenseVector6 free;
-    free << 0, 0, 1, 1, 1, 0;
-    scene.body().setAngularFactor(btVector3(0, 0, 1));
-    scene.body().setLinearFactor(btVector3(1, 1, 0));
-    scene.body().setAngularVelocity({0, 0, 2});
-    scene.body().setLinearVelocity(normal * bt(-3) + btVector3(normal.y(), -normal.x(), 0));
-    Wall wall(scene, normal);
-    const double dt = CoupledScene::kInstant;
-    const Vector3r n = exact(normal);
-    reference::DenseRow row = reference::pointRow(n, -Real(CoupledScene::kRadius) * n, n);
-    row.lower = 0;
-    const DenseVector6 before = scene.coupled.velocity();
-    const auto expected =
-        reference::solveDense({locked(scene.coupled.dense(dt), free), fixedBody()}, {row});
-    // Locking must differ from a free body with its velocity cut off afterwards.
-    const auto unlocked = reference::solveDense({scene.coupled.dense(dt), fixedBody()}, {row});
-    EXPECT_GT((free.asDiagonal() * unlocked.velocities[0] - expected.velocities[0]).norm(), 1e-3);
-    scene.scene.step(dt);
-    EXPECT_LT(scene.coupled.error(expected.velocities[0], before), kTolerance) << seed;
   }
 }
 
@@ -217,18 +181,6 @@ TEST(ContactFeatures, ContinuousCollisionStopsAtTheWall) {
       tunnelled += flyFast(seed, speed, false) > kWallSurface + 1;
     }
     EXPECT_GT(tunnelled, 3) << speed;
-  }
-}
-
-TEST(ContactFeatures, AForceAtAPointIsFeltThroughTheFullInertia) {
-  for (unsigned seed = 0; seed < 20; ++seed) {
-    CoupledScene scene(seed);
-    scene.stop();
-    scene.body().applyForce(toBt(scene.arbitrary.vector(1 / CoupledScene::kInstant)),
-                            toBt(scene.arbitrary.vector(0.3)));
-    const DenseVector6 expected = scene.coupled.dense(bt(CoupledScene::kInstant)).free_velocity;
-    scene.scene.step(CoupledScene::kInstant);
-    EXPECT_LT(scene.coupled.error(expected, expected), byPrecision(1e-12, 1e-4)) << seed;
   }
 }
 
