@@ -11,8 +11,8 @@
 #include "tests/bullet_ambient/fluid_body/example_body.h"
 #include "tests/support/bodies/ellipsoid_body.h"
 #include "tests/support/bodies/geodesic.h"
+#include "tests/support/bodies/hull_bodies.h"
 #include "tests/support/bodies/random_bodies.h"
-#include "tests/support/bodies/wing_bodies.h"
 
 namespace ambient::test {
 namespace {

@@ -21,7 +21,6 @@
 #include "preprocess/mesh/shapes/convex_hull.h"
 #include "preprocess/mesh/shapes/primitives.h"
 #include "tests/reference/body_added_mass.h"
-#include "tests/reference/sheet_added_mass.h"
 #include "tests/support/bodies/random_bodies.h"
 
 namespace ambient {

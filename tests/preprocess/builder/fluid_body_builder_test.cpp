@@ -17,7 +17,7 @@
 #include "preprocess/shape/shape_reader.h"
 #include "tests/preprocess/mesh/mesh_files.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
-#include "tests/reference/sheet_added_mass.h"
+#include "tests/reference/body_added_mass.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ambient {

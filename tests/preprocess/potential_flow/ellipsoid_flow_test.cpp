@@ -9,7 +9,6 @@
 #include "tests/preprocess/potential_flow/flow_fixtures.h"
 #include "tests/reference/body_added_mass.h"
 #include "tests/reference/ellipsoid_added_mass.h"
-#include "tests/reference/sheet_added_mass.h"
 #include "tests/support/bodies/graded_meshes.h"
 #include "tests/support/convergence.h"
 
