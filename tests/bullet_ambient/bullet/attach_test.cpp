@@ -99,10 +99,8 @@ TEST(Attach, SaysWhatIsWrong) {
 // Attaches two equal bodies; returns the reports.
 std::vector<std::string> saidAbout(const BodyDef& body_def, const AttachDef& def) {
   FluidWorld scene;
-  std::vector<std::string> said;
-  scene.fluid.setReport([&](const std::string& text) { said.push_back(text); });
   for (int i = 0; i < 2; ++i) scene.fluid.add(scene.add(body_def), def);
-  return said;
+  return scene.said;
 }
 
 TEST(Attach, ReportsMomentsOfInertiaOfNoRigidBodyOnce) {
@@ -265,8 +263,6 @@ TEST(Immersed, RefusesNothing) {
 TEST(Naming, NamesBodiesInReportsAndErrors) {
   FluidWorld scene;
   scene.world.setGravity({0, 0, bt(-9.81)});
-  std::vector<std::string> said;
-  scene.fluid.setReport([&](const std::string& text) { said.push_back(text); });
   scene.fluid.setNaming([](const btCollisionObject& object) {
     return object.getUserIndex() == 7 ? std::string("crate") : std::string();
   });
@@ -275,8 +271,9 @@ TEST(Naming, NamesBodiesInReportsAndErrors) {
   crate.setUserIndex(7);
   crate.setMassProps(bt(1e-6), toBullet(Vector3(Vector3::Constant(1e-6))));
   const Immersed in_air = scene.fluid.add(crate, inAir());
-  ASSERT_EQ(said.size(), 1u);  // it is light
-  EXPECT_EQ(said[0].rfind("bullet_ambient: body 'crate' has a mass of 1e-06 kg", 0), 0u) << said[0];
+  ASSERT_EQ(scene.said.size(), 1u);  // it is light
+  EXPECT_EQ(scene.said[0].rfind("bullet_ambient: body 'crate' has a mass of 1e-06 kg", 0), 0u)
+      << scene.said[0];
   EXPECT_EQ(refusal([&] { scene.fluid.add(crate, inAir()); }).rfind("add: body 'crate' was", 0),
             0u);
   scene.fluid.restore(scene.fluid.save());  // no state has names

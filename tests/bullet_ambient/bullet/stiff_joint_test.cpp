@@ -42,7 +42,6 @@ class StiffJoint : public ::testing::TestWithParam<double> {
   };
   Swing swing(double spin, double gravity) {
     FluidWorld scene;
-    scene.fluid.setReport(nullptr);  // the body rises
     scene.world.setGravity({0, 0, static_cast<btScalar>(gravity)});
     btRigidBody& body = scene.add(lightBody(spin), shape(), water());
     btPoint2PointConstraint joint(body, btVector3(btScalar(kSize / 2), 0, 0));

@@ -24,7 +24,6 @@ namespace {
 
 struct AskedWorld : FluidWorld {
   AskedWorld() {
-    fluid.setReport([this](const std::string& sentence) { said.push_back(sentence); });
     FluidRegion region = filledWith(idealFluid(900));
     region.flow = [this](const Vector3&, double time) {
       times.push_back(time);
@@ -45,7 +44,6 @@ struct AskedWorld : FluidWorld {
   RegionId asked;
   std::function<void()> meddle;
   std::vector<double> times;
-  std::vector<std::string> said;
 };
 
 const std::pair<const char*, void (*)(AskedWorld&)> kMeddling[] = {
@@ -177,7 +175,6 @@ FluidRegion bareSea(const Vector3& up) {
 /// Falls from 30 m in a world whose gravity is along -z.
 struct FallingBall {
   explicit FallingBall(const Medium& own) {
-    world.fluid.setReport([this](const std::string& text) { said.push_back(text); });
     world.world.setGravity({0, 0, bt(-9.81)});
     BodyDef def{20, Vector3::Constant(0.3), {}, nullptr};
     def.start.position = {0, 0, 30};
@@ -186,7 +183,6 @@ struct FallingBall {
   double height() const { return static_cast<double>(body->getWorldTransform().getOrigin().z()); }
 
   FluidWorld world;
-  std::vector<std::string> said;
   btRigidBody* body = nullptr;
 };
 
@@ -226,16 +222,17 @@ TEST(DirectionUp, ThatIsNotAgainstGravityIsSaidOnce) {
     FallingBall ball(air());
     ball.world.fluid.addRegion(bareSea(up));
     ball.world.step(kWorldStep, 3);
-    ASSERT_EQ(ball.said.size(), 1U) << up.transpose();
-    EXPECT_NE(ball.said[0].find("region of fluid 0"), std::string::npos) << ball.said[0];
-    EXPECT_NE(ball.said[0].find("gravity is (0, 0, -9.81) m/s^2"), std::string::npos)
-        << ball.said[0];
+    ASSERT_EQ(ball.world.said.size(), 1U) << up.transpose();
+    EXPECT_NE(ball.world.said[0].find("region of fluid 0"), std::string::npos)
+        << ball.world.said[0];
+    EXPECT_NE(ball.world.said[0].find("gravity is (0, 0, -9.81) m/s^2"), std::string::npos)
+        << ball.world.said[0];
   }
   for (const Vector3& up : {Vector3(0, 0, 2), Vector3(0, 0.9, 1)}) {
     FallingBall ball(air());
     ball.world.fluid.addRegion(bareSea(up));
     ball.world.step(kWorldStep, 3);
-    EXPECT_TRUE(ball.said.empty()) << up.transpose() << ": " << ball.said.front();
+    EXPECT_TRUE(ball.world.said.empty()) << up.transpose() << ": " << ball.world.said.front();
   }
 }
 

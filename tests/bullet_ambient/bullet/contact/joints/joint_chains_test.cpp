@@ -33,7 +33,6 @@ Vector3 semiAxes(Arbitrary& arbitrary) {
 class Chain {
  public:
   Chain(JointKind kind, int count, unsigned seed) : arbitrary_(seed), kind_(kind) {
-    scene_.fluid.setReport(nullptr);  // bodies so light rise
     double x = 0;
     for (int i = 0; i < count; ++i) {
       const Vector3 axes = semiAxes(arbitrary_);
