@@ -41,10 +41,7 @@ class BodyStorage {
 
 class Lifetime : public testing::Test {
  protected:
-  Lifetime() {
-    scene.fluid.setReport([](const std::string&) {});
-    scene.world.setGravity({0, 0, -8});
-  }
+  Lifetime() { scene.world.setGravity({0, 0, -8}); }
   btRigidBody& addAttached() {
     btRigidBody& body = storage.construct(shape);
     scene.world.addRigidBody(&body);
