@@ -8,6 +8,7 @@
 
 #include "preprocess/base/fluid_body_writer.h"
 #include "tests/bullet_ambient/fluid_body/example_body.h"
+#include "tests/support/refusal_of.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ambient {
