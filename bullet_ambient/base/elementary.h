@@ -6,7 +6,7 @@
 /// differ in the last bit. The functions here consist of IEEE additions, multiplications,
 /// divisions and square roots in double, in a fixed order. Angles are in rad. The comment of each
 /// function states its largest error in units in the last place (ulp), checked by tests/
-/// bullet_ambient/base/elementary_test.cpp. NaN arguments give NaN; results out of range are
+/// bullet_ambient/base/base_test.cpp. NaN arguments give NaN; results out of range are
 /// infinite or zero, as in the C library.
 namespace ambient::portable {
 

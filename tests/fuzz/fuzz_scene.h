@@ -66,8 +66,6 @@ class FuzzScene {
   void addJoint();
   void removeJoint();
   void removeJointsOf(const btRigidBody& body);
-
-  // state_fuzz.cpp
   void saveAndRestore();
   void damageBytes();
   void draw();

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "bullet_ambient/base/fnv1a.h"
 #include "bullet_ambient/spatial/vector_types.h"
 
 namespace ambient::test {
@@ -27,7 +27,7 @@ class GoldenTrace {
   void add(const Vector3& vector) {
     for (int i = 0; i < 3; ++i) add(vector[i]);
   }
-  std::uint64_t hash() const;
+  std::uint64_t hash() const { return fnv1a64(bytes_); }
 
  private:
   std::string bytes_;
@@ -41,10 +41,5 @@ struct GoldenRun {
 
 /// Returns the runs of a program; each program defines this function.
 std::vector<GoldenRun> goldenRuns();
-
-/// A text file with a line for each run, numbers in hexadecimal.
-/// @throws std::runtime_error naming the file, and the line if it is not understood.
-std::vector<GoldenRecord> readGoldenFile(const std::filesystem::path& file);
-void writeGoldenFile(const std::filesystem::path& file, const std::vector<GoldenRecord>& records);
 
 }  // namespace ambient::test

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cmath>
 
 namespace ambient::reference {
@@ -40,6 +41,66 @@ inline Eigen::Matrix<double, 6, 1> ellipsoidAddedMass(const Eigen::Vector3d& sem
     K[k + 3] = volume * shape[k] / (2 - shape[k]);
   }
   return K;
+}
+
+/// Complete elliptic integral of the first kind K(k) for the modulus 0 <= k < 1, by the
+/// arithmetic-geometric mean.
+inline double completeEllipticK(double k) {
+  double a = 1;
+  double b = std::sqrt((1 - k) * (1 + k));
+  for (int i = 0; i < 12; ++i) {
+    const double mean = (a + b) / 2;
+    b = std::sqrt(a * b);
+    a = mean;
+  }
+  return std::acos(-1.0) / (2 * a);
+}
+
+/// Jacobi's elliptic functions at u for the modulus 0 <= k < 1.
+struct JacobiElliptic {
+  double sn, cn, dn;
+};
+
+/// Descending Landen transformation, Abramowitz and Stegun 16.4.
+inline JacobiElliptic jacobiElliptic(double u, double k) {
+  constexpr int kSteps = 12;
+  std::array<double, kSteps + 1> a{}, c{};
+  a[0] = 1;
+  c[0] = k;
+  double b = std::sqrt((1 - k) * (1 + k));
+  for (int i = 0; i < kSteps; ++i) {
+    a[i + 1] = (a[i] + b) / 2;
+    c[i + 1] = (a[i] - b) / 2;
+    b = std::sqrt(a[i] * b);
+  }
+  double phi = std::ldexp(a[kSteps] * u, kSteps);
+  for (int i = kSteps; i > 0; --i) phi = (phi + std::asin(c[i] / a[i] * std::sin(phi))) / 2;
+  const double sn = std::sin(phi);
+  return {sn, std::cos(phi), std::sqrt((1 - k * sn) * (1 + k * sn))};
+}
+
+/// Resistance of an ellipsoid in creeping flow about its centre, per unit viscosity: diagonal
+/// (rotations, translations). Semi-axes [m]. Oberbeck 1876, Jeffery 1922; the integrals alpha_i =
+/// int_0^inf dl / ((a_i^2 + l) Delta) with Delta^2 = prod (a_k^2 + l) by the trapezoidal rule in t,
+/// l = exp(pi/2 sinh t).
+inline Eigen::Matrix<double, 6, 1> ellipsoidResistance(const Eigen::Vector3d& a) {
+  const double pi = std::acos(-1.0), step = 1.0 / 64;
+  Eigen::Vector3d alpha = Eigen::Vector3d::Zero();
+  for (int n = -300; n <= 300; ++n) {
+    const double t = step * n, l = std::exp(pi / 2 * std::sinh(t)),
+                 weight = step * pi / 2 * std::cosh(t) * l;
+    if (!(l > 1e-150 && l < 1e60)) continue;
+    const Eigen::Array3d sum = a.array().square() + l;
+    alpha.array() += weight / (sum * std::sqrt(sum.prod()));
+  }
+  const Eigen::Vector3d weighted = a.array().square() * alpha.array();
+  Eigen::Matrix<double, 6, 1> R;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    R[i] = 16 * pi / 3 * (a[j] * a[j] + a[k] * a[k]) / (weighted[j] + weighted[k]);
+    R[3 + i] = 16 * pi / (weighted.sum() + weighted[i]);
+  }
+  return R;
 }
 
 }  // namespace ambient::reference

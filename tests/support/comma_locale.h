@@ -6,7 +6,6 @@
 #include <string>
 
 #include "tests/support/temporary_folder.h"
-#include "tests/support/text_files.h"
 
 namespace ambient::test {
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "tests/support/text_files.h"
+#include "tests/support/temporary_folder.h"
 
 namespace ambient {
 

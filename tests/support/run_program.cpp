@@ -10,7 +10,6 @@
 #include <thread>
 
 #include "tests/support/temporary_folder.h"
-#include "tests/support/text_files.h"
 
 namespace ambient {
 namespace {

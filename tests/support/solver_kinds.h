@@ -96,9 +96,6 @@ inline constexpr FrictionBound kFrictionBound<Lemke> = FrictionBound::kNothing;
 using AllSolvers = ::testing::Types<SequentialImpulse, ConjugateGradient, Dantzig,
                                     ProjectedGaussSeidel, Lemke, Multithreaded, MultiBody>;
 
-using SolversWithoutFriction = ::testing::Types<SequentialImpulse, ConjugateGradient, Dantzig,
-                                                ProjectedGaussSeidel, Multithreaded, MultiBody>;
-
 struct SolverName {
   template <class Kind>
   static std::string GetName(int) {

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "tests/support/allocation_counter.h"
-#include "tests/support/no_more_threads.h"
 #include "tests/support/thread_pool.h"
 
 namespace ambient::test {

@@ -70,8 +70,6 @@ TEST(ExtremeCase, ATumblingFeatherAt300MetresPerSecondOnlyLosesEnergy) {
   BodyDef def{2e-4, ellipsoidMoments(semi_axes, 2e-4), {}, nullptr};
   def.start.twist = {Vector3(100, 50, 20), Vector3(300, 0, 200)};
   FluidWorld scene;
-  std::vector<std::string> said;
-  scene.fluid.setReport([&](const std::string& text) { said.push_back(text); });
   const btRigidBody& feather = scene.add(def, meshedEllipsoid(semi_axes, 2), air());
   double energy = kineticEnergy(scene, feather);
   for (int i = 0; i < 240; ++i) {
@@ -83,14 +81,12 @@ TEST(ExtremeCase, ATumblingFeatherAt300MetresPerSecondOnlyLosesEnergy) {
   EXPECT_LT(speedOf(feather), 3);
   // Its first steps are too long for the paths that they stand for, and the user is told, once.
   EXPECT_GT(scene.of(feather).counters().coarse, 0);
-  ASSERT_EQ(said.size(), 1U);
-  EXPECT_NE(said[0].find("too long for the motion"), std::string::npos);
+  ASSERT_EQ(scene.said.size(), 1U);
+  EXPECT_NE(scene.said[0].find("too long for the motion"), std::string::npos);
 }
 
 TEST(ExtremeCase, AFastModeThatWasAskedForIsNotComplainedAbout) {
   FluidWorld scene;
-  std::vector<std::string> said;
-  scene.fluid.setReport([&](const std::string& text) { said.push_back(text); });
   AttachDef attach;
   attach.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid(Vector3(0.05, 0.05, 0.01), 1));
   attach.medium = air();
@@ -104,7 +100,7 @@ TEST(ExtremeCase, AFastModeThatWasAskedForIsNotComplainedAbout) {
   EXPECT_GT(counters.coarse, 0);
   EXPECT_EQ(counters.substeps, 60);
   EXPECT_LE(counters.load_evaluations, 61);
-  EXPECT_TRUE(said.empty()) << said[0];
+  EXPECT_TRUE(scene.said.empty()) << scene.said[0];
 }
 
 struct SpunCoin {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/fluid.h"
@@ -69,7 +71,10 @@ struct ActionWorld : btDiscreteDynamicsWorld {
 
 /// A world with a fluid, gravity 0.
 struct FluidWorld : WholeWorld<ActionWorld> {
-  FluidWorld() { world.setGravity({0, 0, 0}); }
+  FluidWorld() {
+    world.setGravity({0, 0, 0});
+    fluid.setReport([this](const std::string& sentence) { said.push_back(sentence); });
+  }
 
   btRigidBody& add(const BodyDef& def) {
     btRigidBody& body =
@@ -99,6 +104,7 @@ struct FluidWorld : WholeWorld<ActionWorld> {
   /// A body that is in the fluid.
   Immersed of(const btRigidBody& body) const { return fluid.find(body).value(); }
 
+  std::vector<std::string> said;  ///< by the fluid
   Fluid fluid{world};
 
  private:

@@ -56,12 +56,10 @@ TEST(Sleeping, EndsWhereTheMediumChanges) {
 
 TEST(Sleeping, IsNotMistakenForAMissingSolver) {
   FluidWorld scene;
-  std::vector<std::string> said;
-  scene.fluid.setReport([&](const std::string& text) { said.push_back(text); });
   btRigidBody& body = addSleepy(scene, {}, idealFluid(1000));
   scene.step(1.0 / 60, 300);
   ASSERT_FALSE(body.isActive());
-  EXPECT_TRUE(said.empty());
+  EXPECT_TRUE(scene.said.empty());
   // Another action wakes the body between solver and action: the solver has skipped it.
   struct Wake : btActionInterface {
     btRigidBody* body = nullptr;
@@ -74,7 +72,7 @@ TEST(Sleeping, IsNotMistakenForAMissingSolver) {
   scene.world.addAction(&wake);
   scene.addAction();
   scene.step(1.0 / 60, 3);
-  EXPECT_TRUE(said.empty()) << said[0];
+  EXPECT_TRUE(scene.said.empty()) << scene.said[0];
   scene.world.removeAction(&wake);
 }
 

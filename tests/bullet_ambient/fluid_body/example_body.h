@@ -5,7 +5,6 @@
 #include "bullet_ambient/fluid_body/fluid_body.h"
 #include "preprocess/base/surface_form.h"
 #include "tests/support/bodies/geodesic.h"
-#include "tests/support/refusal_of.h"
 
 namespace ambient::test {
 

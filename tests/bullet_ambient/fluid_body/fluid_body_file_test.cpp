@@ -8,8 +8,8 @@
 
 #include "preprocess/base/fluid_body_writer.h"
 #include "tests/bullet_ambient/fluid_body/example_body.h"
+#include "tests/support/refusal_of.h"
 #include "tests/support/temporary_folder.h"
-#include "tests/support/text_files.h"
 
 namespace ambient {
 namespace {
@@ -22,89 +22,27 @@ auto fieldsOf(const FluidBody& b) {
                   b.centre_of_volume, b.origin, b.uniform_mass.centre, b.uniform_mass.inertia,
                   b.surface_mass.centre, b.surface_mass.inertia, b.faces.normal_x, b.faces.normal_y,
                   b.faces.normal_z, b.faces.centroid_x, b.faces.centroid_y, b.faces.centroid_z,
-                  b.faces.area, b.surface.vertices, b.surface.triangles);
+                  b.faces.area, b.faces.sharpness, b.surface.vertices, b.surface.triangles,
+                  b.form.hull, b.form.faces.sharpness, b.waterline.subdivisions,
+                  b.waterline.immersions, b.waterline.corrections, b.viscous.is_primitive);
 }
 
 void expectSame(const FluidBody& a, const FluidBody& b) {
   EXPECT_TRUE(fieldsOf(a) == fieldsOf(b)) << a.name;
+  EXPECT_EQ(contentHash(a), contentHash(b));
+  for (std::size_t i = 0; i < ViscousForm::kNumbers; ++i)
+    EXPECT_EQ(*a.viscous.numbers()[i], *b.viscous.numbers()[i]) << i;
+  ASSERT_EQ(a.added_mass_parts.size(), b.added_mass_parts.size());
+  for (std::size_t i = 0; i < a.added_mass_parts.size(); ++i) {
+    EXPECT_EQ(a.added_mass_parts[i].centre, b.added_mass_parts[i].centre);
+    EXPECT_EQ(a.added_mass_parts[i].spread, b.added_mass_parts[i].spread);
+    EXPECT_EQ(a.added_mass_parts[i].inertia, b.added_mass_parts[i].inertia);
+  }
 }
 
 std::ptrdiff_t entriesOf(const TemporaryFolder& folder) {
   const auto entries = std::filesystem::directory_iterator(folder.path());
   return std::distance(begin(entries), end(entries));
-}
-
-TEST(FluidBodyFile, GivesBackEveryFieldBitForBit) {
-  const TemporaryFolder folder;
-  const FluidBody body = test::exampleBody();
-  writeFluidBody(body, folder / "body.ambient");
-  expectSame(readFluidBody(folder / "body.ambient"), body);
-}
-
-TEST(FluidBodyFile, KeepsASharpnessInSinglePrecisionAndInTheSameVersion) {
-  FluidBody body = test::exampleBody();
-  for (std::size_t i = 0; i < body.faces.size(); ++i)
-    body.faces.sharpness.push_back(static_cast<double>(1.0f / static_cast<float>(i + 1)));
-  const std::string bytes = encodeFluidBody(body, "a");
-  EXPECT_EQ(decodeFluidBody(bytes, "a").faces.sharpness, body.faces.sharpness);
-  const std::string without = encodeFluidBody(test::exampleBody(), "a");
-  EXPECT_EQ(bytes.substr(0, 16), without.substr(0, 16));  // magic and version
-  EXPECT_LT(bytes.size(), without.size() + 4 * body.faces.size() + 64);
-}
-
-TEST(FluidBodyFile, TheFormKeepsItsBits) {
-  FluidBody body = test::exampleBody();
-  body.form.faces.sharpness[3] = 1.0 / 3;  // that of a wing is not rounded
-  const FluidBody back = decodeFluidBody(encodeFluidBody(body, "a"), "a");
-  EXPECT_TRUE(isPrepared(back));
-  EXPECT_EQ(back.form.hull, body.form.hull);
-  EXPECT_EQ(back.form.faces.sharpness, body.form.faces.sharpness);
-  EXPECT_EQ(contentHash(back), contentHash(body));
-  body.form = {};
-  EXPECT_FALSE(isPrepared(decodeFluidBody(encodeFluidBody(body, "a"), "a")));
-}
-
-TEST(FluidBodyFile, TheViscousFormKeepsItsBitsInTheSameVersion) {
-  const FluidBody body = test::viscousBody();
-  const std::string bytes = encodeFluidBody(body, "a");
-  const FluidBody back = decodeFluidBody(bytes, "a");
-  for (std::size_t i = 0; i < ViscousForm::kNumbers; ++i)
-    EXPECT_EQ(*back.viscous.numbers()[i], *body.viscous.numbers()[i]) << i;
-  EXPECT_TRUE(back.viscous.is_primitive);
-  EXPECT_EQ(contentHash(back), contentHash(body));
-  FluidBody other = body;
-  other.viscous = {};
-  const std::string without = encodeFluidBody(other, "a");
-  EXPECT_EQ(bytes.substr(0, 16), without.substr(0, 16));  // magic and version
-  EXPECT_FALSE(decodeFluidBody(without, "a").viscous.isKnown());
-}
-
-TEST(FluidBodyFile, KeepsPartsOfTheAddedMassInSinglePrecisionAndInTheSameVersion) {
-  FluidBody body = test::exampleBody();
-  std::vector<AddedMassPart> parts(3);
-  for (int i = 0; i < 3; ++i) {
-    AddedMassPart& part = parts[static_cast<std::size_t>(i)];
-    part.centre = {0.5 + i, -0.25, 2};
-    part.spread << 1, 2, 3, 4, 5, 0.125 * i;
-    for (int row = 0; row < 6; ++row)
-      for (int column = 0; column < 6; ++column) part.inertia(row, column) = i + row * column;
-  }
-  body.added_mass_parts = parts;
-  const std::string bytes = encodeFluidBody(body, "a");
-  const FluidBody back = decodeFluidBody(bytes, "a");
-  ASSERT_EQ(back.added_mass_parts.size(), 3u);
-  for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_EQ(back.added_mass_parts[i].centre, body.added_mass_parts[i].centre);
-    EXPECT_EQ(back.added_mass_parts[i].spread, body.added_mass_parts[i].spread);
-    EXPECT_EQ(back.added_mass_parts[i].inertia, body.added_mass_parts[i].inertia);
-  }
-  const std::string without = encodeFluidBody(test::exampleBody(), "a");
-  EXPECT_EQ(bytes.substr(0, 16), without.substr(0, 16));  // magic and version
-  EXPECT_LT(bytes.size(), without.size() + 3 * 120 + 64);
-  parts[1].centre.x() = std::nan("");
-  body.added_mass_parts = parts;
-  EXPECT_EQ(test::refusalOf([&] { encodeFluidBody(body, "a"); }),
-            "a: centre of a part of the added mass is nan, but must be finite");
 }
 
 FluidBody bodyWithWaterline() {
@@ -120,15 +58,57 @@ FluidBody bodyWithWaterline() {
   return body;
 }
 
-TEST(FluidBodyFile, KeepsAWaterlineTableInTheSameVersion) {
-  const FluidBody body = bodyWithWaterline();
-  const std::string bytes = encodeFluidBody(body, "a");
-  const WaterlineTable back = decodeFluidBody(bytes, "a").waterline;
-  EXPECT_EQ(back.subdivisions, 1);
-  EXPECT_EQ(back.immersions, body.waterline.immersions);
-  EXPECT_EQ(back.corrections, body.waterline.corrections);
-  const std::string without = encodeFluidBody(test::exampleBody(), "a");
-  EXPECT_EQ(bytes.substr(0, 16), without.substr(0, 16));  // magic and version
+// Numbers that are kept in single precision are such.
+FluidBody bodyWithParts() {
+  FluidBody body = test::exampleBody();
+  std::vector<AddedMassPart> parts(3);
+  for (int i = 0; i < 3; ++i) {
+    AddedMassPart& part = parts[static_cast<std::size_t>(i)];
+    part.centre = {0.5 + i, -0.25, 2};
+    part.spread << 1, 2, 3, 4, 5, 0.125 * i;
+    for (int row = 0; row < 6; ++row)
+      for (int column = 0; column < 6; ++column) part.inertia(row, column) = i + row * column;
+  }
+  body.added_mass_parts = parts;
+  return body;
+}
+
+TEST(FluidBodyFile, GivesBackEveryFieldBitForBitInTheSameVersion) {
+  const TemporaryFolder folder;
+  const FluidBody plain = test::exampleBody();
+  const std::string bytes = encodeFluidBody(plain, "a");
+  FluidBody sharp = plain, winged = plain;
+  for (std::size_t i = 0; i < sharp.faces.size(); ++i)
+    sharp.faces.sharpness.push_back(static_cast<double>(1.0f / static_cast<float>(i + 1)));
+  winged.form.faces.sharpness[3] = 1.0 / 3;  // that of a wing is not rounded
+  for (const FluidBody& body :
+       {plain, sharp, winged, test::viscousBody(), bodyWithParts(), bodyWithWaterline()}) {
+    writeFluidBody(body, folder / "body.ambient");
+    expectSame(readFluidBody(folder / "body.ambient"), body);
+    EXPECT_EQ(readText(folder / "body.ambient").substr(0, 16), bytes.substr(0, 16));  // version
+  }
+  EXPECT_LT(encodeFluidBody(sharp, "a").size(), bytes.size() + 4 * plain.faces.size() + 64);
+  EXPECT_LT(encodeFluidBody(bodyWithParts(), "a").size(), bytes.size() + 3 * 120 + 64);
+}
+
+TEST(FluidBodyFile, KnowsWhatIsNotPrepared) {
+  FluidBody body = test::viscousBody();
+  const auto back = [&] { return decodeFluidBody(encodeFluidBody(body, "a"), "a"); };
+  EXPECT_TRUE(isPrepared(back()));
+  EXPECT_TRUE(back().viscous.isKnown());
+  body.form = {};
+  body.viscous = {};
+  EXPECT_FALSE(isPrepared(back()));
+  EXPECT_FALSE(back().viscous.isKnown());
+}
+
+TEST(FluidBodyFile, RefusesAPartThatIsNotFinite) {
+  FluidBody body = test::exampleBody();
+  std::vector<AddedMassPart> parts(1);
+  parts[0].centre.x() = std::nan("");
+  body.added_mass_parts = parts;
+  EXPECT_EQ(test::refusalOf([&] { encodeFluidBody(body, "a"); }),
+            "a: centre of a part of the added mass is nan, but must be finite");
 }
 
 TEST(FluidBodyFile, RefusesAWaterlineTableThatIsNone) {

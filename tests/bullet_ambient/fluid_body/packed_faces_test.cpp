@@ -5,10 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
+#include <stdexcept>
 #include <utility>
 
 #include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/fluid_body/octahedral_lattice.h"
+#include "bullet_ambient/fluid_body/packed/packed_hull.h"
+#include "preprocess/base/surface_form.h"
 #include "tests/support/bodies/geodesic.h"
+#include "tests/support/bodies/hull_bodies.h"
+#include "tests/support/bodies/random_bodies.h"
+#include "tests/support/refusal_of.h"
 
 namespace ambient {
 namespace {
@@ -102,6 +110,207 @@ TEST(PackedFaces, LieWithTheirDiscsWithinTheBoxOfTheirBlock) {
     EXPECT_GT(radius * radius, (1 + 1e-4) * area * unit / kPi);
     EXPECT_LT(radius, 1.001 * std::sqrt(area * unit / kPi) + 1e-5);
   }
+}
+
+using test::Arbitrary;
+
+/// A closed surface without coplanar triangles.
+FluidBody bumpyBody(int level) {
+  Arbitrary arbitrary(1);
+  test::Triangulation mesh = test::geodesicSphere(level);
+  for (Vector3& v : mesh.vertices) v = arbitrary.between(0.7, 1.3) * v + Vector3(1, 2, 3);
+  return test::hullBody(mesh);
+}
+
+TEST(PackedHull, HoldsEachTriangleOnceInBoxesThatHoldIt) {
+  const FluidBody body = bumpyBody(2);  // 320 triangles
+  const PackedHull hull(body);
+  const HullBlocks blocks = hull.blocks();
+  ASSERT_EQ(blocks.count, 40u);
+  Vector3 sum(0, 0, 0);
+  double area = 0;
+  for (std::size_t i = 0; i < blocks.count; ++i) {
+    const HullMoments& group = blocks.moments[i / HullMoments::kBlocks];
+    const std::size_t lane = i % HullMoments::kBlocks;
+    for (int k = 0; k < HullBlock::kTriangles; ++k) {
+      const auto& n = blocks.blocks[i].area_normal;
+      const Vector3 normal(n[0][k], n[1][k], n[2][k]);
+      sum += normal;
+      area += normal.norm();
+      for (const auto& c : blocks.blocks[i].corner)
+        for (int axis = 0; axis < 3; ++axis)
+          EXPECT_LE(std::abs(c[axis][k] - group.centre[axis][lane]), group.half[axis][lane]);
+    }
+  }
+  EXPECT_NEAR(area, body.area, 1e-13);
+  EXPECT_LT(sum.norm(), 1e-14);
+}
+
+TEST(PackedHull, FlatSidesAreFansOfTheirCorners) {
+  const PackedHull hull(test::boxBody({2, 1, 0.5}, 5));  // 300 triangles: two for each side
+  ASSERT_EQ(hull.blocks().count, 2u);
+  double area = 0;
+  for (int i = 0; i < 2; ++i)
+    for (int k = 0; k < HullBlock::kTriangles; ++k) {
+      const auto& n = hull.blocks().blocks[i].area_normal;
+      area += Vector3(n[0][k], n[1][k], n[2][k]).norm();
+    }
+  EXPECT_NEAR(area, 7, 1e-14);
+  EXPECT_EQ(hull.corners().count, 1u);
+}
+
+TEST(PackedHull, SheetDisplacesNothing) {
+  FluidBody sheet = test::boxBody({2, 1, 0.5});
+  sheet.volume = 0;
+  EXPECT_EQ(PackedHull(sheet).blocks().count, 0u);
+  EXPECT_EQ(PackedHull(sheet).corners().count, 1u);
+}
+
+double shareOf(const OctahedralLattice::Place& place, int node) {
+  double share = 0;
+  for (int corner = 0; corner < 3; ++corner)
+    if (place.node[corner] == node) share += place.share[corner];
+  return share;
+}
+
+TEST(OctahedralLattice, HasEveryDirectionOnceAndFindsItAgain) {
+  for (const int subdivisions : {1, 2, 3, 4, 7}) {
+    const OctahedralLattice lattice(subdivisions);
+    ASSERT_EQ(lattice.size(), 4 * subdivisions * subdivisions + 2);
+    for (int node = 0; node < lattice.size(); ++node) {
+      const Vector3 s = lattice.direction(node);
+      EXPECT_NEAR(s.norm(), 1, 1e-15);
+      EXPECT_NEAR(shareOf(lattice.placeOf(s), node), 1, 1e-12) << subdivisions << ", " << node;
+      const Vector3 point = s * (subdivisions / s.cwiseAbs().sum());
+      EXPECT_LT((point - Vector3(point.array().round())).norm(), 1e-12);
+    }
+  }
+}
+
+// Interpolation must reproduce linear functions exactly, on each of the eight faces.
+TEST(OctahedralLattice, SharesAreLinearOnTheOctahedron) {
+  test::Arbitrary arbitrary(1);
+  for (const int subdivisions : {1, 4, 5}) {
+    const OctahedralLattice lattice(subdivisions);
+    for (int i = 0; i < 1000; ++i) {
+      const Vector3 direction = arbitrary.vector();
+      const OctahedralLattice::Place place = lattice.placeOf(direction);
+      Vector3 mean = Vector3::Zero();
+      for (int corner = 0; corner < 3; ++corner) {
+        ASSERT_GE(place.node[corner], 0);
+        ASSERT_LT(place.node[corner], lattice.size());
+        EXPECT_GE(place.share[corner], -1e-12);
+        const Vector3 s = lattice.direction(place.node[corner]);
+        mean += place.share[corner] * s / s.cwiseAbs().sum();
+      }
+      EXPECT_LT((mean - direction / direction.cwiseAbs().sum()).norm(), 1e-14);
+    }
+  }
+}
+
+TEST(OctahedralLattice, AxesEdgesAndCornersOfItsFacesAreNoExceptions) {
+  const OctahedralLattice lattice(4);
+  for (const double x : {-1.0, -0.5, -0.0, 0.0, 1e-17, 0.5, 1.0})
+    for (const double y : {-1.0, -1e-17, 0.0, 1.0 / 3, 1.0})
+      for (const double z : {-1.0, 0.0, 1e-300, 1.0}) {
+        const Vector3 direction(x, y, z);
+        if (direction.isZero(0)) continue;
+        const OctahedralLattice::Place place = lattice.placeOf(direction);
+        EXPECT_NEAR(place.share[0] + place.share[1] + place.share[2], 1, 1e-14);
+        for (const int node : place.node) {
+          EXPECT_GE(node, 0);
+          EXPECT_LT(node, lattice.size());
+        }
+      }
+}
+
+FluidBody bodyOf(const test::Triangulation& mesh) {
+  FluidBody body;
+  body.name = "round";
+  body.faces = test::faceTableOf(mesh);
+  body.area = test::totalArea(body.faces);
+  for (const Vector3& vertex : mesh.vertices)
+    body.surface.vertices.insert(body.surface.vertices.end(), vertex.begin(), vertex.end());
+  for (const Eigen::Vector3i& triangle : mesh.triangles)
+    body.surface.triangles.insert(body.surface.triangles.end(), triangle.begin(), triangle.end());
+  return body;
+}
+
+TEST(Sharpness, OfASphereIsZeroForEveryTriangulation) {
+  double before = 1;
+  for (const int level : {1, 2, 3}) {
+    const std::vector<double> s = computeSharpness(bodyOf(test::geodesicSphere(level)));
+    const double largest = *std::max_element(s.begin(), s.end());
+    EXPECT_LT(largest, before / 8) << level;  // area of the mesh slightly too small
+    before = largest;
+  }
+  EXPECT_LT(before, 1e-5);
+}
+
+TEST(Sharpness, DoesNotDependOnTheScale) {
+  const FluidBody body = bodyOf(test::geodesicEllipsoid({1, 2, 5}, 2));
+  EXPECT_EQ(computeSharpness(scaled(body, 1024)), computeSharpness(body));
+}
+
+TEST(Sharpness, OfASpheroidIsThatOfItsCurvature) {
+  // At the pole of an oblate spheroid both curvatures are b/a^2.
+  const FluidBody body = bodyOf(test::geodesicEllipsoid({2, 2, 1}, 4));
+  const std::vector<double> s = computeSharpness(body);
+  double sum = 0, count = 0;
+  for (std::size_t i = 0; i < body.faces.size(); ++i)
+    if (body.faces.centroid_z[i] > 0.99) {
+      sum += s[i];
+      ++count;
+    }
+  const double x = 0.25 * std::sqrt(body.area / (4 * 3.14159265358979));
+  const double root = (1 - x * x) / (1 + x * x);
+  ASSERT_GT(count, 10);
+  EXPECT_NEAR(sum / count, root * root, 0.02);
+}
+
+TEST(Sharpness, TakesVerticesAtOnePlaceForOne) {
+  const FluidBody body = bodyOf(test::geodesicSphere(2));
+  FluidBody apart = body;
+  apart.surface.vertices.clear();
+  for (std::size_t i = 0; i < body.surface.triangles.size(); ++i) {
+    const auto vertex = static_cast<std::size_t>(body.surface.triangles[i]);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      apart.surface.vertices.push_back(body.surface.vertices[3 * vertex + axis]);
+  }
+  std::iota(apart.surface.triangles.begin(), apart.surface.triangles.end(), 0);
+  EXPECT_EQ(computeSharpness(apart), computeSharpness(body));
+}
+
+TEST(Sharpness, IsOneOnTheHollowSideOfASheet) {
+  FluidBody shell = bodyOf(test::geodesicSphere(2));
+  const std::size_t count = shell.faces.size();
+  for (std::size_t i = 0; i < count; ++i)
+    shell.faces.add(-shell.faces.normal(i), shell.faces.centroid(i), shell.faces.area[i]);
+  const std::vector<double> s = computeSharpness(shell);
+  ASSERT_EQ(s.size(), 2 * count);
+  EXPECT_LT(*std::max_element(s.begin(), s.begin() + static_cast<std::ptrdiff_t>(count)), 0.05);
+  EXPECT_EQ(*std::min_element(s.begin() + static_cast<std::ptrdiff_t>(count), s.end()), 1);
+}
+
+TEST(Sharpness, IsOneOfFacesWithoutASurface) {
+  FluidBody body = bodyOf(test::geodesicSphere(0));
+  body.surface = {};
+  EXPECT_EQ(computeSharpness(body), std::vector<double>(20, 1));
+}
+
+TEST(Sharpness, NeedsTheTrianglesOfTheFaces) {
+  FluidBody body = bodyOf(test::geodesicSphere(0));
+  body.surface.triangles.resize(27);
+  EXPECT_EQ(test::refusalOf<std::invalid_argument>([&] { computeSharpness(body); }),
+            "fluid body 'round': number of its faces is 20, must be that of the triangles of its "
+            "surface, or twice that of a sheet's, for the form law");
+}
+
+TEST(FormLawFaces, TakeAKnownSharpnessWithoutASurface) {
+  FluidBody body = bodyOf(test::geodesicSphere(1));
+  body.faces.sharpness.assign(body.faces.size(), 0.25);
+  body.surface = {};
+  EXPECT_EQ(formLawFaces(body, {}).sharpness, body.faces.sharpness);
 }
 
 }  // namespace

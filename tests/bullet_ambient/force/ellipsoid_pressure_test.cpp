@@ -2,7 +2,7 @@
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/force/loads/face_loads.h"
-#include "tests/reference/loads/spheroid_loads.h"
+#include "tests/reference/loads/sphere_loads.h"
 #include "tests/support/bodies/geodesic.h"
 #include "tests/support/bodies/random_bodies.h"
 #include "tests/support/convergence.h"

@@ -2,7 +2,7 @@
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/force/loads/face_loads.h"
-#include "tests/reference/loads/plate_loads.h"
+#include "tests/reference/loads/sphere_loads.h"
 
 namespace ambient::plate {
 namespace {

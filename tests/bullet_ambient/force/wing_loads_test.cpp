@@ -11,9 +11,8 @@
 #include "bullet_ambient/force/loads/face_loads.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "preprocess/base/surface_form.h"
+#include "tests/support/bodies/hull_bodies.h"
 #include "tests/support/bodies/random_bodies.h"
-#include "tests/support/bodies/wing_bodies.h"
-#include "tests/support/runs.h"
 
 namespace ambient {
 namespace {

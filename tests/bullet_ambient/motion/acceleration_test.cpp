@@ -3,7 +3,7 @@
 #include "bullet_ambient/motion/rows/row_velocity.h"
 #include "tests/reference/full_inertia_accelerations.h"
 #include "tests/support/bodies/free_body.h"
-#include "tests/support/extrapolation.h"
+#include "tests/support/convergence.h"
 
 namespace ambient {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "demos/integrators/integrators.h"
-#include "tests/reference/kirchhoff_integration.h"
+#include "tests/reference/kirchhoff_motion.h"
 #include "tests/support/bodies/free_body.h"
 #include "tests/support/bodies/random_bodies.h"
 #include "tests/support/matrices.h"

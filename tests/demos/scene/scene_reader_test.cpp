@@ -5,9 +5,12 @@
 #include <cmath>
 
 #include "bullet_ambient/base/plain_text.h"
+#include "bullet_ambient/force/medium/waves.h"
 #include "demos/integrators/integrators.h"
-#include "tests/demos/scene/scene_refusals.h"
+#include "demos/scene/scene_water.h"
+#include "tests/demos/scene/scene_text.h"
 #include "tests/support/refusal_of.h"
+#include "tests/support/refusals.h"
 
 namespace ambient {
 namespace {
@@ -178,6 +181,158 @@ TEST(SceneReader, TakesTheLawOfTheSceneUnlessABodyNamesItsOwn) {
   EXPECT_EQ(sceneFrom(scene).bodies[0].attach.flow.law, PressureLaw::kForm);
   EXPECT_EQ(sceneFrom(scene).bodies[0].attach.flow.stall_lag, 0);
 }
+
+Scene readWith(const std::vector<SceneOverride>& overrides) {
+  const TemporaryFolder folder;
+  return readScene(writeScene(folder, ballScene().dump()), overrides);
+}
+
+TEST(SceneOverride, SetsAPlaceInEitherSpelling) {
+  EXPECT_EQ(readWith({{"bodies.0.mass", "0.001"}}).bodies[0].mass, 0.001);
+  EXPECT_EQ(readWith({{"bodies[0].mass", "1e-3"}}).bodies[0].mass, 0.001);
+  EXPECT_EQ(readWith({{"bodies[0].position[2]", "7"}}).bodies[0].position, Vector3(0, 0, 7));
+  EXPECT_EQ(readWith({{"medium.density", "0"}}).medium.density, 0);
+}
+
+TEST(SceneOverride, TakesAVectorAsJsonAndAWordAsString) {
+  EXPECT_EQ(readWith({{"gravity", "[1, 2, 3]"}}).gravity, Vector3(1, 2, 3));
+  EXPECT_EQ(readWith({{"model", "vacuum"}}).model, FluidModel::kVacuum);
+  EXPECT_EQ(readWith({{"model", "\"vacuum\""}}).model, FluidModel::kVacuum);
+}
+
+TEST(SceneOverride, MakesWhatIsOnTheWayToAKnownKey) {
+  EXPECT_EQ(readWith({{"integrator.method", "rk4"}}).flight.own_flight, flyRungeKutta);
+}
+
+TEST(SceneOverride, TheLastOneWins) {
+  EXPECT_EQ(readWith({{"duration", "3"}, {"duration", "4"}}).duration, 4);
+}
+
+TEST(SceneOverride, RejectsAPathThatTheSchemaDoesNotKnow) {
+  // The keys are those that a wrong key in a file is told of.
+  nlohmann::json wrong = ballScene();
+  wrong["bodies"][0]["weight"] = 1;
+  EXPECT_EQ(complaintAbout(ballScene(), {{"bodies.0.weight", "1"}}), complaintAbout(wrong, {}));
+}
+
+TEST(SceneOverride, RejectsWhatCannotBe) {
+  expectRefusals(AMBIENT_SCENE_REFUSALS, "overrides", [](const json& set) {
+    const SceneOverride change{set.begin().key(), set.begin().value().get<std::string>()};
+    return complaintAbout(ballScene(), {change});
+  });
+}
+
+TEST(SceneOverride, RejectsTextThatIsNotUtf8) {
+  EXPECT_EQ(complaintAbout(ballScene(), {{"model", "\xcf"}}),
+            "--set model: the value is not valid UTF-8");
+}
+
+TEST(SceneOverride, SplitsAtTheFirstEqualsSign) {
+  const SceneOverride parsed = parseOverride("description=a=b");
+  EXPECT_EQ(parsed.path, "description");
+  EXPECT_EQ(parsed.value, "a=b");
+}
+
+TEST(SceneOverride, NeedsAPathAndAnEqualsSign) {
+  EXPECT_THROW(parseOverride("duration"), std::invalid_argument);
+  EXPECT_THROW(parseOverride("=3"), std::invalid_argument);
+}
+
+TEST(SceneLookup, FindsANameInTheFirstFolderThatHasIt) {
+  const TemporaryFolder first, second;
+  writeScene(first, "{}", "a.json");
+  writeScene(second, "{}", "a.json");
+  writeScene(second, "{}", "b.json");
+  const std::vector<std::filesystem::path> folders{first.path(), second.path()};
+  EXPECT_EQ(findScene("a", folders), first / "a.json");
+  EXPECT_EQ(findScene("b", folders), second / "b.json");
+  EXPECT_EQ(listScenes(folders).size(), 2u);
+}
+
+TEST(SceneLookup, TakesAPathAsItIs) {
+  EXPECT_EQ(findScene("x/y", {}), "x/y");
+  EXPECT_EQ(findScene("y.json", {}), "y.json");
+}
+
+TEST(SceneLookup, ListsTheKnownNamesWhenOneIsNot) {
+  const TemporaryFolder folder;
+  writeScene(folder, "{}", "a.json");
+  writeScene(folder, "{}", "b.json");
+  EXPECT_EQ(test::refusalOf<std::exception>([&] { findScene("c", {folder.path()}); }),
+            "scene \"c\" is not known; known are: a, b; or give the path of a .json file");
+}
+
+json seaScene() {
+  json scene = ballScene();
+  scene["gravity"] = {0, -4, 0};
+  scene["water"] = json::parse(R"({"level": 0.5, "current": [1, 0, 0], "density": 1025,
+    "waves": [{"amplitude": 0.1, "period": 2}, {"amplitude": 0, "period": 3, "direction": [0, 0, 1], "phase": 1}],
+    "bounds": {"lowest": [null, -2, -3], "highest": [4, null, 5]}})");
+  scene["regions"] =
+      json::parse(R"([{"medium": {"density": 2, "velocity": [3, 0, 0]}, "priority": 4,
+    "bounds": {"lowest": [0, 0, 0], "highest": [1, 1, 1]}}, {"medium": {"density": 7}}])");
+  return scene;
+}
+
+TEST(SceneWater, TakesWaterOver) {
+  const Scene scene = sceneFrom(seaScene());
+  ASSERT_TRUE(scene.water);
+  EXPECT_EQ(scene.water->sea.level, 0.5);
+  EXPECT_EQ(scene.water->sea.up, Vector3(0, 4, 0));
+  EXPECT_EQ(scene.water->sea.gravity, 4);
+  EXPECT_EQ(scene.water->sea.current, Vector3(1, 0, 0));
+  EXPECT_EQ(scene.water->medium.density, 1025);
+  EXPECT_EQ(scene.water->medium.viscosity, water().viscosity);
+  ASSERT_EQ(scene.water->waves.size(), 2u);
+  EXPECT_EQ(scene.water->waves[0].amplitude, 0.1);
+  EXPECT_EQ(scene.water->waves[0].direction, Vector3(1, 0, 0));
+  EXPECT_EQ(scene.water->waves[1].direction, Vector3(0, 0, 1));
+  EXPECT_EQ(scene.water->waves[1].phase, 1);
+  ASSERT_TRUE(scene.water->bounds);
+  EXPECT_EQ(scene.water->bounds->lowest, Vector3(-HUGE_VAL, -2, -3));
+  EXPECT_EQ(scene.water->bounds->highest, Vector3(4, HUGE_VAL, 5));
+}
+
+TEST(SceneWater, MakesRegionsOfWaterFirst) {
+  json text = seaScene();
+  const std::vector<FluidRegion> regions = makeRegions(sceneFrom(text));
+  ASSERT_EQ(regions.size(), 3u);
+  EXPECT_EQ(regions[0].below.density, 1025);
+  EXPECT_EQ(regions[0].above.value().density, 1.204);
+  EXPECT_FALSE(regions[0].surface->isStill());
+  // Deep water has the current of the waves, added once.
+  EXPECT_NEAR(sampleRegion(regions[0], {0, -40, 0}, 0).here().velocity.x(), 1, 1e-12);
+  EXPECT_EQ(regions[1].below.velocity.x(), 3);
+  EXPECT_EQ(regions[1].priority, 4);
+  EXPECT_TRUE(regions[1].bounds->hold({0.5, 0.5, 0.5}));
+  EXPECT_FALSE(regions[2].bounds);
+  text["water"].erase("waves");
+  const FluidRegion still = makeRegions(sceneFrom(text))[0];
+  EXPECT_TRUE(still.surface->isStill());
+  EXPECT_EQ(sampleRegion(still, {0, 0, 0}, 0).here().velocity, Vector3(1, 0, 0));
+  EXPECT_TRUE(sampleRegion(still, {0, 0.6, 0}, 0).isAbove());
+}
+
+TEST(SceneWater, AddsTheWavesOfASpectrum) {
+  json text = seaScene();
+  text["water"]["spectrum"] = json::parse(R"({"significant_height": 0.2, "peak_period": 3,
+    "peak_enhancement": 1, "direction": [0, 0, 2], "components": 7, "seed": 5})");
+  const std::vector<WaveComponent> waves = sceneFrom(text).water->waves;
+  ASSERT_EQ(waves.size(), 9u);
+  WaveSpectrum spectrum{0.2, 3, 1, {0, 0, 2}, 7, 5};
+  const std::vector<WaveComponent> expected = wavesOf(spectrum);
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_EQ(waves[i].amplitude, expected[i].amplitude);
+    EXPECT_EQ(waves[i].period, expected[i].period);
+    EXPECT_EQ(waves[i].direction, expected[i].direction);
+    EXPECT_EQ(waves[i].phase, expected[i].phase);
+  }
+  EXPECT_EQ(waves[7].amplitude, 0.1);
+  text["water"]["spectrum"] = {{"significant_height", 1}, {"peak_period", 8}};
+  EXPECT_EQ(sceneFrom(text).water->waves[0].phase, wavesOf({1, 8})[0].phase);
+}
+
+TEST(SceneWater, SaysWhatIsWrongWithWaterAndRegions) { expectSceneRefusals("water", seaScene()); }
 
 }  // namespace
 }  // namespace ambient

@@ -2,8 +2,9 @@
 
 #include <cmath>
 
-#include "tests/demos/scene/scene_refusals.h"
+#include "tests/demos/scene/scene_text.h"
 #include "tests/support/refusal_of.h"
+#include "tests/support/refusals.h"
 
 namespace ambient {
 namespace {

@@ -196,21 +196,6 @@ TEST(SceneRun, AMassOffCentreTurnsABallDown) {
   EXPECT_LE((spin - expected).norm(), 1e-3 * expected.norm());
 }
 
-TEST(SceneRun, PrincipalAxesChosenByRoundingDoNotChangeTheMotionInFluid) {
-  // All axes are principal for the sphere; a product of inertia selects axes at 45 degrees.
-  Scene plain = sceneFrom(
-      waterBody({{"type", "ellipsoid"}, {"semi_axes", {0.12, 0.08, 0.05}}, {"faces", 320}}, 3));
-  plain.bodies[0].linear_velocity = Vector3(1, 0.5, 0.2);
-  plain.bodies[0].angular_velocity = Vector3(1, 2, 3);
-  plain.duration = 0.5;
-  Matrix3 inertia = 0.01 * Matrix3::Identity();
-  plain.bodies[0].inertia = inertia;
-  Scene picked = plain;
-  inertia(0, 1) = inertia(1, 0) = 1e-9 * 0.01;
-  picked.bodies[0].inertia = inertia;
-  EXPECT_LE(largestDistance(run(plain).motion[0], run(picked).motion[0]), 1e-6);
-}
-
 /// A body at rest at a position.
 json restingBody(const char* name, const json& shape, const json& position) {
   return {{"name", name}, {"mass", 1}, {"shape", shape}, {"position", position}};

@@ -1,6 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <fstream>
+
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
+#include "demos/simulation/scene_body_cache.h"
 #include "demos/simulation/simulation.h"
+#include "preprocess/base/fluid_body_writer.h"
+#include "preprocess/shape/shape_reader.h"
 #include "tests/demos/scene/scene_text.h"
 #include "tests/demos/simulation/scenes/run_scene.h"
 #include "tests/support/refusal_of.h"
@@ -41,23 +47,6 @@ TEST(SimulationJoints, OfABodyThatIsNotThereAreRefused) {
   EXPECT_NE(refusal.find("there is no rigid body \"nobody\""), std::string::npos) << refusal;
 }
 
-TEST(SimulationState, GoesOnBitForBit) {
-  const Scene scene = readNamedScene("plate_9cm");
-  const auto bodies = prepare(scene);
-  Simulation simulation(scene, bodies), other(scene, bodies);
-  for (int i = 0; i < 20; ++i) simulation.step();
-  simulation.applyForce(0, Vector3(0, 1e-3, 0), simulation.sample()[0].position);
-  const std::string state = simulation.saveState();
-  other.restoreState(state);
-  EXPECT_EQ(other.time(), simulation.time());
-  for (int i = 0; i < 20; ++i) {
-    simulation.step();
-    other.step();
-  }
-  EXPECT_EQ(other.sample()[0].position, simulation.sample()[0].position);
-  EXPECT_EQ(other.sample()[0].twist.vector(), simulation.sample()[0].twist.vector());
-}
-
 /// Boxes that fall into a pile in water, with friction, as compounds of one part.
 json fallingBoxes() {
   json scene = stillBall();
@@ -78,20 +67,10 @@ json fallingBoxes() {
   return scene;
 }
 
-TEST(SimulationState, GoesOnBitForBitWhereCompoundsTouch) {
-  const Scene scene = sceneFrom(fallingBoxes());
-  const auto bodies = prepare(scene);
-  Simulation simulation(scene, bodies), other(scene, bodies);
-  for (int round = 0; round < 12; ++round) {
-    for (int i = 0; i < 17; ++i) simulation.step();
-    other.restoreState(simulation.saveState());
-    for (int i = 0; i < 30; ++i) {
-      simulation.step();
-      other.step();
-    }
-    for (std::size_t body = 0; body < bodies.size(); ++body)
-      EXPECT_EQ(other.sample()[body].position, simulation.sample()[body].position) << round;
-  }
+// A plate that is pushed, and compounds that touch.
+TEST(SimulationState, GoesOnBitForBit) {
+  expectSavedStatesGoOn(readNamedScene("plate_9cm"));
+  expectSavedStatesGoOn(sceneFrom(fallingBoxes()), 12);
 }
 
 TEST(SimulationRegions, AreReplacedByThoseOfAnotherScene) {
@@ -128,6 +107,84 @@ TEST(SimulationState, OfAnotherSceneIsRefused) {
   EXPECT_THROW(simulation.restoreState(state.substr(0, state.size() - 1)), std::runtime_error);
   EXPECT_THROW(simulation.restoreState(Simulation(plate, prepare(plate)).saveState()),
                std::runtime_error);
+}
+
+ShapeDescription ball(double radius) {
+  return readShape({{"type", "sphere"}, {"radius", radius}, {"faces", 80}}, "", "ball");
+}
+
+std::vector<std::filesystem::path> filesIn(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    files.push_back(entry.path());
+  return files;
+}
+
+TEST(SceneBodyCache, SolvesAShapeOnce) {
+  SceneBodyCache cache;
+  const auto first = cache.get(ball(1), "a");
+  EXPECT_EQ(cache.get(ball(1), "b"), first);
+  EXPECT_NE(cache.get(ball(2), "c"), first);
+}
+
+TEST(SceneBodyCache, ABodyWithAWaterlineTableIsAnotherOne) {
+  const ShapeDescription box =
+      readShape({{"type", "box"}, {"size", {1, 1, 1}}, {"faces", 48}}, "", "box");
+  SceneBodyCache cache;
+  const auto plain = cache.get(box, "a"), with = cache.get(box, "a", 1);
+  EXPECT_TRUE(plain->waterline.empty());
+  EXPECT_EQ(with->waterline.subdivisions, 1);
+  EXPECT_EQ(cache.get(box, "b", 1), with);
+}
+
+TEST(SceneBodyCache, WritesNothingBeforeItIsSaved) {
+  const TemporaryFolder folder;
+  SceneBodyCache cache(folder / "cache");
+  cache.get(ball(1), "a");
+  EXPECT_TRUE(folder.empty());
+}
+
+TEST(SceneBodyCache, ReadsInTheNextRunWhatThisOneSolved) {
+  const TemporaryFolder folder;
+  SceneBodyCache cache(folder.path());
+  const auto solved = cache.get(ball(1), "a");
+  EXPECT_EQ(cache.solved(), 1);
+  cache.save();
+  SceneBodyCache next(folder.path());
+  const auto read = next.get(ball(1), "a");
+  EXPECT_EQ(next.solved(), 0);
+  EXPECT_EQ(encodeFluidBody(*read, ""), encodeFluidBody(*solved, ""));
+  next.get(ball(2), "a");
+  EXPECT_EQ(next.solved(), 1);
+}
+
+TEST(SceneBodyCache, ReplacesADamagedFile) {
+  const TemporaryFolder folder;
+  SceneBodyCache cache(folder.path());
+  const auto solved = cache.get(ball(1), "a");
+  cache.save();
+  ASSERT_EQ(filesIn(folder.path()).size(), 1u);
+  const auto file = filesIn(folder.path())[0];
+  std::filesystem::resize_file(file, 100);
+  SceneBodyCache next(folder.path());
+  EXPECT_EQ(encodeFluidBody(*next.get(ball(1), "a"), ""), encodeFluidBody(*solved, ""));
+  next.save();
+  EXPECT_NO_THROW(readFluidBody(file));
+}
+
+TEST(SceneBodyCache, AnEditedMeshIsAnotherBody) {
+  const TemporaryFolder folder;
+  const auto mesh = folder / "tetrahedron.obj";
+  const char* const triangles = "v 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+  const ShapeDescription shape =
+      readShape({{"type", "mesh"}, {"file", mesh.string()}}, "", "tetrahedron");
+  std::ofstream(mesh) << "v 0 0 0\nv 1 0 0\n" << triangles;
+  SceneBodyCache cache(folder / "cache");
+  const double volume = cache.get(shape, "a")->volume;
+  cache.save();
+  std::ofstream(mesh) << "v 0 0 0\nv 3 0 0\n" << triangles;
+  SceneBodyCache next(folder / "cache");
+  EXPECT_NEAR(next.get(shape, "a")->volume, 3 * volume, 1e-9);
 }
 
 }  // namespace

@@ -12,7 +12,6 @@
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
-#include "tests/support/text_files.h"
 #include "tests/support/world.h"
 
 namespace ambient {

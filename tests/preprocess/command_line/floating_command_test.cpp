@@ -21,62 +21,6 @@ class FloatingCommand : public CommandLine {
   }
 };
 
-/// Wigley's hull with sides that go on straight above the design waterline, as quads in an OBJ
-/// file: y = B/2 (1 - (2x/L)^2) (1 - (z/T)^2). At keel and stems the two sides meet.
-struct WigleyHull {
-  double L = 50, B = 8, T = 4, freeboard = 2;  // [m]
-
-  double halfBreadth(double x, double z) const {
-    const double depth = std::min(0.0, z) / T;
-    return B / 2 * (1 - 4 * x * x / (L * L)) * (1 - depth * depth);
-  }
-  double wetVolume() const { return 4.0 / 9 * L * B * T; }
-
-  std::string obj() const {
-    constexpr int kAlong = 60, kUp = 24;
-    std::ostringstream vertices, faces;
-    vertices.precision(17);
-    const auto number = [](int side, int i, int k) {
-      return std::to_string(1 + (side * (kAlong + 1) + i) * (kUp + 1) + k);
-    };
-    for (const int side : {0, 1})
-      for (int i = 0; i <= kAlong; ++i)
-        for (int k = 0; k <= kUp; ++k) {
-          const double x = L * (double(i) / kAlong - 0.5), z = (T + freeboard) * k / kUp - T;
-          vertices << "v " << x << ' ' << (side ? -1 : 1) * halfBreadth(x, z) << ' ' << z << '\n';
-        }
-    const auto quad = [&](const std::string& a, const std::string& b, const std::string& c,
-                          const std::string& d) {
-      faces << "f " << a << ' ' << b << ' ' << c << ' ' << d << '\n';
-    };
-    for (int i = 0; i < kAlong; ++i) {
-      for (int k = 0; k < kUp; ++k) {
-        quad(number(0, i, k), number(0, i, k + 1), number(0, i + 1, k + 1), number(0, i + 1, k));
-        quad(number(1, i, k), number(1, i + 1, k), number(1, i + 1, k + 1), number(1, i, k + 1));
-      }
-      quad(number(0, i, kUp), number(1, i, kUp), number(1, i + 1, kUp), number(0, i + 1, kUp));
-    }
-    return vertices.str() + faces.str();
-  }
-};
-
-// GM = KB + BM - KG with KB = 5/8 T, BM = 3 B^2 / (35 T).
-TEST_F(FloatingCommand, WigleysHullOfQuadsFloatsAtItsDesignWaterline) {
-  const WigleyHull hull;
-  const ProgramResult built = run({"build", write("wigley.obj", hull.obj()), "-o",
-                                   path("wigley.ambient"), "--origin", "0,0,0", "--panels", "0"});
-  ASSERT_EQ(built.exit_code, 0) << built.errors;
-  const double height_of_mass = -1.75;
-  const json upright =
-      resultOf({"inspect", path("wigley.ambient"), "--mass",
-                std::to_string(1000 * hull.wetVolume()), "--density", "1000", "--centre-of-mass",
-                "0", "0", std::to_string(height_of_mass), "--json"})["floating"][0];
-  EXPECT_NEAR(upright["up"][2].get<double>(), 1, 1e-9);
-  EXPECT_NEAR(upright["draught"].get<double>(), hull.T, 0.005 * hull.T);
-  const double metacentre = -3.0 / 8 * hull.T + 3 * hull.B * hull.B / (35 * hull.T);
-  EXPECT_NEAR(upright["metacentres"][0]["height"].get<double>(), metacentre - height_of_mass, 0.02);
-}
-
 // Barge of half the water's density, low weight: T = 0.25, GM = B^2 / 12 T - KG + KB.
 TEST_F(FloatingCommand, InspectTellsHowABargeFloats) {
   const std::string file = barge();

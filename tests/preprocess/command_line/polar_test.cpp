@@ -103,20 +103,6 @@ TEST_F(Polar, ObliqueSpheroidAgreesWithQuadrature) {
   EXPECT_NEAR(row[kPitch], munkPitch(disc, kPi / 6, 1, 1) - torque_y, 5e-3);
 }
 
-TEST_F(Polar, ASphereHasHalfOfItsSilhouetteAtEveryAngle) {
-  BuildSettings settings;
-  settings.flow.max_panels = 0;
-  settings.sphere_radius = 0.5;
-  settings.added_mass = 0.25 * Matrix6::Identity();
-  const std::string file = (folder_ / "ball.ambient").string();
-  writeFluidBody(makeFluidBody(makeEllipsoidMesh({0.5, 0.5, 0.5}, 80), settings), file);
-  for (const Row& row : polar(file, {"--attack", "-90:90:45", "--side-slip", "0:30:15"})) {
-    EXPECT_NEAR(row[kDrag], 0.5, 1e-9);
-    for (const Column column : {kLift, kSide, kRoll, kPitch, kYaw})
-      EXPECT_NEAR(row[column], 0, 1e-9) << column;
-  }
-}
-
 TEST_F(Polar, SideSlipAndOtherAxesAreTheSameBodyTurned) {
   const TriangleMesh wing = moved(makeBoxMesh({1, 3, 0.2}, 800), {0.3, 0.4, 0.5});
   const std::vector<std::string> angles{"--attack", "20", "--side-slip", "-15"};

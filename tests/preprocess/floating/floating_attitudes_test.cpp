@@ -241,21 +241,5 @@ TEST(RestoringStiffness, IsTheSecondDerivativeOfTheEnergy) {
   }
 }
 
-// Barge of length L and breadth B: rho g L B in heave, rho g V GM in roll and pitch.
-TEST(RestoringStiffness, OfABargeIsThatOfItsMetacentres) {
-  const double L = 4, B = 1.5, depth = 1, draught = 0.4, height_of_mass = 0.1;
-  const PackedHull hull(boxBody({L, B, depth}));
-  const SurfacePlane plane{Vector3::UnitZ(), draught - depth / 2, kDensityAtSea, kGravityAtSea};
-  const double volume = L * B * draught;
-  const PointMass weight{kDensityAtSea * volume, {0, 0, height_of_mass}};
-  const Matrix6 K = restoringStiffness(computeWetVolume(hull, plane), plane, weight, weight.centre);
-  const double carried = kDensityAtSea * kGravityAtSea;
-  const double lever = draught / 2 - depth / 2 - height_of_mass;  // of buoyancy over weight
-  Vector6 expected;
-  expected << carried * (L * B * B * B / 12 + volume * lever),
-      carried * (L * L * L * B / 12 + volume * lever), 0, 0, 0, carried * L * B;
-  EXPECT_LT((K - Matrix6(expected.asDiagonal())).cwiseAbs().maxCoeff(), 1e-9 * expected.maxCoeff());
-}
-
 }  // namespace
 }  // namespace ambient::test

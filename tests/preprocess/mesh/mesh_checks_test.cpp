@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bullet_ambient/base/pi.h"
@@ -61,69 +63,95 @@ TEST(MeshChecks, VerdictsDoNotDependOnTheUnit) {
   }
 }
 
-TEST(MeshChecks, MissingTrianglesAreRefused) {
-  EXPECT_EQ(refusal({}), "thing.obj: there are no triangles");
+/// A mesh with further vertices and triangles.
+TriangleMesh with(const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& vertices,
+                  const std::vector<Eigen::Vector3i>& triangles) {
+  const TriangleMesh more = meshOf(vertices, triangles);
+  TriangleMesh both;
+  both.vertices.resize(3, mesh.vertexCount() + more.vertexCount());
+  both.vertices << mesh.vertices, more.vertices;
+  both.triangles.resize(3, mesh.triangleCount() + more.triangleCount());
+  both.triangles << mesh.triangles, more.triangles;
+  return both;
 }
 
-TEST(MeshChecks, CoordinatesThatAreNotFiniteAreNamed) {
-  TriangleMesh mesh = cube(1);
-  mesh.vertices(1, 5) = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(refusal(mesh), "thing.obj: vertex 5 has the coordinate y = nan, must be finite");
-  mesh.vertices(1, 5) = -std::numeric_limits<double>::infinity();
-  EXPECT_EQ(refusal(mesh), "thing.obj: vertex 5 has the coordinate y = -inf, must be finite");
-}
-
-TEST(MeshChecks, IndicesOutOfRangeAreNamed) {
-  for (const int index : {8, -1}) {
-    TriangleMesh mesh = cube(1);
+TEST(MeshChecks, WhatCannotBeMendedIsNamed) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const TriangleMesh whole = unitTetrahedron();
+  const auto corner3At = [&](double x, double y, double z) {
+    TriangleMesh mesh = whole;
+    mesh.vertices.col(3) << x, y, z;
+    return mesh;
+  };
+  const auto triangle3To = [&](int index) {
+    TriangleMesh mesh = whole;
     mesh.triangles(2, 3) = index;
-    EXPECT_EQ(refusal(mesh), "thing.obj: triangle 3 refers to vertex " + std::to_string(index) +
-                                 ", but there are 8 vertices");
+    return mesh;
+  };
+  const std::pair<TriangleMesh, const char*> rows[] = {
+      {{}, "there are no triangles"},
+      {corner3At(0, std::nan(""), 1), "vertex 3 has the coordinate y = nan, must be finite"},
+      {corner3At(0, -kInfinity, 1), "vertex 3 has the coordinate y = -inf, must be finite"},
+      {triangle3To(8), "triangle 3 refers to vertex 8, but there are 4 vertices"},
+      {triangle3To(-1), "triangle 3 refers to vertex -1, but there are 4 vertices"},
+      {corner3At(0.5, 1e-8, 0),
+       "triangle 1 is degenerate: its height is 1e-08 of its longest edge, at least 1e-07 needed; "
+       "corners 0 (0, 0, 0), 1 (1, 0, 0), 3 (0.5, 1e-08, 0)"},
+      {with(whole, {}, {{1, 0, 2}}),
+       "triangles 0 and 4 have the same corners: vertices 0 (0, 0, 0), 1 (1, 0, 0), 2 (0, 1, 0)"},
+      {withoutTriangle(whole, 3),
+       "not watertight: 3 boundary edges, for example from vertex 1 (1, 0, 0) to vertex 2 (0, 1, "
+       "0) of triangle 0"}};
+  for (const auto& [mesh, words] : rows)
+    EXPECT_EQ(refusal(mesh), std::string("thing.obj: ") + words);
+  TriangleMesh pointed = whole;
+  pointed.triangles(2, 1) = pointed.triangles(1, 1);
+  EXPECT_NE(refusal(pointed).find("triangle 1 is degenerate: its height is 0"), std::string::npos);
+}
+
+// Divides the edge of one triangle of a tetrahedron, but not of its neighbour.
+TriangleMesh tetrahedronWithTJunction(double off_edge) {
+  return meshOf({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.5, off_edge, 0}},
+                {{0, 2, 4}, {4, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}});
+}
+
+TEST(MeshChecks, WhatIsMendedIsWarnedOf) {
+  const TriangleMesh box = makeBoxMesh({1, 2, 3}, 300), turned = insideOut(box);
+  TriangleMesh mixed = box, unused = with(cube(1), {{7, 8, 9}, cube(1).vertices.col(0)}, {});
+  for (const int t : {0, 7, 100}) mixed.triangles.col(t) = turned.triangles.col(t);
+  unused.vertices.col(0) << -7, 8, 9;
+  unused.triangles = (unused.triangles.array() == 0).select(9, unused.triangles);
+  const std::string count = std::to_string(box.triangleCount()),
+                    into_fluid = " triangles were turned round to point into the fluid";
+  struct Mended {
+    TriangleMesh mesh;
+    double volume;
+    Eigen::Index vertices, triangles;
+    std::string warning;
+  };
+  const Mended rows[] = {
+      // As quadrilaterals with two equal corners leave them, at the keel of a hull.
+      {with(unitTetrahedron(), {{0.5, -0.5, 0}}, {{0, 1, 4}, {1, 0, 4}}), 1.0 / 6, 4, 4,
+       "folds, opposite triangles on the same corners, were left out: 1"},
+      {turned, 48, box.vertexCount(), box.triangleCount(),
+       "inside out, " + count + " of " + count + into_fluid},
+      {mixed, 48, box.vertexCount(), box.triangleCount(),
+       "3 of " + count + " triangles were turned round to agree with their neighbours"},
+      {joined(cube(1), moved(insideOut(cube(1)), {5, 0, 0})), 16, 16, 24,
+       "inside out, 12 of 24" + into_fluid},
+      {unused, 8, 8, 12, "2 vertices belong to no triangle and were left out"},
+      {tetrahedronWithTJunction(1e-7), 1.0 / 6, 5, 6,
+       "vertices lie on edges of other triangles (T-junctions), which were divided there; "
+       "triangles added: 1"}};
+  for (const Mended& row : rows) {
+    const CheckedMesh checked = sound(row.mesh);
+    EXPECT_TRUE(isClosed(computeMeshEdges(checked.mesh))) << row.warning;
+    EXPECT_EQ(checked.mesh.vertexCount(), row.vertices) << row.warning;
+    EXPECT_EQ(checked.mesh.triangleCount(), row.triangles) << row.warning;
+    EXPECT_NEAR(computeMassProperties(checked.mesh).volume, row.volume, 1e-7) << row.warning;
+    ASSERT_FALSE(checked.warnings.empty()) << row.warning;
+    EXPECT_EQ(checked.warnings[0], "thing.obj: " + row.warning);
   }
-}
-
-TEST(MeshChecks, DegenerateTrianglesAreNamedWithTheLimit) {
-  TriangleMesh mesh = unitTetrahedron();
-  mesh.vertices.col(3) << 0.5, 1e-8, 0;
-  EXPECT_EQ(refusal(mesh),
-            "thing.obj: triangle 1 is degenerate: its height is 1e-08 of its longest edge, at "
-            "least 1e-07 needed; corners 0 (0, 0, 0), 1 (1, 0, 0), 3 (0.5, 1e-08, 0)");
-  mesh = unitTetrahedron();
-  mesh.triangles(2, 1) = mesh.triangles(1, 1);
-  EXPECT_NE(refusal(mesh).find("triangle 1 is degenerate: its height is 0"), std::string::npos);
-}
-
-TEST(MeshChecks, DuplicateTrianglesAreNamed) {
-  const TriangleMesh mesh = unitTetrahedron();
-  TriangleMesh doubled = mesh;
-  doubled.triangles.conservativeResize(3, 5);
-  doubled.triangles.col(4) << 1, 0, 2;
-  EXPECT_EQ(refusal(doubled),
-            "thing.obj: triangles 0 and 4 have the same corners: vertices 0 (0, 0, 0), 1 (1, 0, "
-            "0), 2 (0, 1, 0)");
-}
-
-// As quadrilaterals with two equal corners leave them, at the keel of a hull.
-TEST(MeshChecks, FoldsAreLeftOutWithAWarning) {
-  const TriangleMesh mesh = unitTetrahedron();
-  TriangleMesh folded = mesh;
-  folded.vertices.conservativeResize(3, 5);
-  folded.vertices.col(4) << 0.5, -0.5, 0;
-  folded.triangles.conservativeResize(3, 6);
-  folded.triangles.col(4) << 0, 1, 4;
-  folded.triangles.col(5) << 1, 0, 4;
-  const CheckedMesh checked = sound(folded);
-  EXPECT_EQ(checked.mesh.triangleCount(), 4);
-  EXPECT_EQ(checked.mesh.vertexCount(), 4);
-  ASSERT_FALSE(checked.warnings.empty());
-  EXPECT_EQ(checked.warnings[0],
-            "thing.obj: folds, opposite triangles on the same corners, were left out: 1");
-}
-
-TEST(MeshChecks, OpenMeshesAreRefusedWithTheNumberOfBoundaryEdgesAndAnExample) {
-  EXPECT_EQ(refusal(withoutTriangle(unitTetrahedron(), 3)),
-            "thing.obj: not watertight: 3 boundary edges, for example from vertex 1 (1, 0, 0) to "
-            "vertex 2 (0, 1, 0) of triangle 0");
 }
 
 TEST(MeshChecks, EdgesOfMoreThanTwoTrianglesAreRefused) {
@@ -151,36 +179,6 @@ TEST(MeshChecks, VerticesWherePartsTouchAreFound) {
             "not manifold: separate parts of the surface touch at vertex 0 (0, 0, 0), triangles 0 "
             "and 4");
   EXPECT_EQ(defects[0].triangles.front(), 0);
-}
-
-TEST(MeshChecks, InsideOutMeshesAreTurnedWithAWarning) {
-  const TriangleMesh mesh = makeBoxMesh({1, 2, 3}, 300);
-  const CheckedMesh checked = sound(insideOut(mesh));
-  EXPECT_NEAR(computeMassProperties(checked.mesh).volume, 48, 1e-12);
-  ASSERT_EQ(checked.warnings.size(), 1u);
-  const std::string count = std::to_string(mesh.triangleCount());
-  EXPECT_EQ(checked.warnings[0], "thing.obj: inside out, " + count + " of " + count +
-                                     " triangles were turned round to point into the fluid");
-}
-
-TEST(MeshChecks, MixedOrientationIsMendedWithAWarning) {
-  TriangleMesh mesh = makeBoxMesh({1, 2, 3}, 300);
-  const TriangleMesh turned = insideOut(mesh);
-  for (const int t : {0, 7, 100}) mesh.triangles.col(t) = turned.triangles.col(t);
-  const CheckedMesh checked = sound(mesh);
-  EXPECT_NEAR(computeMassProperties(checked.mesh).volume, 48, 1e-12);
-  ASSERT_EQ(checked.warnings.size(), 1u);
-  EXPECT_EQ(checked.warnings[0], "thing.obj: 3 of " + std::to_string(mesh.triangleCount()) +
-                                     " triangles were turned round to agree with their neighbours");
-}
-
-TEST(MeshChecks, OnlyThePartThatIsInsideOutIsTurned) {
-  const TriangleMesh apart = joined(cube(1), moved(insideOut(cube(1)), {5, 0, 0}));
-  const CheckedMesh checked = sound(apart);
-  EXPECT_NEAR(computeMassProperties(checked.mesh).volume, 16, 1e-12);
-  ASSERT_EQ(checked.warnings.size(), 1u);
-  EXPECT_EQ(checked.warnings[0],
-            "thing.obj: inside out, 12 of 24 triangles were turned round to point into the fluid");
 }
 
 TEST(MeshChecks, CavitiesAreTakenOutWithAWarning) {
@@ -301,22 +299,6 @@ TEST(MeshChecks, SurfacesThatEncloseTheBodyTwiceAreJudgedByTheirShareOfTheArea) 
   }
 }
 
-// Divides the edge of one triangle of a tetrahedron, but not of its neighbour.
-TriangleMesh tetrahedronWithTJunction(double off_edge) {
-  return meshOf({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.5, off_edge, 0}},
-                {{0, 2, 4}, {4, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}});
-}
-
-TEST(MeshChecks, TJunctionsAreDividedWithAWarning) {
-  const CheckedMesh checked = sound(tetrahedronWithTJunction(1e-7));
-  EXPECT_TRUE(isClosed(computeMeshEdges(checked.mesh)));
-  EXPECT_EQ(checked.mesh.triangleCount(), 6);
-  EXPECT_NEAR(computeMassProperties(checked.mesh).volume, 1.0 / 6, 1e-7);
-  EXPECT_EQ(checked.warnings, std::vector<std::string>{
-                                  "thing.obj: vertices lie on edges of other triangles "
-                                  "(T-junctions), which were divided there; triangles added: 1"});
-}
-
 TEST(MeshChecks, WhatIsOpenOtherwiseIsNotDivided) {
   EXPECT_NE(refusal(tetrahedronWithTJunction(1e-4)).find("not watertight: 3 boundary edges"),
             std::string::npos);
@@ -361,20 +343,6 @@ TEST(MeshChecks, OneSidedSurfacesAreRefused) {
     }
   }
   EXPECT_NE(refusal(meshOf(vertices, triangles), {true}).find("one-sided"), std::string::npos);
-}
-
-TEST(MeshChecks, UnusedVerticesAreLeftOutWithAWarning) {
-  TriangleMesh mesh = cube(1);
-  mesh.vertices.conservativeResize(3, 10);
-  mesh.vertices.col(9) = mesh.vertices.col(0);
-  mesh.vertices.col(8) << 7, 8, 9;
-  mesh.vertices.col(0) << -7, 8, 9;
-  mesh.triangles = (mesh.triangles.array() == 0).select(9, mesh.triangles);
-  const CheckedMesh checked = sound(mesh);
-  EXPECT_EQ(checked.mesh.vertexCount(), 8);
-  EXPECT_NEAR(computeMassProperties(checked.mesh).volume, 8, 1e-14);
-  ASSERT_EQ(checked.warnings.size(), 1u);
-  EXPECT_EQ(checked.warnings[0], "thing.obj: 2 vertices belong to no triangle and were left out");
 }
 
 TEST(MeshChecks, SheetsMustBeOpenInEveryPart) {

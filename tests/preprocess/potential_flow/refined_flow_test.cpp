@@ -229,15 +229,6 @@ TEST(FlowEstimate, LargeMeshesHaveNone) {
   EXPECT_FALSE(estimateFlow(makeEllipsoidMesh({1, 1, 1}, 2700), panelSettings(0)));
 }
 
-TEST(FlowEstimate, PlaceOfTheMeshDoesNotMatter) {
-  const TriangleMesh box = makeBoxMesh({1, 0.5, 0.2}, 12);
-  const auto here = estimateFlow(box, panelSettings(600));
-  const auto there = estimateFlow(moved(box, {5, 6, 7}), panelSettings(600));
-  ASSERT_TRUE(here && there);
-  EXPECT_NEAR(there->rotation_error, here->rotation_error, 1e-5);
-  EXPECT_NEAR(there->translation_error, here->translation_error, 1e-6);
-}
-
 TEST(FlowEstimate, OfASheet) {
   const auto estimate = estimateFlow(makeRectangularSheetMesh(2, 1, 16), panelSettings(800, true));
   ASSERT_TRUE(estimate);

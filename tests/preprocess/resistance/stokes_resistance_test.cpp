@@ -14,7 +14,7 @@
 #include "preprocess/potential_flow/surface/surface_refinement.h"
 #include "preprocess/resistance/stokes_matrix.h"
 #include "tests/preprocess/potential_flow/flow_fixtures.h"
-#include "tests/reference/ellipsoid_resistance.h"
+#include "tests/reference/ellipsoid_added_mass.h"
 
 namespace ambient {
 namespace {

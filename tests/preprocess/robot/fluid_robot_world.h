@@ -1,6 +1,8 @@
 #pragma once
 
 #include "bullet_ambient/ambient.h"
+#include "bullet_ambient/bullet/core/conversions.h"
+#include "preprocess/robot/robot.h"
 #include "tests/support/world.h"
 
 namespace ambient {
@@ -9,5 +11,20 @@ namespace ambient {
 struct FluidRobotWorld : test::TreeWorld {
   Fluid fluid{world};
 };
+
+/// A stock world for multibodies.
+struct RobotWorld : test::TreeWorld {
+  explicit RobotWorld(const Vector3& gravity = {0, 0, 0}) { world.setGravity(toBullet(gravity)); }
+
+  void step(Robot& robot, double time_step, int count = 1) {
+    for (int i = 0; i < count; ++i) {
+      robot.prepareStep(time_step);
+      world.stepSimulation(static_cast<btScalar>(time_step), 0);
+    }
+  }
+};
+
+/// Tolerance of rounding for btScalar: double or float.
+inline double rounding() { return sizeof(btScalar) == 8 ? 1e-12 : 2e-5; }
 
 }  // namespace ambient

@@ -6,7 +6,6 @@
 
 #include "preprocess/collision_shape/fluid_body_cache.h"
 #include "tests/preprocess/robot/fluid_robot_world.h"
-#include "tests/preprocess/robot/robot_world.h"
 #include "tests/preprocess/robot/urdf_text_of.h"
 #include "tests/reference/ellipsoid_added_mass.h"
 #include "tests/support/refusal_of.h"

@@ -8,6 +8,7 @@
 #include "bullet_ambient/fluid_body/fluid_body.h"
 #include "bullet_ambient/force/law/flow_settings.h"
 #include "bullet_ambient/force/medium/medium.h"
+#include "demos/analysis/path_summary.h"
 
 namespace ambient {
 
@@ -37,5 +38,21 @@ struct FallingCase {
 /// @throws std::runtime_error or nlohmann::json::exception if the file is damaged.
 std::vector<FallingCase> readFallingCases(const std::filesystem::path& file,
                                           const std::string& group = {});
+
+/// Motion and cost of one falling case.
+struct FallingRun {
+  std::vector<MotionSample> motion;  ///< after each step
+  Fall fall;                         ///< over the second half
+  double substeps = 0;               ///< per step
+  double coarse = 0;                 ///< part of steps with an error above the tolerance
+};
+
+FallingRun runFall(const FallingCase& falling_case, PressureLaw law);
+
+// Header and line of a CSV table. Speeds, and the spin about y, are means over the second half.
+std::string fallHeader();
+std::string fallLine(const FallingCase& falling_case, PressureLaw law, const FallingRun& run);
+std::string pathHeader();
+std::string pathLines(const FallingCase& falling_case, PressureLaw law, const FallingRun& run);
 
 }  // namespace ambient

@@ -10,8 +10,7 @@
 #include "demos/simulation/output/run_files.h"
 #include "preprocess/base/output_file.h"
 #include "preprocess/shape/json_schema.h"
-#include "tests/study/reality/falling_run.h"
-#include "tests/study/reality/measured_coefficient.h"
+#include "tests/study/reality/falling_cases.h"
 #include "tests/study/reality/measured_shapes.h"
 #include "tests/support/parse_or_exit.h"
 

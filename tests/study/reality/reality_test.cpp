@@ -12,8 +12,7 @@
 #include <utility>
 
 #include "preprocess/shape/json_schema.h"
-#include "tests/study/reality/falling_run.h"
-#include "tests/study/reality/measured_coefficient.h"
+#include "tests/study/reality/falling_cases.h"
 #include "tests/study/reality/measured_shapes.h"
 
 namespace ambient {

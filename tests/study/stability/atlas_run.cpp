@@ -14,7 +14,7 @@
 #include "bullet_ambient/fluid.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/principal_frame.h"
-#include "tests/support/energy_rise.h"
+#include "tests/support/convergence.h"
 #include "tests/support/world.h"
 
 namespace ambient {

@@ -9,10 +9,25 @@
 #include "bullet_ambient/spatial/inertia.h"
 #include "preprocess/base/surface_form.h"
 #include "tests/reference/ellipsoid_added_mass.h"
-#include "tests/support/bodies/ball_resistance.h"
 #include "tests/support/bodies/geodesic.h"
 
 namespace ambient::test {
+
+/// Gives a body the resistance of the ball with its area, about the centre of volume: for tests of
+/// what a resistance does, not of what it is.
+inline void giveResistance(FluidBody& body) {
+  const double pi = portable::acos(-1.0), radius = std::sqrt(body.area / pi) / 2;
+  ViscousForm& viscous = body.viscous;
+  viscous.resistance.setZero();
+  viscous.resistance.diagonal() << Vector3::Constant(8 * pi * radius * radius * radius),
+      Vector3::Constant(6 * pi * radius);
+  viscous.resistance = shiftOrigin(viscous.resistance, -body.centre_of_volume);
+  viscous.centre_of_reaction = body.centre_of_volume;
+  viscous.surface = {2 * radius, Vector3::Constant(pi * radius * radius),
+                     Vector3::Constant(radius * radius / 3),
+                     2.0 / 3 * radius * radius * Matrix3::Identity()};
+  viscous.sharp_share = 0.5;
+}
 
 inline double ellipsoidVolume(const Vector3& semi_axes) {
   return 4.0 / 3.0 * portable::acos(-1.0) * semi_axes.prod();

@@ -8,7 +8,7 @@
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/force/medium/waves.h"
 #include "preprocess/base/surface_form.h"
-#include "tests/bullet_ambient/bullet/regions/long_scene.h"
+#include "tests/bullet_ambient/bullet/regions/region_world.h"
 
 // Bodies that are not small against what moves around them, docs/theory.md section 16.
 namespace ambient::test {

@@ -8,7 +8,7 @@
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/saved_state.h"
 #include "tests/bullet_ambient/bullet/regions/region_world.h"
-#include "tests/bullet_ambient/bullet/state/saved_run.h"
+#include "tests/bullet_ambient/bullet/state/state_scene.h"
 #include "tests/support/bodies/part_bodies.h"
 
 // Fluids whose velocity changes from step to step, without an acceleration: docs/theory.md eq.
@@ -64,45 +64,30 @@ double wayOf(FluidWorld& scene, const btRigidBody& body,
 constexpr double kWayOfWater = 0.5 * kFlowPeriod / kPi;  // 0.637 m
 const double kWayError = byPrecision(1e-4, 1e-4) * kWayOfWater;
 
-TEST(ChangingFlow, OfARegionCarriesItsBodies) {
-  FluidWorld scene;
-  const RegionId id = scene.fluid.addRegion(filledWith(flowingWater(toAndFro(0))));
-  const btRigidBody& body = addNeutralBall(scene, Medium{});
-  const double way = wayOf(scene, body, [&](double time) {
-    scene.fluid.setRegion(id, filledWith(flowingWater(toAndFro(time))));
-  });
-  EXPECT_NEAR(way, kWayOfWater, kWayError);
-  // Read as it was given for the last step.
-  EXPECT_LT((scene.of(body).medium().velocity - toAndFro((kFlowSteps - 1) * kFlowStep)).norm(),
-            1e-15);
-}
-
-TEST(ChangingFlow, OfABodysOwnMediumCarriesIt) {
-  FluidWorld scene;
-  const btRigidBody& body = addNeutralBall(scene, flowingWater(toAndFro(0)));
-  const double way = wayOf(
-      scene, body, [&](double time) { scene.of(body).setMedium(flowingWater(toAndFro(time))); });
-  EXPECT_NEAR(way, kWayOfWater, kWayError);
-}
-
-TEST(ChangingFlow, OfAFunctionOfTimeCarriesABody) {
-  FluidWorld scene;
-  FluidRegion sea = filledWith(idealFluid(1000));
-  sea.flow = [](const Vector3&, double time) { return FlowSample{toAndFro(time), {0, 0, 0}}; };
-  scene.fluid.addRegion(sea);
-  const btRigidBody& body = addNeutralBall(scene, Medium{});
-  EXPECT_NEAR(wayOf(scene, body, [](double) {}), kWayOfWater, kWayError);
-}
-
-TEST(ChangingFlow, OfAFunctionThatReadsAVariableCarriesABody) {
-  FluidWorld scene;
-  Vector3 now(0, 0, 0);
-  FluidRegion sea = filledWith(idealFluid(1000));
-  sea.flow = [&now](const Vector3&, double) { return FlowSample{now, {0, 0, 0}}; };
-  scene.fluid.addRegion(sea);
-  const btRigidBody& body = addNeutralBall(scene, Medium{});
-  EXPECT_NEAR(wayOf(scene, body, [&](double time) { now = toAndFro(time); }), kWayOfWater,
-              kWayError);
+// By a region that is set anew, a body's own medium, a function of time, and one of a variable.
+TEST(ChangingFlow, CarriesABodyHoweverItIsGiven) {
+  for (const char* how : {"region", "own", "time", "variable"}) {
+    const std::string given = how;
+    FluidWorld scene;
+    Vector3 now = toAndFro(0);
+    FluidRegion sea = filledWith(flowingWater(given == "region" ? now : Vector3(0, 0, 0)));
+    if (given == "time")
+      sea.flow = [](const Vector3&, double time) { return FlowSample{toAndFro(time), {0, 0, 0}}; };
+    if (given == "variable")
+      sea.flow = [&now](const Vector3&, double) { return FlowSample{now, {0, 0, 0}}; };
+    const bool is_own = given == "own";
+    if (!is_own) scene.fluid.addRegion(sea);
+    const btRigidBody& body = addNeutralBall(scene, is_own ? flowingWater(now) : Medium{});
+    const double way = wayOf(scene, body, [&](double time) {
+      now = toAndFro(time);
+      if (is_own) scene.of(body).setMedium(flowingWater(now));
+      if (given == "region") scene.fluid.setRegion(RegionId{0}, filledWith(flowingWater(now)));
+    });
+    EXPECT_NEAR(way, kWayOfWater, kWayError) << given;
+    // Read as it was given for the last step.
+    EXPECT_LT((scene.of(body).medium().velocity - toAndFro((kFlowSteps - 1) * kFlowStep)).norm(),
+              byPrecision(1e-12, 1e-6));
+  }
 }
 
 // An acceleration that is given counts, and that alone.

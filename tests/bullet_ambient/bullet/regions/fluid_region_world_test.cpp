@@ -2,16 +2,21 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "bullet_ambient/fluid.h"
+#include "bullet_ambient/saved_state.h"
 #include "tests/bullet_ambient/bullet/regions/region_world.h"
+#include "tests/bullet_ambient/bullet/state/state_scene.h"
 #include "tests/support/refusal_of.h"
+#include "tests/support/thread_pool.h"
 
-// Regions of fluid, and the search for a body's region.
 namespace ambient::test {
 namespace {
+
+// Regions of fluid, and the search for a body's region.
 
 TEST(FluidRegions, ABodyInOneMovesAsIfTheFluidWereItsOwn) {
   const Medium medium{300, 1e-3, {0.3, 0, 0.1}, {0, 0.2, 0}};
@@ -285,6 +290,81 @@ TEST(FluidRegions, AWorldWithoutAnyAsksNothing) {
   scene.step(kWorldStep, 10);
   EXPECT_EQ(scene.fluid.counters().regions_asked, 10);  // both are in one box
   EXPECT_EQ(scene.fluid.counters().medium_changes, 0);
+}
+
+// Worlds with many regions: threads and saved states.
+
+// Bodies that cross layers; some collide.
+struct Layers {
+  explicit Layers(TaskRunner* runner = nullptr) {
+    scene.world.getDispatchInfo().m_deterministicOverlappingPairs = true;
+    scene.world.setGravity({0, 0, bt(-9.81)});
+    scene.fluid.setTaskRunner(runner);
+    for (int i = 0; i < 8; ++i) {
+      FluidRegion layer = halfSpace(2, -1.0 * i, idealFluid(i % 3 ? 1 + i : 0));
+      layer.bounds->highest.z() = 1 - 1.0 * i;
+      layer.below.viscosity = 1e-5;
+      if (i == 3) {
+        layer.flow = [](const Vector3& x, double time) {
+          return FlowSample{{std::sin(time + x.z()), 0, 0}, {std::cos(time), 0, 0}};
+        };
+      }
+      scene.fluid.addRegion(layer);
+    }
+    shape->name = "ellipsoid";
+    for (int i = 0; i < 24; ++i) {
+      BodyDef def = tumblingBody({0.45 * (i % 6), 0.5 * std::floor(i / 6.0), 0.1 * i});
+      def.mass = 1 + i;
+      def.shape = &ball;
+      btRigidBody& body = scene.add(def);
+      AttachDef attach;
+      attach.fluid_body = shape;
+      attach.medium = air();
+      scene.fluid.add(body, attach);
+    }
+  }
+  std::string bits() const { return motionBytes(scene.fluid); }
+  SavedRun saved() {
+    return {scene.fluid, [this] { scene.step(kWorldStep); }};
+  }
+
+  btSphereShape ball{bt(0.2)};
+  std::shared_ptr<FluidBody> shape = std::make_shared<FluidBody>(meshedEllipsoid(kUnequalAxes, 1));
+  FluidWorld scene;
+};
+
+TEST(FluidRegions, EndWithTheSameBitsOnAnyNumberOfThreads) {
+  Layers alone;
+  alone.scene.step(kWorldStep, 150);
+  EXPECT_GT(alone.scene.fluid.counters().medium_changes, 60);
+  EXPECT_GT(alone.scene.fluid.counters().rows, 0);
+  for (const int threads : {2, 3}) {
+    ThreadPool pool(threads);
+    Layers other(&pool);
+    other.scene.step(kWorldStep, 150);
+    EXPECT_TRUE(alone.bits() == other.bits()) << threads;
+  }
+}
+
+TEST(FluidRegions, GoOnBitForBitFromASavedState) {
+  for (const int before : {20, 61, 90}) {
+    Layers run, other;
+    run.scene.step(kWorldStep, before);
+    expectGoesOn(run.saved(), other.saved(), lookupOf(other.shape), 60);
+  }
+}
+
+// Restores a state of a world with other regions: the next step finds the present ones.
+TEST(FluidRegions, AStateWhoseRegionsAreGoneIsTakenOver) {
+  Layers run;
+  run.scene.step(kWorldStep, 60);
+  const WorldState state = run.scene.fluid.save();
+  for (int i = 0; i < 8; ++i) run.scene.fluid.removeRegion(static_cast<RegionId>(i));
+  run.scene.fluid.restore(state);
+  run.scene.step(kWorldStep);
+  const btCollisionObjectArray& objects = run.scene.world.getCollisionObjectArray();
+  for (int i = 0; i < objects.size(); ++i)
+    EXPECT_EQ(run.scene.of(*btRigidBody::upcast(objects[i])).medium().density, air().density);
 }
 
 }  // namespace

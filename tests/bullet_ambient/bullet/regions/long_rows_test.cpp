@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bullet_ambient/reading.h"
-#include "tests/bullet_ambient/bullet/regions/long_scene.h"
+#include "tests/bullet_ambient/bullet/regions/region_world.h"
 
 // Long bodies with joints and contacts, and what is read of them; docs/theory.md section 16.
 namespace ambient::test {

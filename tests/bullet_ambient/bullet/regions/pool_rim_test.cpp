@@ -9,9 +9,9 @@
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/reading.h"
 #include "bullet_ambient/saved_state.h"
-#include "tests/bullet_ambient/bullet/regions/long_scene.h"
-#include "tests/bullet_ambient/bullet/state/saved_run.h"
-#include "tests/support/runs.h"
+#include "tests/bullet_ambient/bullet/regions/region_world.h"
+#include "tests/bullet_ambient/bullet/state/state_scene.h"
+#include "tests/support/bodies/random_bodies.h"
 
 // Bodies across the rim of a pool, docs/theory.md section 17.
 namespace ambient::test {

@@ -3,14 +3,20 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/reading.h"
 #include "tests/bullet_ambient/bullet/robots/robot_world.h"
 #include "tests/support/bodies/ellipsoid_body.h"
+#include "tests/support/bodies/part_bodies.h"
 
-// Tethers as docs/thrusters.md describes them.
 namespace ambient::test {
 namespace {
+
+// Tethers as docs/thrusters.md describes them.
 
 constexpr double kStep = 1.0 / 60;
 const Vector3 kVehicleAxes(0.2, 0.17, 0.0774);
@@ -86,6 +92,163 @@ TEST(Drive, ATetherOfLinksHoldsAVehicle) {
     EXPECT_LT(run.gap, byPrecision(1e-13, 1e-4));
     EXPECT_LT(run.speed, 1.3 * current);  // the current takes it along, the tether swings it round
     EXPECT_LT((run.place - fine.place).norm(), 0.03) << current << " m/s, " << weight << " kg";
+  }
+}
+
+// Joints that turn a link by half a turn or more in a step are told.
+
+constexpr double kRotorStep = 1.0 / 60;
+
+/// Rotors on hinges, in a fluid that hardly slows them down.
+struct Rotors : RobotWorld {
+  Rotors() {
+    fluid.setReport([this](const std::string& sentence) { said.push_back(sentence); });
+  }
+
+  /// `turns`: per step.
+  void add(const std::string& name, double turns, const Medium& medium = idealFluid(1e-9),
+           bool is_prismatic = false) {
+    const Vector3 axes(0.5, 0.05, 0.02);
+    auto robot = std::make_unique<btMultiBody>(1, 0, btVector3(0, 0, 0), true, false);
+    const btVector3 moments = toBullet(ellipsoidMoments(axes, 1)), none(0, 0, 0);
+    const btQuaternion straight = btQuaternion::getIdentity();
+    if (is_prismatic) {
+      robot->setupPrismatic(0, 1, moments, -1, straight, {0, 0, 1}, none, none, true);
+    } else {
+      robot->setupRevolute(0, 1, moments, -1, straight, {0, 0, 1}, none, none, true);
+    }
+    robot->finalizeMultiDof();
+    robot->setMaxCoordinateVelocity(1000);
+    btMultiBody& tree = take(std::move(robot), 0);
+    tree.setCanSleep(false);
+    tree.setLinearDamping(0);
+    tree.setAngularDamping(0);
+    tree.setJointVel(0, bt(2 * kPi * turns / kRotorStep));
+    AttachDef def;
+    def.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid(axes, 1));
+    def.medium = medium;
+    def.name = name;
+    fluid.add(tree, 0, def);
+  }
+
+  std::vector<std::string> said;
+};
+
+TEST(RotorReport, ARotorIsToldOnceWithItsNameAndTheLimit) {
+  Rotors rotors;
+  rotors.add("rotor", 0.51);
+  rotors.step(kRotorStep, 100);
+  ASSERT_EQ(rotors.said.size(), 1u);
+  const std::string& sentence = rotors.said[0];
+  for (const char* part : {"'rotor'", "0.51 turns", "half a turn", "take shorter steps"})
+    EXPECT_NE(sentence.find(part), std::string::npos) << sentence;
+  EXPECT_EQ(rotors.fluid.counters().too_long, 1);
+}
+
+TEST(RotorReport, OneOfManyRotorsIsToldAndAllAreCounted) {
+  Rotors rotors;
+  rotors.add("first", 1);
+  rotors.add("second", -0.7);
+  rotors.add("slow", 0.3);
+  rotors.step(kRotorStep, 20);
+  EXPECT_EQ(rotors.said.size(), 1u);
+  EXPECT_EQ(rotors.fluid.counters().too_long, 2);
+}
+
+TEST(RotorReport, NothingIsToldBelowHalfATurnInAVacuumAndOfSlides) {
+  Rotors rotors;
+  rotors.add("rotor", 0.49);
+  rotors.add("backwards", -0.49);
+  rotors.add("in a vacuum", 1, Medium{});
+  rotors.add("slide", 1, idealFluid(1e-9), true);
+  rotors.step(kRotorStep, 20);
+  EXPECT_TRUE(rotors.said.empty()) << rotors.said.front();
+  EXPECT_EQ(rotors.fluid.counters().too_long, 0);
+}
+
+// Wrenches that are read of links.
+
+constexpr double kLinkStep = 1.0 / 240;
+
+class LinkReading : public Robots {
+ protected:
+  void readAll(const btMultiBody& body) {
+    for (int link = -1; link < body.getNumLinks(); ++link)
+      world.fluid.find(body, link)->readWrench(true);
+  }
+  // Forces on all links, and the largest of them.
+  struct Sum {
+    Vector3 force = Vector3::Zero();
+    double largest = 0;
+  };
+  Sum constraintsOf(const btMultiBody& body) {
+    Sum sum;
+    for (int link = -1; link < body.getNumLinks(); ++link) {
+      const Vector3 force = world.fluid.find(body, link)->wrench().constraints.force;
+      sum.force += force;
+      sum.largest = std::max(sum.largest, force.norm());
+    }
+    return sum;
+  }
+};
+
+// Joint forces cancel over a tree that nothing else holds: the fluid has all the rest of
+// the change of the momentum.
+TEST_F(LinkReading, ForcesInJointsCancelOverAFreeTree) {
+  world.world.setGravity({0, 0, bt(-9.81)});
+  for (int i = 0; i < 100; ++i) {
+    btMultiBody& body = add({1 + i % 5, i % 2 ? Joints::kSmooth : Joints::kRevolute});
+    putIntoFluid(arbitrary, world, body, 2);
+    readAll(body);
+    world.step(kLinkStep, 1 + i % 3);
+    const Sum sum = constraintsOf(body);
+    EXPECT_GT(sum.largest, 0) << i;
+    EXPECT_LT(sum.force.norm(), byPrecision(1e-9, 2e-3) * sum.largest) << i;
+    world.remove(body);
+  }
+}
+
+// A multibody without joints is a body: the same wrenches.
+TEST_F(LinkReading, ABaseAloneReadsAsABody) {
+  world.world.setGravity({0, 0, bt(-9.81)});
+  world.fluid.addRegion(waterBelow(0));
+  const auto shape = std::make_shared<const FluidBody>(floatingEllipsoid(kUnequalAxes, 2));
+  AttachDef def;
+  def.fluid_body = shape;
+  const double mass = 500 * shape->volume;
+  const Vector3 moments = ellipsoidMoments(kUnequalAxes, mass);
+  for (const double height : {-2.0, 0.05}) {
+    const btTransform place(btQuaternion(btVector3(1, bt(0.5), 0), bt(0.3)), {0, 0, bt(height)});
+    btMultiBody multi(0, bt(mass), toBullet(moments), false, false);
+    multi.setLinearDamping(0);
+    multi.setAngularDamping(0);
+    multi.finalizeMultiDof();
+    multi.setBasePos(place.getOrigin());
+    multi.setWorldToBaseRot(place.getRotation().inverse());
+    multi.setBaseVel({bt(0.5), bt(0.2), bt(-0.4)});
+    btEmptyShape none;
+    btRigidBody rigid(bt(mass), nullptr, &none, toBullet(moments));
+    rigid.setWorldTransform(place);
+    rigid.setLinearVelocity(multi.getBaseVel());
+    world.world.addMultiBody(&multi);
+    world.world.addRigidBody(&rigid);
+    const Immersed link = world.fluid.add(multi, -1, def), body = world.fluid.add(rigid, def);
+    link.readWrench(true);
+    body.readWrench(true);
+    world.step(kLinkStep);
+    const FluidWrench of_link = link.wrench(), of_body = body.wrench();
+    const double size = of_body.buoyancy.force.norm();
+    const auto expectNear = [&](const Wrench& a, const Wrench& b) {
+      EXPECT_LT((a.vector() - b.vector()).norm(), 2e-3 * size) << height;  // two means of one way
+    };
+    expectNear(of_link.pressure, of_body.pressure);
+    expectNear(of_link.friction, of_body.friction);
+    expectNear(of_link.buoyancy, of_body.buoyancy);
+    expectNear(of_link.waves, of_body.waves);
+    expectNear(of_link.added_mass, of_body.added_mass);
+    EXPECT_EQ(of_link.constraints.vector().norm(), 0);
+    world.world.removeMultiBody(&multi);
+    world.world.removeRigidBody(&rigid);
   }
 }
 

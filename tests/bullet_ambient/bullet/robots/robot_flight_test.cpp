@@ -223,29 +223,5 @@ TEST(RobotFlight, OnATetherCountsTheEnergyThatItsBoundRemoves) {
   EXPECT_EQ(fluid.counters().energy_removed, removed);
 }
 
-// Loads of water on fast robots at steps that are too long for accuracy.
-TEST(RobotFlight, InWaterSlowsDownAtLongSteps) {
-  const auto shape = std::make_shared<FluidBody>(meshedEllipsoid(Vector3(0.15, 0.08, 0.05), 1));
-  for (unsigned seed = 0; seed < 60; ++seed) {
-    Arbitrary arbitrary(100 + seed);
-    RobotWorld world;
-    RobotDef def;
-    def.links = 2 + static_cast<int>(seed % 5);
-    def.joints = seed % 2 == 0 ? Joints::kRevolute : Joints::kSmooth;
-    def.speed = 1 + seed % 4;
-    def.collider_radius = 0.05;
-    btMultiBody& body = world.add(arbitrary, def);
-    for (int link = -1; link < def.links; ++link) {
-      AttachDef attach;
-      attach.fluid_body = shape;
-      attach.medium = water();
-      world.fluid.add(body, link, attach);
-    }
-    if (seed % 3 > 0) holdTip(world, body);
-    const EnergyRange range = watch(world, body, 30, 1);
-    EXPECT_LT(range.highest, 1.01) << "seed " << seed;
-  }
-}
-
 }  // namespace
 }  // namespace ambient::test

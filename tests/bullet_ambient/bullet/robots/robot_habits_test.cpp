@@ -2,7 +2,7 @@
 
 #include <new>
 
-#include "tests/bullet_ambient/bullet/robots/robot_fixture.h"
+#include "tests/bullet_ambient/bullet/robots/robot_world.h"
 
 // Calls of a program for robots in a fluid, apart from motion.
 namespace ambient::test {

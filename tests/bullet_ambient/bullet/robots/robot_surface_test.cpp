@@ -1,7 +1,7 @@
 #include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
 
 #include "bullet_ambient/force/medium/waves.h"
-#include "tests/bullet_ambient/bullet/robots/robot_fixture.h"
+#include "tests/bullet_ambient/bullet/robots/robot_world.h"
 #include "tests/support/bodies/part_bodies.h"
 
 // Links at the surface of water float as bodies do.

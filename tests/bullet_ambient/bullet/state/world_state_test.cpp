@@ -145,16 +145,9 @@ TEST(WorldState, RefusesAWorldOfOtherBodiesOrJoints) {
   fewer = run.state;
   fewer.joints.pop_back();
   EXPECT_THROW(run.scene.scene.fluid.restore(fewer), std::invalid_argument);
-  WorldState broken = run.state;
-  broken.bodies[3].ambient->def.medium.density = -1;
-  EXPECT_THROW(run.scene.scene.fluid.restore(broken), std::invalid_argument);
-  broken = run.state;
-  broken.bodies[3].ambient->def.fluid_body = nullptr;
-  EXPECT_THROW(run.scene.scene.fluid.restore(broken), std::invalid_argument);
-  broken = run.state;
-  ASSERT_FALSE(broken.contacts.empty());
-  broken.contacts[0].points.resize(100);
-  EXPECT_THROW(run.scene.scene.fluid.restore(broken), std::invalid_argument);
+  fewer = run.state;
+  fewer.bodies[3].ambient->def.fluid_body = nullptr;
+  EXPECT_THROW(run.scene.scene.fluid.restore(fewer), std::invalid_argument);
   EXPECT_EQ(run.scene.motion() == before, true);
 }
 

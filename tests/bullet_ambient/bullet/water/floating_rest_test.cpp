@@ -67,7 +67,6 @@ struct Pool {
                     std::make_shared<StillWater>(0.0, Vector3(0, 0, 1))) {
     scene.world.getDispatchInfo().m_deterministicOverlappingPairs = true;
     scene.world.setGravity({0, 0, bt(-kPull)});
-    scene.fluid.setReport([this](const std::string& sentence) { said.push_back(sentence); });
     FluidRegion sea;
     sea.below = water();
     sea.above = air();
@@ -100,7 +99,6 @@ struct Pool {
   }
 
   FluidWorld scene;
-  std::vector<std::string> said;
 };
 
 double heightOf(const btRigidBody& body) {
@@ -123,7 +121,7 @@ double pushed(const Float& what, double force, double hertz) {
   }
   EXPECT_EQ(pool.scene.fluid.counters().halted, 0);
   EXPECT_EQ(pool.scene.fluid.counters().too_long, 0);
-  EXPECT_TRUE(pool.said.empty()) << pool.said.front();
+  EXPECT_TRUE(pool.scene.said.empty()) << pool.scene.said.front();
   return alongX(body) - start;
 }
 
@@ -148,7 +146,7 @@ TEST(FloatingRest, NobodyIsHaltedByRounding) {
       pool.add(ballAfloat(0.5 * scale, 0.5236 * mass), scale * Vector3(3 * i, 3, 0), turn);
     }
     for (const double hertz : {60.0, 240.0, 1000.0}) pool.scene.step(1 / hertz, 600);
-    EXPECT_TRUE(pool.said.empty()) << pool.said.front();
+    EXPECT_TRUE(pool.scene.said.empty()) << pool.scene.said.front();
     return pool.scene.fluid.counters().halted;
   };
   for (const double scale : {0.02, 20.0}) {

@@ -7,7 +7,7 @@
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/force/medium/waves.h"
 #include "tests/support/bodies/random_bodies.h"
-#include "tests/support/energy_rise.h"
+#include "tests/support/convergence.h"
 
 namespace ambient::test {
 namespace {

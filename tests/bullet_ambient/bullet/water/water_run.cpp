@@ -105,7 +105,6 @@ SizedShape makeWaterShape(WaterShape shape, double size) {
 
 WaterRun::WaterRun(Around around) : around_(around) {
   fluid_.world.setGravity({0, 0, bt(-kGravity)});
-  fluid_.fluid.setReport([this](const std::string& sentence) { said_.push_back(sentence); });
   if (around == Around::kWater) fluid_.fluid.addRegion(seaUnderAir());
 }
 

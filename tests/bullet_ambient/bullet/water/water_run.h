@@ -78,7 +78,7 @@ class WaterRun {
   /// Sum of (m + rho V) g L over all bodies; in a vacuum m g L [J].
   double energyScale() const { return energy_scale_; }
   AmbientCounters counters() const { return fluid_.fluid.counters(); }
-  const std::vector<std::string>& said() const { return said_; }
+  const std::vector<std::string>& said() const { return fluid_.said; }
 
  private:
   struct FloatingBody {
@@ -94,7 +94,6 @@ class WaterRun {
   std::deque<btStaticPlaneShape> planes_;
   FluidWorld fluid_;
   double energy_scale_ = 0;
-  std::vector<std::string> said_;
 };
 
 }  // namespace ambient::test

@@ -8,7 +8,7 @@
 #include "bullet_ambient/force/medium/waves.h"
 #include "bullet_ambient/saved_state.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
-#include "tests/bullet_ambient/bullet/state/saved_run.h"
+#include "tests/bullet_ambient/bullet/state/state_scene.h"
 #include "tests/support/bodies/part_bodies.h"
 #include "tests/support/floating_runs.h"
 #include "tests/support/thread_pool.h"
@@ -271,15 +271,6 @@ TEST(WaterWorld, FloatingBodiesSleepInStillWaterButNotOnASaddle) {
   water.scene.step(1.0 / 60, 60);
   EXPECT_TRUE(flat.isActive());
   EXPECT_GT(heightOf(flat), 0.1);
-}
-
-TEST(WaterWorld, SaysNothingOfBodiesThatFloat) {
-  WaterWorld water(seaAt(0));
-  std::string said;
-  water.scene.fluid.setReport([&](const std::string& text) { said = text; });
-  water.addBox(0.1, at(-20));
-  water.scene.step(1.0 / 60);
-  EXPECT_EQ(said, "");
 }
 
 TEST(WaterWorld, NobodySleepsInWaves) {

@@ -9,15 +9,6 @@
 namespace ambient::test {
 namespace {
 
-// Body with K of its free axes; no response along locked ones.
-reference::DenseBody locked(const reference::DenseBody& body, const DenseVector6& free) {
-  reference::DenseBody result = body;
-  result.inertia = free.asDiagonal() * body.inertia * free.asDiagonal();
-  result.inertia.diagonal() += DenseVector6::Ones() - free;
-  result.free_velocity = free.asDiagonal() * body.free_velocity;
-  return result;
-}
-
 reference::DenseBody fixedBody() {
   reference::DenseBody result;
   result.fixed = true;
@@ -50,33 +41,6 @@ TEST(ContactFeatures, AKinematicBodyPushesWithItsVelocity) {
     EXPECT_GT(expected.velocities[0].norm(), 1.4);
     EXPECT_LT(scene.coupled.error(expected.velocities[0], expected.velocities[0]), kTolerance);
     scene.scene.world.removeRigidBody(&paddle);
-  }
-}
-
-TEST(ContactFeatures, ABodyLockedToAPlaneHasTheInertiaOfThatPlane) {
-  for (unsigned seed = 0; seed < 20; ++seed) {
-    CoupledScene scene(seed);
-    const Vector3 direction(scene.arbitrary.vector().x(), scene.arbitrary.vector().y(), 0);
-    const btVector3 normal = toBt(direction.normalized());
-    DenseVector6 free;
-    free << 0, 0, 1, 1, 1, 0;
-    scene.body().setAngularFactor(btVector3(0, 0, 1));
-    scene.body().setLinearFactor(btVector3(1, 1, 0));
-    scene.body().setAngularVelocity({0, 0, 2});
-    scene.body().setLinearVelocity(normal * bt(-3) + btVector3(normal.y(), -normal.x(), 0));
-    Wall wall(scene, normal);
-    const double dt = CoupledScene::kInstant;
-    const Vector3r n = exact(normal);
-    reference::DenseRow row = reference::pointRow(n, -Real(CoupledScene::kRadius) * n, n);
-    row.lower = 0;
-    const DenseVector6 before = scene.coupled.velocity();
-    const auto expected =
-        reference::solveDense({locked(scene.coupled.dense(dt), free), fixedBody()}, {row});
-    // Locking must differ from a free body with its velocity cut off afterwards.
-    const auto unlocked = reference::solveDense({scene.coupled.dense(dt), fixedBody()}, {row});
-    EXPECT_GT((free.asDiagonal() * unlocked.velocities[0] - expected.velocities[0]).norm(), 1e-3);
-    scene.scene.step(dt);
-    EXPECT_LT(scene.coupled.error(expected.velocities[0], before), kTolerance) << seed;
   }
 }
 
@@ -145,78 +109,6 @@ TEST(ContactFeatures, AContactAlmostAlongALockedAxisPushesAsInStockBullet) {
     EXPECT_GT(stock, 0) << angle;
     EXPECT_NEAR(speedOfPush(angle, true) / stock, 1, byPrecision(1e-9, 1e-3)) << angle;
   }
-}
-
-// Compound of two balls, the heavier one small. The body's origin is the centre of mass, the fluid
-// body's is the shape's.
-TEST(ContactFeatures, ACompoundShapeActsAboutItsCentreOfMass) {
-  btSphereShape large(bt(0.25)), small(bt(0.15));
-  btCompoundShape authored;
-  authored.addChildShape(btTransform(btQuaternion::getIdentity(), btVector3(bt(-0.2), bt(0.05), 0)),
-                         &large);
-  authored.addChildShape(
-      btTransform(btQuaternion::getIdentity(), btVector3(bt(0.3), bt(0.1), bt(-0.1))), &small);
-  btScalar masses[] = {2, 3};
-  btTransform principal;
-  btVector3 moments;
-  authored.calculatePrincipalAxisTransform(masses, principal, moments);
-  btCompoundShape shape;
-  for (int i = 0; i < 2; ++i)
-    shape.addChildShape(principal.inverse() * authored.getChildTransform(i),
-                        authored.getChildShape(i));
-  Arbitrary arbitrary(5);
-  AttachDef attach;
-  attach.fluid_body =
-      std::make_shared<FluidBody>(shapeWithoutFaces(arbitrary.positiveDefinite(), 0));
-  attach.medium.density = 4;
-  const btTransform frame = principal.inverse();
-  attach.fluid_frame.translation = toVector3(frame.getOrigin());
-  attach.fluid_frame.rotation = toQuaternion(frame.getRotation()).toRotationMatrix();
-
-  FluidWorld scene;
-  BodyDef def;
-  def.mass = 5;
-  def.moments = toVector3(moments);
-  def.shape = &shape;
-  def.start.twist = {Vector3(1, -2, 1), Vector3(-3, 0.5, 0.2)};
-  btRigidBody& body = scene.add(def);
-  body.setWorldTransform(principal);  // the authored frame is the world's
-  body.updateInertiaTensor();
-  body.setFriction(0);
-  scene.fluid.add(body, attach);
-  btContactSolverInfo& info = scene.world.getSolverInfo();
-  info.m_splitImpulse = 0;
-  info.m_erp = info.m_erp2 = 0;
-  // The wall touches the large ball from the left, in world axes.
-  btStaticPlaneShape plane({1, 0, 0}, bt(-0.2 - 0.25 + 1e-3));
-  btRigidBody wall(0, nullptr, &plane);
-  wall.setFriction(0);
-  scene.world.addRigidBody(&wall);
-
-  // K about the centre of mass c, world axes. Fluid: by the velocity of its origin, since its frame
-  // is the world. Dry body: by its tensor.
-  const Vector3r c = exact(principal.getOrigin());
-  DenseMatrix6 to_fluid = DenseMatrix6::Identity();  // v_F = v + w x (0 - c)
-  to_fluid.bottomLeftCorner<3, 3>() << 0, -c.z(), c.y(), c.z(), 0, -c.x(), -c.y(), c.x(), 0;
-  const DenseMatrix6 added = 4 * attach.fluid_body->added_mass.cast<Real>();
-  reference::DenseBody dense;
-  dense.inertia = to_fluid.transpose() * added * to_fluid;
-  const Matrix3r R = exact(principal.getBasis());
-  dense.inertia.topLeftCorner<3, 3>() += R * exact(moments).asDiagonal() * R.transpose();
-  dense.inertia.bottomRightCorner<3, 3>() += 5 * Matrix3r::Identity();
-  dense.free_velocity << exact(body.getAngularVelocity()), exact(body.getLinearVelocity());
-  const Vector3r contact(-0.2L - 0.25L, 0.05L, 0);
-  const Vector3r x(1, 0, 0);
-  reference::DenseRow row = reference::pointRow(x, contact - c, x);
-  row.lower = 0;
-  const auto expected = reference::solveDense({dense, fixedBody()}, {row});
-  scene.step(CoupledScene::kInstant);
-  DenseVector6 u;
-  u << exact(body.getAngularVelocity()), exact(body.getLinearVelocity());
-  EXPECT_GT((expected.velocities[0] - dense.free_velocity).norm(), 1);
-  // Bullet finds the compound's axes by an iteration of limited precision.
-  EXPECT_LT(static_cast<double>((u - expected.velocities[0]).norm()), byPrecision(1e-10, 1e-4));
-  scene.world.removeRigidBody(&wall);
 }
 
 // Position and velocity after half a second of flight towards a wall.
@@ -289,18 +181,6 @@ TEST(ContactFeatures, ContinuousCollisionStopsAtTheWall) {
       tunnelled += flyFast(seed, speed, false) > kWallSurface + 1;
     }
     EXPECT_GT(tunnelled, 3) << speed;
-  }
-}
-
-TEST(ContactFeatures, AForceAtAPointIsFeltThroughTheFullInertia) {
-  for (unsigned seed = 0; seed < 20; ++seed) {
-    CoupledScene scene(seed);
-    scene.stop();
-    scene.body().applyForce(toBt(scene.arbitrary.vector(1 / CoupledScene::kInstant)),
-                            toBt(scene.arbitrary.vector(0.3)));
-    const DenseVector6 expected = scene.coupled.dense(bt(CoupledScene::kInstant)).free_velocity;
-    scene.scene.step(CoupledScene::kInstant);
-    EXPECT_LT(scene.coupled.error(expected, expected), byPrecision(1e-12, 1e-4)) << seed;
   }
 }
 

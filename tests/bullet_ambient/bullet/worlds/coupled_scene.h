@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "tests/bullet_ambient/bullet/contact/coupled_body.h"
+#include "tests/bullet_ambient/bullet/contact/arbitrary_contacts.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/support/bodies/free_body.h"
 #include "tests/support/bodies/random_bodies.h"

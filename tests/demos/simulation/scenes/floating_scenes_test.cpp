@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "tests/demos/simulation/scenes/run_scene.h"
-#include "tests/support/text_files.h"
+#include "tests/support/temporary_folder.h"
 
 namespace ambient {
 namespace {

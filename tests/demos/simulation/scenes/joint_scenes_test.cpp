@@ -45,31 +45,6 @@ TEST(JointScenes, RefuseAPointOutOfAllProportionToTheBody) {
       << refusal;
 }
 
-/// Twice the time between the first two passages of the vertical [s].
-double periodOf(const nlohmann::json& text) {
-  const TemporaryFolder folder;
-  const auto motion = run(readScene(writeScene(folder, text.dump()))).motion[0];
-  std::vector<double> passages;
-  for (std::size_t i = 1; i < motion.size() && passages.size() < 3; ++i) {
-    const double before = motion[i - 1].position.x(), now = motion[i].position.x();
-    if (before * now < 0)
-      passages.push_back(motion[i].time -
-                         now / (now - before) * (motion[i].time - motion[i - 1].time));
-  }
-  return passages.at(2) - passages.at(0);
-}
-
-TEST(PendulumInWater, SwingsWithItsAddedMass) {
-  const double displaced = kWater * 4 / 3 * kPi * std::pow(kRadius, 3);
-  const double inertia = 0.4 * kMass * kRadius * kRadius + (kMass + displaced / 2) * kRope * kRope;
-  const double period =
-      2 * kPi * std::sqrt(inertia / ((kMass - displaced) * kStandardGravity * kRope));
-  EXPECT_NEAR(periodOf(pendulum()), period, 2e-3 * period);
-  nlohmann::json hinged = pendulum();
-  hinged["joints"][0]["axis"] = {0, 1, 0};
-  EXPECT_NEAR(periodOf(hinged), period, 2e-3 * period);
-}
-
 TEST(PendulumInWater, AHingeHoldsTheBodyToItsAxis) {
   nlohmann::json hinged = pendulum();
   hinged["joints"][0]["axis"] = {0, 1, 0};

@@ -1,14 +1,22 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "bullet_ambient/force/loads/face_loads.h"
+#include "bullet_ambient/spatial/inertia.h"
+#include "demos/scene/scene.h"
 #include "demos/scene/scene_reader.h"
 #include "demos/simulation/body_preparation.h"
 #include "demos/simulation/scene_run.h"
+#include "demos/simulation/simulation.h"
 #include "preprocess/base/fluid_body_writer.h"
 #include "preprocess/builder/shape_builder.h"
+#include "tests/reference/ellipsoid_flight.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ambient {
@@ -67,5 +75,76 @@ inline Scene readCoarseScene(const std::string& name, const TemporaryFolder& fol
 }
 
 inline RunRecord run(const Scene& scene) { return runPrepared(scene, prepare(scene)); }
+
+/// Converts a body of a scene for the reference. @pre a sphere or an ellipsoid in a still medium
+inline reference::EllipsoidInFluid ellipsoidOf(const Scene& scene, std::size_t index) {
+  const BodyDef& body = scene.bodies[index];
+  reference::EllipsoidInFluid ellipsoid;
+  if (const auto* sphere = std::get_if<Sphere>(&body.shape.geometry))
+    ellipsoid.semi_axes = Vector3::Constant(sphere->radius);
+  else
+    ellipsoid.semi_axes = std::get<Ellipsoid>(body.shape.geometry).semi_axes;
+  ellipsoid.mass = body.mass;
+  // Moment of inertia of a ball: solid or shell.
+  const double share = body.mass_kind == MassKind::kSurface ? 2.0 / 3 : 0.4;
+  ellipsoid.moments = share * body.mass * ellipsoid.semi_axes.cwiseAbs2();
+  if (body.inertia) ellipsoid.moments = body.inertia->diagonal();
+  ellipsoid.density = scene.medium.density;
+  ellipsoid.viscosity = body.attach.flow.skin_friction ? scene.medium.viscosity : 0;
+  ellipsoid.separation_angle = body.attach.flow.separation_angle;
+  ellipsoid.gravity = scene.gravity;
+  return ellipsoid;
+}
+
+/// Reference flight of a body of a scene, from the origin.
+inline reference::EllipsoidFlight referenceFlight(const Scene& scene, std::size_t index = 0) {
+  const BodyDef& body = scene.bodies[index];
+  return {ellipsoidOf(scene, index), body.orientation, body.linear_velocity, body.angular_velocity};
+}
+
+/// Pressure and friction on the first body of a scene for a motion about its centre of mass. Both
+/// are in the body's axes.
+inline Wrench loadOn(const Scene& scene, const PreparedBody& body, const Twist& motion_B) {
+  LoadSettings settings;
+  settings.density = scene.medium.density;
+  settings.viscosity = scene.medium.viscosity;
+  settings.separation_cosine = separationCosine(scene.bodies[0].attach.flow.separation_angle);
+  FrameOffset fluid_frame;
+  fluid_frame.translation = body.fluid_origin - body.centre_of_mass;
+  const FluidBody& fluid = *body.fluid_body;
+  return fluid_frame.toB(
+      computeFaceLoads(fluid.faces, std::sqrt(fluid.area), fluid_frame.toF(motion_B), settings)
+          .total());
+}
+
+/// Power of pressure and friction on the first body of a scene during its motion [W].
+inline double powerOfLoads(const Scene& scene, const PreparedBody& body, const MotionSample& at) {
+  const Quaternion to_body = at.orientation.conjugate();
+  const Twist motion_B{to_body * at.twist.angular, to_body * at.twist.linear};
+  return power(loadOn(scene, body, motion_B), motion_B);
+}
+
+/// Weight less buoyancy [N].
+inline double weightIn(const Scene& scene, const PreparedBody& body) {
+  return (body.mass - scene.medium.density * body.fluid_body->volume) * -scene.gravity.z();
+}
+
+/// Expects that a simulation and one that has got its saved state go on alike, bit for bit; again
+/// and again after 17 more steps.
+inline void expectSavedStatesGoOn(const Scene& scene, int rounds = 1) {
+  const std::vector<PreparedBody> bodies = prepare(scene);
+  Simulation simulation(scene, bodies), other(scene, bodies);
+  for (int round = 0; round < rounds; ++round) {
+    for (int i = 0; i < 17; ++i) simulation.step();
+    simulation.applyForce(0, Vector3(0, 1e-3, 0), simulation.sample()[0].position);
+    other.restoreState(simulation.saveState());
+    EXPECT_EQ(other.time(), simulation.time());
+    for (int i = 0; i < 30; ++i) {
+      simulation.step();
+      other.step();
+    }
+    EXPECT_TRUE(other.saveState() == simulation.saveState()) << scene.name << ", " << round;
+  }
+}
 
 }  // namespace ambient

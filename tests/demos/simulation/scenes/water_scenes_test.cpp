@@ -8,52 +8,12 @@
 
 #include "bullet_ambient/base/pi.h"
 #include "tests/demos/simulation/scenes/run_scene.h"
-#include "tests/demos/simulation/scenes/scene_loads.h"
 
 namespace ambient {
 namespace {
 
-/// Kinetic energy of body and fluid, plus potential energy in gravity and buoyancy [J].
-class EnergyOf {
- public:
-  EnergyOf(const Scene& scene, const PreparedBody& body) : scene_(scene), body_(body) {
-    FrameOffset fluid_frame;
-    fluid_frame.translation = body.fluid_origin - body.centre_of_mass;
-    const double density = scene.medium.density;
-    inertia_ = rigidBodyInertia(body.mass, body.inertia) +
-               density * fluid_frame.inertiaToB(body.fluid_body->added_mass);
-    displaced_ = density * body.fluid_body->volume;
-    centre_of_volume_ = fluid_frame.translation + body.fluid_body->centre_of_volume;
-  }
-
-  double operator()(const MotionSample& at) const {
-    const Quaternion to_body = at.orientation.conjugate();
-    const Vector6 x = stack(to_body * at.twist.angular, to_body * at.twist.linear);
-    const Vector3 centre = at.position + at.orientation * centre_of_volume_;
-    return 0.5 * x.dot(inertia_ * x) - body_.mass * scene_.gravity.dot(at.position) +
-           displaced_ * scene_.gravity.dot(centre);
-  }
-
- private:
-  const Scene& scene_;
-  const PreparedBody& body_;
-  Matrix6 inertia_;
-  double displaced_;
-  Vector3 centre_of_volume_;
-};
-
-/// Largest rise of energy between rows, over the energy lost in the whole run.
-double largestRise(const std::vector<MotionSample>& motion, const EnergyOf& energy) {
-  double rise = 0;
-  for (std::size_t i = 1; i < motion.size(); ++i)
-    rise = std::max(rise, energy(motion[i]) - energy(motion[i - 1]));
-  return rise / (energy(motion.front()) - energy(motion.back()));
-}
-
 TEST(UnderwaterEllipsoid, GlidesRocksAndSettlesBroadside) {
-  const Scene scene = readNamedScene("underwater_ellipsoid");
-  const auto bodies = prepare(scene);
-  const auto motion = runPrepared(scene, bodies).motion[0];
+  const auto motion = run(readNamedScene("underwater_ellipsoid")).motion[0];
   int turns_back = 0;
   double farthest = 0;
   for (std::size_t i = 1; i < motion.size(); ++i) {
@@ -66,18 +26,6 @@ TEST(UnderwaterEllipsoid, GlidesRocksAndSettlesBroadside) {
   EXPECT_GT(farthest, 0.03);
   EXPECT_GE(turns_back, 8);
   EXPECT_LT(std::abs((motion.back().orientation * Vector3::UnitX()).z()), 0.02);
-  EXPECT_LE(largestRise(motion, EnergyOf(scene, bodies[0])), 1e-4);
-}
-
-TEST(UnderwaterEllipsoid, SinksAtTheSpeedWhereDragBalancesItsWeight) {
-  const Scene scene = readNamedScene("underwater_ellipsoid");
-  const auto bodies = prepare(scene);
-  const auto motion = runPrepared(scene, bodies).motion[0];
-  // Loads of the faces must carry the weight at terminal speed, broadside.
-  const Wrench load =
-      loadOn(scene, bodies[0], {Vector3::Zero(), Vector3(0, 0, motion.back().twist.linear.z())});
-  const double weight = weightIn(scene, bodies[0]);
-  EXPECT_NEAR(load.force.z(), weight, 0.01 * weight);
 }
 
 class UnderwaterBunny : public ::testing::Test {
@@ -97,12 +45,6 @@ class UnderwaterBunny : public ::testing::Test {
   std::vector<MotionSample> motion_;
 };
 
-TEST_F(UnderwaterBunny, IsOfSiliconeAndLosesEnergyOnly) {
-  const PreparedBody& bunny = bodies_[0];
-  EXPECT_NEAR(bunny.mass / bunny.fluid_body->volume, 1060, 0.01);
-  EXPECT_LE(largestRise(motion_, EnergyOf(scene_, bunny)), 1e-4);
-}
-
 TEST_F(UnderwaterBunny, TurnsOverAndScrewsDown) {
   EXPECT_EQ(earsOf(motion_.front()).z(), 1);
   double lowest = 1;
@@ -117,12 +59,6 @@ TEST_F(UnderwaterBunny, TurnsOverAndScrewsDown) {
     EXPECT_NEAR(sample.twist.linear.z(), end.twist.linear.z(), 0.01 * end.twist.linear.norm());
     EXPECT_NEAR(sample.twist.angular.z(), end.twist.angular.z(), 0.05 * end.twist.angular.norm());
   }
-}
-
-TEST_F(UnderwaterBunny, DragDissipatesWhatItsWeightGives) {
-  const MotionSample& end = motion_.back();
-  const double given = weightIn(scene_, bodies_[0]) * -end.twist.linear.z();
-  EXPECT_NEAR(-powerOfLoads(scene_, bodies_[0], end), given, 0.02 * given);
 }
 
 TEST_F(UnderwaterBunny, EndsAlikeReleasedOnItsHead) {
@@ -147,7 +83,6 @@ TEST(Balloon, RisesUnsteadily) {
     if (sample.time > scene.duration / 2)
       largest_tilt = std::max(largest_tilt, std::acos((sample.orientation * Vector3::UnitZ()).z()));
   EXPECT_GT(largest_tilt, kPi / 6);
-  EXPECT_LE(largestRise(motion, EnergyOf(scene, bodies[0])), 1e-4);
 }
 
 /// A ball on the bottom of still water, in closed forms: C_D = 1/2.

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "tests/bullet_ambient/bullet/contact/uneven_body.h"
-#include "tests/support/runs.h"
+#include "tests/support/bodies/random_bodies.h"
 
 // Rows of bodies of 25 to 10 000 kg/m3 in an ideal fluid of 1000 kg/m3. Added mass multiplies the
 // linear inertia of light bodies, not the angular one. So joint rows are nearly dependent, and ten
@@ -33,7 +33,6 @@ Vector3 semiAxes(Arbitrary& arbitrary) {
 class Chain {
  public:
   Chain(JointKind kind, int count, unsigned seed) : arbitrary_(seed), kind_(kind) {
-    scene_.fluid.setReport(nullptr);  // bodies so light rise
     double x = 0;
     for (int i = 0; i < count; ++i) {
       const Vector3 axes = semiAxes(arbitrary_);

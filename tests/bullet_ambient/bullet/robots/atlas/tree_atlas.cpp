@@ -12,7 +12,7 @@
 #include "tests/bullet_ambient/bullet/robots/robot_world.h"
 #include "tests/support/bodies/ellipsoid_body.h"
 #include "tests/support/bodies/part_bodies.h"
-#include "tests/support/energy_rise.h"
+#include "tests/support/convergence.h"
 
 namespace ambient::test {
 namespace {

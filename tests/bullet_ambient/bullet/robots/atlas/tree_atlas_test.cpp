@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "tests/bullet_ambient/bullet/fluid_world.h"
-#include "tests/support/runs.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace ambient::test {
 namespace {

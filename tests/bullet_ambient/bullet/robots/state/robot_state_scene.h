@@ -7,7 +7,7 @@
 
 #include "bullet_ambient/saved_state.h"
 #include "tests/bullet_ambient/bullet/robots/robot_world.h"
-#include "tests/bullet_ambient/bullet/state/saved_run.h"
+#include "tests/bullet_ambient/bullet/state/state_scene.h"
 
 namespace ambient::test {
 

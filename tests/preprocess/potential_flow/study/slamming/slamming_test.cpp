@@ -1,18 +1,161 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 #include <tuple>
 #include <vector>
 
 #include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/fluid_body/fluid_body.h"
 #include "bullet_ambient/force/surface/wetted_sphere.h"
+#include "bullet_ambient/motion/body/body_model.h"
+#include "bullet_ambient/motion/surface/surface_model.h"
+#include "preprocess/builder/fluid_body_builder.h"
+#include "preprocess/mesh/triangle_mesh.h"
+#include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/preprocess/potential_flow/study/image_flow/surface_cases.h"
-#include "tests/preprocess/potential_flow/study/slamming/slamming_cases.h"
-#include "tests/preprocess/potential_flow/study/slamming/slamming_fall.h"
 #include "tests/reference/water_entry.h"
 
 namespace ambient::study {
 namespace {
+
+/// A free body that enters still water upright in a Bullet world. Weight and buoyancy are
+/// negligible against forces of entry.
+struct FallDef {
+  std::shared_ptr<const FluidBody> shape;  ///< uniform
+  double speed = 1;                        ///< at first contact [m/s]
+  double time_step = 1.0 / 240;            ///< [s]
+  bool has_loads = false;                  ///< true: with pressure and friction on faces
+  double specific_gravity = 1000;          ///< default: heavy enough for constant speed
+};
+
+/// Mean force of a step, and the draught after it.
+struct FallStep {
+  double draught_after;  ///< [m]
+  RigidState after;      ///< the water's surface is z = 0
+  double force;          ///< upwards, over rho V^2 at mid-step [m^2]
+};
+
+constexpr double kDensity = 1000;        // water [kg/m^3]
+constexpr double kLittleGravity = 1e-6;  // [m/s^2]; 0 would remove the surface
+
+/// Lowest and highest z in F.
+std::pair<double, double> extentOf(const FluidBody& body) {
+  const double centre = body.centre_of_volume.z();
+  if (body.sphere_radius > 0) return {centre - body.sphere_radius, centre + body.sphere_radius};
+  const std::vector<double>& v = body.surface.vertices;
+  double low = v[2], high = v[2];
+  for (std::size_t i = 2; i < v.size(); i += 3) {
+    low = std::min(low, v[i]);
+    high = std::max(high, v[i]);
+  }
+  return {low, high};
+}
+
+btRigidBody& addBody(const FallDef& def, double height, test::FluidWorld& scene) {
+  test::BodyDef body;
+  body.mass = def.specific_gravity * kDensity * def.shape->volume;
+  body.moments = body.mass * def.shape->uniform_mass.inertia.diagonal();
+  body.start.position = {0, 0, height};
+  body.start.twist.linear = {0, 0, -def.speed};
+  btRigidBody& added = scene.add(body);
+  AttachDef attach;
+  attach.fluid_body = def.shape;
+  if (!def.has_loads) attach.flow.own_law = [](const auto&, const auto&) { return nullptr; };
+  scene.fluid.add(added, attach);
+  return added;
+}
+
+// Downward momentum of body and water per density; `model` is the body's [m^4/s].
+double momentumOf(const SurfaceModel& model, const RigidState& state) {
+  const Matrix3 R = state.orientation.toRotationMatrix();
+  const SurfacePlane plane = seenFrom({Vector3::UnitZ(), 0, 1, 1}, R, state.position);
+  const Matrix6 K = inertiaAt(model, immersionOf(model, plane));
+  return -(R * Twist::fromVector(K * state.twist.vector()).linear).z();
+}
+
+// Until it is covered. @throws std::invalid_argument as Fluid::add()
+std::vector<FallStep> fallIntoWater(const FallDef& def) {
+  test::FluidWorld scene;
+  scene.world.setGravity({0, 0, test::bt(-kLittleGravity)});
+  FluidRegion sea;
+  sea.below = {kDensity, 1e-3, {0, 0, 0}, {0, 0, 0}};
+  sea.above = Medium{};  // a vacuum
+  sea.surface = std::make_shared<StillWater>(0.0, Vector3::UnitZ());
+  scene.fluid.addRegion(sea);
+  const auto [low, high] = extentOf(*def.shape);
+  const btRigidBody& body = addBody(def, -low, scene);
+
+  const auto draught = [&, low = low] {
+    return -low - static_cast<double>(body.getWorldTransform().getOrigin().z());
+  };
+  const auto speed = [&] { return -static_cast<double>(body.getLinearVelocity().z()); };
+  const double mass = def.specific_gravity * kDensity * def.shape->volume;
+  std::vector<FallStep> steps;
+  while (draught() < high - low && speed() > 0) {
+    const double before = speed();
+    scene.step(def.time_step);
+    const double middle = 0.5 * (before + speed());
+    const double force = mass * (before - speed()) / def.time_step;
+    steps.push_back({draught(), readState(body), force / (kDensity * middle * middle)});
+  }
+  return steps;
+}
+
+// Mean force of the step in which the lowest point reached this draught.
+double forceAt(const std::vector<FallStep>& fall, double draught) {
+  const auto step = std::find_if(fall.begin(), fall.end(),
+                                 [&](const FallStep& s) { return s.draught_after > draught; });
+  return step == fall.end() ? 0 : step->force;
+}
+
+/// Half of the wedge's breadth at its deck [m].
+constexpr double kHalfBreadth = 1;
+
+/// Water surface for the added mass during entry: raised, or undisturbed.
+enum class EntrySurface { kRaised, kUndisturbed };
+
+TriangleMesh makeWedgeMesh(double deadrise, double length) {
+  const double rise = kHalfBreadth * std::tan(deadrise);
+  std::vector<Eigen::Vector3d> vertices;
+  for (const double x : {-length / 2, length / 2}) {
+    vertices.emplace_back(x, 0, 0);
+    vertices.emplace_back(x, kHalfBreadth, rise);
+    vertices.emplace_back(x, -kHalfBreadth, rise);
+  }
+  return makeTriangleMesh(
+      vertices,
+      {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}});
+}
+
+// A ball of radius 1 [m].
+SurfaceCase makeBallCase() { return makeSurfaceCase({"ball", ellipsoidMesh({1, 1, 1}, 500), 1}); }
+
+// A wedge with its keel below, along x, and a flat deck; deadrise [rad], length [m]. Solved by the
+// preprocessor's defaults.
+SurfaceCase makeWedgeCase(double deadrise, double length) {
+  return makeSurfaceCase({"wedge", makeWedgeMesh(deadrise, length), 0, kDefaultPanels});
+}
+
+// Added mass in heave per density, body's frame upright, lowest point at the depth `draught`
+// [m^3].
+double heaveInertia(const SurfaceModel& model, double draught, EntrySurface surface) {
+  const Vector3 up = Vector3::UnitZ();
+  const double low = immersionOf(model, {up, 0, 1, 1}).low;
+  const Immersion at = immersionOf(model, {up, low + draught, 1, 1});
+  return surface == EntrySurface::kRaised ? model.wetted->inertia(at)(5, 5)
+                                          : model.wetted->unraisedInertia(at)(5, 5);
+}
+
+// Force over rho V^2 on a body that sinks at constant speed V, much faster than its waves. Equals
+// d K / d draught; docs/theory.md eq. (67) for theta = 1 [m^2].
+double slammingForce(const SurfaceModel& model, double draught, EntrySurface surface) {
+  const double step = 1e-4 * draught;
+  return (heaveInertia(model, draught + step, surface) -
+          heaveInertia(model, draught - step, surface)) /
+         (2 * step);
+}
 
 double radians(double degrees) { return degrees * kPi / 180; }
 

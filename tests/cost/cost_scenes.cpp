@@ -1,7 +1,12 @@
 #include <array>
 #include <cmath>
+#include <filesystem>
 
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
+#include "preprocess/base/fluid_body_writer.h"
+#include "preprocess/reduced_loads/form_levels.h"
 #include "tests/cost/cost_world.h"
+#include "tests/support/bodies/ellipsoid_body.h"
 #include "tests/support/bodies/random_bodies.h"
 
 namespace ambient::test {
@@ -162,6 +167,154 @@ std::vector<CostScene> contactScenes() {
           {"block_in_water", 125, 120, fillBlock},
           {"stacks_in_water", 446, 120, fillStacks},
           {"figures_in_water", 176, 120, fillFigures}};
+}
+
+namespace {
+
+using MakeShape = std::function<std::shared_ptr<btCollisionShape>()>;
+
+std::shared_ptr<btCollisionShape> box() {
+  return std::make_shared<btBoxShape>(btVector3(btScalar(0.5), btScalar(0.3), btScalar(0.4)));
+}
+std::shared_ptr<btCollisionShape> plate() {
+  return std::make_shared<btBoxShape>(btVector3(btScalar(0.5), btScalar(0.05), btScalar(0.4)));
+}
+std::shared_ptr<btCollisionShape> capsule() {
+  return std::make_shared<btCapsuleShape>(btScalar(0.2), btScalar(0.6));
+}
+std::shared_ptr<btCollisionShape> ball() { return std::make_shared<btSphereShape>(btScalar(0.4)); }
+
+// Bodies in rows, a little turned, at rest; with a surface at height 0, or far below one.
+void fillRows(CostWorld& world, const MakeShape& make, bool is_afloat, int count) {
+  const std::shared_ptr<btCollisionShape> shape = make();
+  for (int i = 0; i < count; ++i) {
+    const auto height = static_cast<btScalar>(is_afloat ? 0.01 * (i % 7) : -50);
+    const btVector3 axis = btVector3(1, btScalar(0.3), btScalar(0.2)).normalized();
+    const btQuaternion turned(axis, btScalar(0.1) + btScalar(0.01) * btScalar(i % 11));
+    const btVector3 position(btScalar(4 * (i % 32)), btScalar(4 * (i / 32)), height);
+    world.add(shape, is_afloat ? 500 : 1000, btTransform(turned, position));
+  }
+  world.has_surface = is_afloat;
+}
+
+}  // namespace
+
+std::vector<CostScene> freeScenes() {
+  std::vector<CostScene> scenes;
+  for (const bool is_afloat : {false, true}) {
+    for (const auto& [name, make] : {std::pair<std::string, MakeShape>("boxes", box),
+                                     {"plates", plate},
+                                     {"capsules", capsule},
+                                     {"balls", ball}})
+      scenes.push_back({name + (is_afloat ? "_afloat" : "_under_water"), 1000, 30,
+                        [make = make, is_afloat](CostWorld& world, int count) {
+                          fillRows(world, make, is_afloat, count);
+                        }});
+  }
+  return scenes;
+}
+
+namespace {
+
+const Vector3 kSemiAxes(0.3, 0.2, 0.1);
+constexpr double kError = 0.01;  // of loads
+
+struct FlockShape {
+  const char* scene;
+  const char* file;  // empty: without faces
+};
+constexpr FlockShape kShapes[] = {{"flight_without_faces", ""},
+                                  {"flight_with_500_faces", "500.ambient"},
+                                  {"flight_with_5120_faces", "5120.ambient"}};
+
+// Bodies that fly past each other and spin.
+void fillFlock(CostWorld& world, const std::string& file, int count) {
+  const auto sphere = std::make_shared<btSphereShape>(btScalar(0.3));
+  for (int i = 0; i < count; ++i) {
+    btRigidBody& body =
+        world.addBody(sphere, 1, btVector3(btScalar(0.1), btScalar(0.2), btScalar(0.3)),
+                      btTransform(btQuaternion::getIdentity(), btVector3(btScalar(10 * i), 0, 0)));
+    body.setLinearVelocity({1, 2, 3});
+    body.setAngularVelocity({2, btScalar(i % 7), -1});
+  }
+  world.duration = 1.0 / 240;
+  world.attach = [file](Fluid& fluid, const std::vector<std::unique_ptr<btRigidBody>>& bodies) {
+    AttachDef def;
+    def.fluid_body = std::make_shared<FluidBody>(file.empty() ? facelessEllipsoid(kSemiAxes)
+                                                              : readFluidBody(file));
+    def.medium = air();
+    def.flow.maximum_load_error = kError;
+    for (const auto& body : bodies) fluid.add(*body, def);
+  };
+}
+
+}  // namespace
+
+std::vector<CostScene> flockScenes(const std::string& shapes) {
+  std::vector<CostScene> scenes;
+  for (const FlockShape& shape : kShapes) {
+    const std::filesystem::path file = std::filesystem::path(shapes) / shape.file;
+    scenes.push_back({shape.scene, 100, 30,
+                      [file = *shape.file ? file.string() : ""](CostWorld& world, int count) {
+                        fillFlock(world, file, count);
+                      }});
+  }
+  return scenes;
+}
+
+void makeFlockShapes(const std::string& folder) {
+  std::filesystem::create_directories(folder);
+  FluidBody coarse = latticeEllipsoid(kSemiAxes, 25, 11), fine = meshedEllipsoid(kSemiAxes, 4);
+  for (FluidBody* shape : {&coarse, &fine}) {
+    if (const auto level = smallestFormLevel(*shape, kError)) shape->form_levels = {*level};
+    writeFluidBody(
+        *shape, std::filesystem::path(folder) / (std::to_string(shape->faces.size()) + ".ambient"));
+  }
+}
+
+namespace {
+
+struct RobotKind {
+  const char* name;
+  int links;
+  bool is_afloat = false;
+  bool has_loads = true;
+};
+
+constexpr int kRobotLinks = 10;
+constexpr RobotKind kKinds[] = {{"multibodies_under_water", 0},
+                                {"multibodies_afloat", 0, true},
+                                {"pairs_under_water", 1},
+                                {"robots_in_ideal_fluid", kRobotLinks, false, false},
+                                {"robots_under_water", kRobotLinks},
+                                {"robots_afloat", kRobotLinks, true}};
+
+// Robots in rows, a little turned, at rest but for their joints.
+void fillRows(CostWorld& world, const RobotKind& kind, int count) {
+  const auto box =
+      std::make_shared<btBoxShape>(btVector3(btScalar(0.5), btScalar(0.3), btScalar(0.4)));
+  const double pitch = 4 + 1.2 * kind.links;
+  for (int i = 0; i < count; ++i) {
+    const auto height = static_cast<btScalar>(kind.is_afloat ? 0.01 * (i % 7) : -50);
+    const btVector3 axis = btVector3(1, btScalar(0.3), btScalar(0.2)).normalized();
+    const btQuaternion turned(axis, btScalar(0.1) + btScalar(0.01) * btScalar(i % 11));
+    const btVector3 position(btScalar(4 * (i % 32)),
+                             static_cast<btScalar>(pitch) * btScalar(i / 32), height);
+    world.addRobot(box, kind.is_afloat ? 500 : 1000, kind.links, btTransform(turned, position));
+  }
+  world.has_surface = kind.is_afloat;
+  world.has_loads = kind.has_loads;
+}
+
+}  // namespace
+
+std::vector<CostScene> robotScenes() {
+  std::vector<CostScene> scenes;
+  for (const RobotKind& kind : kKinds)
+    scenes.push_back({kind.name, 100, 30,
+                      [&kind](CostWorld& world, int count) { fillRows(world, kind, count); },
+                      true});
+  return scenes;
 }
 
 }  // namespace ambient::test
