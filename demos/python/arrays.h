@@ -2,6 +2,8 @@
 
 #include <pybind11/numpy.h>
 
+#include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -90,8 +92,32 @@ void writeOrOsError(const Write& write) {
   }
 }
 
-/// Returns a Python value as JSON text; NumPy values are converted. @throws TypeError
-inline std::string jsonFrom(const pybind11::object& value) {
+/// Names the first number in a Python value that is not finite, such as "bodies[0].mass is nan".
+/// @param place of the value; empty or ending in a blank: it is the whole
+/// @return empty if there is none
+inline std::string notFiniteIn(const pybind11::object& value, const std::string& place) {
+  namespace py = pybind11;
+  if (py::hasattr(value, "tolist")) return notFiniteIn(value.attr("tolist")(), place);
+  if (PyFloat_Check(value.ptr()) && !std::isfinite(PyFloat_AS_DOUBLE(value.ptr())))
+    return place + " is " + py::str(value).cast<std::string>();
+  const bool is_dict = py::isinstance<py::dict>(value);
+  if (!is_dict && !py::isinstance<py::list>(value) && !py::isinstance<py::tuple>(value)) return {};
+  std::size_t index = 0;
+  for (const py::handle entry : value) {
+    const std::string key = py::str(entry), dot = place.empty() || place.back() == ' ' ? "" : ".";
+    const std::string part = is_dict ? dot + key : "[" + std::to_string(index++) + "]";
+    const py::object inner =
+        is_dict ? py::object(value[entry]) : py::reinterpret_borrow<py::object>(entry);
+    const std::string found = notFiniteIn(inner, place + part);
+    if (!found.empty()) return found;
+  }
+  return {};
+}
+
+/// Returns a Python value as JSON text; NumPy values are converted.
+/// @param place of the value in messages, as of notFiniteIn()
+/// @throws TypeError, ValueError for a number that is not finite
+inline std::string jsonFrom(const pybind11::object& value, const std::string& place = {}) {
   namespace py = pybind11;
   const auto plain = py::cpp_function([](const py::object& array) {
     if (!py::hasattr(array, "tolist"))
@@ -99,9 +125,14 @@ inline std::string jsonFrom(const pybind11::object& value) {
                            py::repr(array).cast<std::string>());
     return array.attr("tolist")();
   });
-  return py::module_::import("json")
-      .attr("dumps")(value, py::arg("default") = plain, py::arg("allow_nan") = false)
-      .cast<std::string>();
+  try {
+    return py::module_::import("json")
+        .attr("dumps")(value, py::arg("default") = plain, py::arg("allow_nan") = false)
+        .cast<std::string>();
+  } catch (const py::error_already_set& error) {
+    if (!error.matches(PyExc_ValueError) || std::strstr(error.what(), "Circular")) throw;
+    throw py::value_error(notFiniteIn(value, place) + "; must be finite");
+  }
 }
 
 }  // namespace ambient

@@ -220,7 +220,7 @@ FluidBodyPtr fromMesh(const py::object& mesh, const py::object& faces, bool shee
 
 FluidBodyPtr fromShape(const py::object& shape, const std::string& name, const py::object& folder,
                        const py::kwargs& given) {
-  const std::string json = jsonFrom(shape);
+  const std::string json = jsonFrom(shape, name + ": ");
   const std::filesystem::path where = pathFrom(folder);
   const SourceSettings settings = settingsFrom(name, given);
   return build([&] { return buildFromShape(json, where, settings); });

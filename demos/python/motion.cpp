@@ -1,5 +1,7 @@
 #include "demos/python/motion.h"
 
+#include <pybind11/stl.h>
+
 #include <algorithm>
 #include <limits>
 

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <memory>
+#include <sstream>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "demos/simulation/body_preparation.h"
@@ -15,13 +17,16 @@
 namespace ambient {
 
 /// Simulation owned by Python. One thread at a time may use it. Nothing can be asked of it after
-/// close().
+/// close(). What the library reports is a warning of Python.
 class PythonWorld {
  public:
   PythonWorld(const Scene& scene, const BodyFolder& cache, bool takes_robots)
       : scene_(scene), fluid_bodies_(cache, scene.threads) {
-    const pybind11::gil_scoped_release others_run;
-    simulation_ = std::make_unique<Simulation>(scene, prepare(scene), takes_robots);
+    {
+      const pybind11::gil_scoped_release others_run;
+      simulation_ = std::make_unique<Simulation>(scene, prepare(scene), takes_robots);
+    }
+    warn();
   }
 
   const Scene& scene() const { return scene_; }
@@ -40,6 +45,7 @@ class PythonWorld {
       joined.addRobots(scene, prepare(scene));
     }
     scene_ = scene;
+    warn();
   }
   /// Takes water and regions of a scene that differs from that of the world in these alone.
   void setRegions(const Scene& scene) {
@@ -60,6 +66,7 @@ class PythonWorld {
       const long long end = std::min(steps, done + kChunk);
       stepFreely(stepped, end - done, take);
       done = end;
+      warn();
       if (PyErr_CheckSignals() != 0) throw pybind11::error_already_set();
     }
   }
@@ -86,6 +93,16 @@ class PythonWorld {
     }
   }
 
+  // Warns of the sentences that the library has reported since the last call.
+  void warn() {
+    if (told_ == simulation_->warning().size()) return;
+    std::istringstream news(simulation_->warning().substr(told_));
+    told_ = simulation_->warning().size();
+    for (std::string sentence; std::getline(news, sentence);)
+      if (!sentence.empty() && PyErr_WarnEx(PyExc_UserWarning, sentence.c_str(), 1) != 0)
+        throw pybind11::error_already_set();
+  }
+
   std::vector<PreparedBody> prepare(const Scene& scene) {
     std::vector<PreparedBody> bodies = prepareBodies(scene, fluid_bodies_);
     fluid_bodies_.save();
@@ -95,6 +112,7 @@ class PythonWorld {
   Scene scene_;
   SceneBodyCache fluid_bodies_;
   std::unique_ptr<Simulation> simulation_;
+  std::size_t told_ = 0;      // characters of its warning() that warn() has told
   bool is_stepping_ = false;  // true: a thread steps the world; guarded by the interpreter's lock
 };
 

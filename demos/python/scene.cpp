@@ -19,8 +19,10 @@ namespace py = pybind11;
 Scene makeScene(const py::object& source, const py::object& overrides, const py::object& folder) {
   std::vector<SceneOverride> changes;
   if (!overrides.is_none()) changes = overridesFrom(overrides);
-  if (py::isinstance<py::dict>(source))
-    return parseScene(jsonFrom(source), pathFrom(folder) / "scene.json", changes);
+  if (py::isinstance<py::dict>(source)) {
+    const std::filesystem::path file = pathFrom(folder) / "scene.json";
+    return parseScene(jsonFrom(source, file.string() + ": "), file, changes);
+  }
   const std::filesystem::path file = findScene(pathFrom(source).string(), sceneFolders());
   requireReadable(file);
   return readScene(file, changes);
@@ -85,7 +87,8 @@ std::vector<SceneOverride> overridesFrom(const py::dict& changes) {
   std::vector<SceneOverride> overrides;
   for (const auto& [path, value] : changes)
     overrides.push_back(
-        {path.cast<std::string>(), jsonFrom(py::reinterpret_borrow<py::object>(value))});
+        {path.cast<std::string>(),
+         jsonFrom(py::reinterpret_borrow<py::object>(value), path.cast<std::string>())});
   return overrides;
 }
 
@@ -143,6 +146,7 @@ ValueError: ...sphere_fall.json: duration is -1; must be > 0
         return parseScene(jsonFrom(document), pathFrom(file), overridesFrom(changes));
       },
       py::arg("document"), py::arg("file"), py::arg("overrides"));
+  module.def("_json_text", &jsonFrom, py::arg("value"), py::arg("place"));
   module.def("scene_names", &sceneNames,
              "Returns the names of the scenes that come with the library.");
 }

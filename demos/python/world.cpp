@@ -78,7 +78,7 @@ PythonRobot loadUrdf(const std::shared_ptr<PythonWorld>& world, const py::object
   py::list robots =
       py::module_::import("json").attr("loads")(before.text).attr("get")("robots", py::list());
   robots.append(robot);
-  world->addRobots(parseScene(before.text, before.file, {{"robots", jsonFrom(robots)}}));
+  world->addRobots(parseScene(before.text, before.file, {{"robots", jsonFrom(robots, "robots")}}));
   return {world, robots.size() - 1};
 }
 

@@ -172,9 +172,16 @@ FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& se
     body.added_mass = flow.added_mass;
     body.added_mass_parts = flow.parts;
     body.asymmetry = flow.asymmetry;
-    if (!settings.flow.sheet)
-      viscous_flow.separation = computeSeparation(flow.surface, flow.potential.rightCols<3>(),
-                                                  translationAxes(flow.added_mass));
+    if (!settings.flow.sheet) {
+      const MeshSeparation found = computeSeparation(flow.surface, flow.potential.rightCols<3>(),
+                                                     translationAxes(flow.added_mass));
+      viscous_flow.separation = found.separation;
+      if (!found.is_resolved && settings.warn) {
+        settings.warn(sourceOf(settings) +
+                      ": the flow at its edges or in its hollows is not resolved: friction of "
+                      "layers came out negative there and counts as 0; smaller triangles help");
+      }
+    }
   }
   requireFinite(body.added_mass, mesh, sourceOf(settings));
   body.volume = properties.volume;

@@ -253,7 +253,8 @@ KnownViscousFlow layersOf(const TriangleMesh& mesh,
                           const Matrix6& added_mass) {
   return {{},
           computeSeparation(mesh, potential.topRows(mesh.vertexCount()).rightCols<3>(),
-                            translationAxes(added_mass)),
+                            translationAxes(added_mass))
+              .separation,
           false};
 }
 

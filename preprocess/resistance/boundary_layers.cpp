@@ -19,6 +19,8 @@ using Eigen::Vector3d;
 constexpr double kLaminarGrowth = 0.45, kLaminarLimit = -0.09;  // Thwaites 1949
 constexpr double kTurbulentGrowth = 0.016,
                  kTurbulentLimit = -0.04;  // Buri 1931; the limit is chosen
+constexpr double kThickest = 4;  // th2 over the length: nine times a plate's; streamlines that run
+                                 // together in a hollow would let it grow without end
 constexpr double kRecovery =
     0.4;  // of the dynamic pressure, that a turbulent layer follows in any case
 constexpr double kCritical = 205;  // V theta / nu at laminar separation in the crisis
@@ -117,8 +119,10 @@ double grown(double y, double decay, double source, double time) {
 /// The layers of one flow.
 class LayerMarch {
  public:
-  LayerMarch(const CutSurface& surface, const std::vector<VertexFlow>& flow)
+  LayerMarch(const CutSurface& surface, const std::vector<VertexFlow>& flow, const Vector3d& motion)
       : surface_(surface), flow_(flow) {
+    const Eigen::RowVectorXd along = motion.transpose() * surface.mesh.vertices;
+    thickest_ = kThickest * (along.maxCoeff() - along.minCoeff());
     const std::size_t count = flow.size();
     AMBIENT_ASSERT(count == surface.source.size());
     streams_.reserve(count);
@@ -193,7 +197,8 @@ class LayerMarch {
     constexpr double kLeastDecay = 1e-3;
     const Stream& stream = streams_[vertex];
     Layers layers;
-    layers.laminar = kLaminarGrowth / std::max(stream.laminarDecay(), kLeastDecay);
+    layers.laminar =
+        std::min(kLaminarGrowth / std::max(stream.laminarDecay(), kLeastDecay), thickest_);
     const double turbulent =
         kTurbulentGrowth * stream.speed / std::max(stream.turbulentDecay(), kLeastDecay);
     layers.turbulent = {turbulent, kRough * turbulent};
@@ -272,7 +277,7 @@ class LayerMarch {
     double left_share = 1;
     if (!layers.leaves_laminar.hasLeft()) {
       const double before = layers.laminar;
-      layers.laminar = grown(before, laminar_decay, kLaminarGrowth, time);
+      layers.laminar = std::min(grown(before, laminar_decay, kLaminarGrowth, time), thickest_);
       left_share = carry(layers.leaves_laminar, layers.laminar * here.gradient / kLaminarLimit,
                          speed_before, here.speed);
       leaves_here = layers.leaves_laminar.hasLeft();
@@ -312,6 +317,7 @@ class LayerMarch {
   std::vector<Origin> origins_;
   std::vector<Layers> layers_;
   std::vector<bool> is_done_;
+  double thickest_ = 0;  // largest th2
 };
 
 /// Share of a triangle where a linear function with these values at the corners is above 1.
@@ -348,8 +354,7 @@ class LayerIntegrals {
     return area / front_ * pressure / front_;
   }
 
-  /// Friction along the motion where a layer is, on the frontal area. Not negative: velocities at
-  /// edges and in hollows, which meshes do not resolve, may sum up to that.
+  /// Friction along the motion where a layer is, on the frontal area.
   template <class BeganAt, class DepartureOf, class StressAt>
   double friction(const BeganAt& began, const DepartureOf& of, const StressAt& stress) const {
     double sum = 0;
@@ -362,7 +367,7 @@ class LayerIntegrals {
               t, [&](int v) { return march_.stream(v).speed > kFrictionSpeed && !of(v).hasLeft(); },
               [&](int v) { return -stress(v) * march_.stream(v).direction.dot(motion_); });
     }
-    return std::max(sum / front_, 0.0);
+    return sum / front_;
   }
 
   /// Share of a triangle that lies behind separation.
@@ -418,7 +423,7 @@ double turbulentStress(double theta, double speed) {
 
 LayerSums followLayers(const CutSurface& surface, const std::vector<VertexFlow>& flow,
                        const Vector3d& motion) {
-  const LayerMarch march(surface, flow);
+  const LayerMarch march(surface, flow, motion);
   const LayerIntegrals integrals(surface, march, motion);
   const auto laminar = [&](int v) { return march.layers(v).leaves_laminar; };
   const auto bubble = [&](int v) { return march.layers(v).leaves_bubble; };
@@ -443,6 +448,10 @@ LayerSums followLayers(const CutSurface& surface, const std::vector<VertexFlow>&
         return laminar(v).hasLeft() ? turbulentStress(march.layers(v).bubble, march.stream(v).speed)
                                     : 0;
       });
+  for (double* friction : {&way.friction_laminar, &way.friction_bubble, &way.friction_turbulent}) {
+    sums.is_resolved = sums.is_resolved && *friction >= 0;
+    *friction = std::max(*friction, 0.0);
+  }
 
   double thickness = 0, thickest = 0;
   for (int t = 0; t < integrals.count(); ++t) {

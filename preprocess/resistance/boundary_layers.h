@@ -13,6 +13,9 @@ struct LayerSums {
   double base = 0;  ///< area behind laminar separation, projected along the motion [D_A^2]
   double smooth_base =
       0;  ///< of it, that of streamlines that left a smooth surface and crossed no sharp edge
+  /// False where a friction came out negative, as velocities at edges and in hollows may that the
+  /// mesh does not resolve: it is 0.
+  bool is_resolved = true;
 };
 
 /// Follows laminar and turbulent layers downstream along the streamlines of a flow. Cost O(V log

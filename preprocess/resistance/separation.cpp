@@ -33,12 +33,14 @@ std::vector<VertexFlow> flowAlong(const UnitFlows& flows, const Vector3d& motion
 }
 
 /// The numbers of all ways. @param alike both ways of an axis are
-Separation separationIn(const CutSurface& surface, const UnitFlows& flows, const Matrix3& axes,
-                        bool alike) {
-  Separation separation;
+MeshSeparation separationIn(const CutSurface& surface, const UnitFlows& flows, const Matrix3& axes,
+                            bool alike) {
+  MeshSeparation found;
+  Separation& separation = found.separation;
   separation.axes = axes;
   for (int j = 0; j < 3; ++j) {
     double base = 0, smooth_base = 0;
+    bool is_resolved = true;
     for (std::size_t side = 0; side < 2; ++side) {
       const std::size_t way = 2 * static_cast<std::size_t>(j) + side;
       if (side == 1 && alike) {
@@ -50,10 +52,12 @@ Separation separationIn(const CutSurface& surface, const UnitFlows& flows, const
       separation.ways[way] = sums.way;
       base += sums.base;
       smooth_base += sums.smooth_base;
+      is_resolved = is_resolved && sums.is_resolved;
     }
     separation.smooth_base[j] = base > 0 ? smooth_base / base : 1;
+    found.is_resolved = found.is_resolved && (is_resolved || separation.smooth_base[j] == 0);
   }
-  return separation;
+  return found;
 }
 
 }  // namespace
@@ -69,9 +73,9 @@ Matrix3 translationAxes(const Matrix6& added_mass) {
   return axes;
 }
 
-Separation computeSeparation(const TriangleMesh& mesh,
-                             const Eigen::Matrix<double, Eigen::Dynamic, 3>& potential,
-                             const Matrix3& axes) {
+MeshSeparation computeSeparation(const TriangleMesh& mesh,
+                                 const Eigen::Matrix<double, Eigen::Dynamic, 3>& potential,
+                                 const Matrix3& axes) {
   AMBIENT_ASSERT(potential.rows() == mesh.vertexCount());
   const CutSurface surface = cutAtSharpEdges(mesh);
   const double length = std::sqrt(areaOf(mesh) / kPi);
@@ -85,7 +89,8 @@ Separation ellipsoidSeparation(const Vector3& semi_axes, int faces) {
   const double size = inverse.cwiseProduct(Vector3d(surface.mesh.vertices.col(0))).norm();
   const Matrix6 added_mass = ellipsoidAddedMass(semi_axes).asDiagonal();
   return separationIn(surface, ellipsoidFlow(surface, size * Vector3d(semi_axes)),
-                      translationAxes(added_mass), true);
+                      translationAxes(added_mass), true)
+      .separation;
 }
 
 Separation sphereSeparation() {

@@ -13,15 +13,23 @@ namespace ambient {
 /// are right-handed.
 Matrix3 translationAxes(const Matrix6& added_mass);
 
+/// The numbers of a mesh.
+struct MeshSeparation {
+  Separation separation;
+  /// False where the mesh does not resolve the flow along an axis whose base is in part smooth:
+  /// LayerSums::is_resolved.
+  bool is_resolved = true;
+};
+
 /// Computes the numbers of a closed mesh whose flow was solved. On 2000 triangles of a smooth body
 /// k_L and k_4, N and f_L are within 3 %, k_B and k_1 within 10 %, f_B within 12 %, f_T within 1 %
 /// of those of the body. Cost: 2000 triangles take 20 ms of one core.
 /// @param potential V x 3 [m], for unit velocities along the axes of the mesh: the right half of
 /// PotentialFlow::potential
 /// @pre closed and manifold
-Separation computeSeparation(const TriangleMesh& mesh,
-                             const Eigen::Matrix<double, Eigen::Dynamic, 3>& potential,
-                             const Matrix3& axes);
+MeshSeparation computeSeparation(const TriangleMesh& mesh,
+                                 const Eigen::Matrix<double, Eigen::Dynamic, 3>& potential,
+                                 const Matrix3& axes);
 
 /// Computes the numbers of an ellipsoid, with its flow in closed form on a mesh of `faces`
 /// triangles.

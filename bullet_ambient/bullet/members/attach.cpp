@@ -286,6 +286,7 @@ AmbientBody& attachLink(AmbientBodies& bodies, btMultiBodyDynamicsWorld& world, 
   readLinkPose(at.multi_body, *link);
   AmbientBody& attached = link->ambient;
   immerse(attached, who, std::move(def), link->mass, link->now, bodies);
+  warnOfDoubts(attached, bodies.complaints);
   bodies.trees.insert(world, at.multi_body, std::move(link));
   wake(at.multi_body);
   return attached;

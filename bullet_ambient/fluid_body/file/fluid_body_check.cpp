@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "bullet_ambient/base/elementary.h"
+#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/base/plain_text.h"
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "bullet_ambient/fluid_body/octahedral_lattice.h"
@@ -44,6 +45,13 @@ class Checker {
   void share(double value, const char* what) const {
     if (!(value >= 0) || !(value <= 1 + kRounding))
       fail(what, " is ", value, ", but must be between 0 and 1");
+  }
+
+  /// Fails if a number exceeds what a body can have, but for the errors of panels.
+  void atMost(double value, double limit, const char* what, const char* limit_of) const {
+    constexpr double kErrors = 1.02;
+    if (!(value <= kErrors * limit))
+      fail(what, " is ", value, ", but must be at most ", limit, ", ", limit_of);
   }
 
   /// Fails if a point is farther from the origin than kFarthest sizes; size 0: no check.
@@ -194,10 +202,57 @@ void checkForm(const FluidBody& body, const Checker& check) {
   checkTriangles(body.form.hull, body.surface, "hull triangle", check);
 }
 
-void checkViscousForm(const ViscousForm& form, double size, const Checker& check) {
+/// Checks that a body has no more resistance than a ball that holds it (Hill and Power 1956), its
+/// centre of reaction and its sizes within, and layers of a flow that may be along a surface, also
+/// at the edges of fine meshes.
+void checkViscousLimits(const FluidBody& body, const Checker& check) {
+  const ViscousForm& form = body.viscous;
+  const Eigen::Map<const Eigen::Matrix3Xd> vertices(
+      body.surface.vertices.data(), 3, static_cast<Eigen::Index>(body.surface.vertices.size() / 3));
+  const Vector3 middle = (vertices.rowwise().minCoeff() + vertices.rowwise().maxCoeff()) / 2;
+  const double radius = (vertices.colwise() - middle).colwise().norm().maxCoeff();
+  const double reach = vertices.colwise().norm().maxCoeff();
+  const auto largest = [](const Matrix3& block) { return symmetricEigen(block).values[2]; };
+  const Matrix6& R = form.resistance;
+  check.atMost(largest(R.bottomRightCorner<3, 3>()), 6 * kPi * radius,
+               "resistance to translation [m]", "that of the ball around the body");
+  check.atMost(largest(R.topLeftCorner<3, 3>()), 8 * kPi * reach * reach * reach,
+               "resistance to rotation [m^3]", "that of the ball around its origin that holds it");
+  check.atMost((form.centre_of_reaction - middle).norm(), radius,
+               "distance of the centre of reaction from the middle of the body [m]",
+               "the radius of the ball around it");
+  const SurfaceNumbers& surface = form.surface;
+  check.atMost(surface.diameter, std::sqrt(2 * body.area / kPi),
+               "diameter of the ball with the area of the surface [m]", "that of twice the area");
+  check.atMost(surface.frontal.maxCoeff(), body.area / 2, "a frontal area [m^2]",
+               "half of the area");
+  const double farthest = 4 * radius * radius;
+  check.atMost(surface.moments.maxCoeff(), farthest, "a mean square of the surface [m^2]",
+               "that of the farthest points of the body");
+  check.atMost(surface.gyration.trace(), 2 * farthest, "trace of the gyration of the surface [m^2]",
+               "that of the farthest points of the body");
+  constexpr double kFastest = 100;  // over the body's speed
+  const double thickest = 2 * std::sqrt(2 * radius / surface.diameter);
+  for (std::size_t i = 0; i < form.separation.ways.size(); ++i) {
+    const SeparationWay& way = form.separation.ways[i];
+    for (const double wake :
+         {way.wake_laminar, way.wake_bubble, way.wake_turbulent, way.wake_rough})
+      check.atMost(wake, kFastest * kFastest, "wake of a separation",
+                   "the square of the fastest flow's speed over the body's");
+    check.atMost(way.thickness, thickest, "thickness of a separation",
+                 "three times that of a plate as long as the body");
+    for (const double friction :
+         {way.friction_laminar, way.friction_bubble, way.friction_turbulent})
+      check.atMost(friction * surface.frontal[static_cast<Eigen::Index>(i / 2)],
+                   kFastest * body.area, "friction of a separation on its frontal area [m^2]",
+                   "that of the fastest flow");
+  }
+}
+
+void checkViscousForm(const FluidBody& body, const Checker& check) {
+  const ViscousForm& form = body.viscous;
   checkMotionMatrix(form.resistance, check, "resistance in creeping flow");
   for (const double* number : form.numbers()) check.finite(*number, "a number of the viscous form");
-  check.near(form.centre_of_reaction, size, "centre of reaction");
   const Separation& separation = form.separation;
   const double turn =
       (separation.axes.transpose() * separation.axes - Matrix3::Identity()).cwiseAbs().maxCoeff();
@@ -221,6 +276,11 @@ void checkViscousForm(const ViscousForm& form, double size, const Checker& check
   if (form.isKnown() && !(form.surface.diameter > 0))
     check.fail("diameter of the ball with the area of the surface is ", form.surface.diameter,
                " m, but must be above 0 where the resistance is known");
+  if (!form.isKnown()) return;
+  if (body.surface.vertices.empty())
+    check.near(form.centre_of_reaction, sizeOf(body), "centre of reaction");
+  else
+    checkViscousLimits(body, check);
 }
 
 void checkFormLevel(const FormLevel& level, const Checker& check) {
@@ -286,7 +346,7 @@ void checkFluidBody(const FluidBody& body, const std::string& source) {
   checkFaces(body.faces, check);
   checkSurface(body.surface, check);
   checkForm(body, check);
-  checkViscousForm(body.viscous, sizeOf(body), check);
+  checkViscousForm(body, check);
   for (const FormLevel& level : body.form_levels) checkFormLevel(level, check);
   for (const AddedMassPart& part : body.added_mass_parts.all())
     checkPart(part, sizeOf(body), check);

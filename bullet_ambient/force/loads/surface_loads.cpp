@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <optional>
+#include <sstream>
 #include <utility>
 
 #include "bullet_ambient/base/pi.h"
@@ -378,8 +379,11 @@ void checkFlow(const FluidBody& body, const FlowSettings& flow) {
     reject(body, "stall lag [lengths over speed]", flow.stall_lag, "from 0 to 1e6");
   }
   const bool is_rough = !(flow.roughness <= 0);
-  if (flow.roughness < 0 || (is_rough && !(flow.roughness <= std::sqrt(body.area)))) {
-    reject(body, "roughness [m]", flow.roughness, "from 0 to the root of its area");
+  const double roughest = std::sqrt(body.area);
+  if (flow.roughness < 0 || (is_rough && !(flow.roughness <= roughest))) {
+    std::ostringstream limit;
+    limit << "from 0 to " << roughest << ", the root of its area";
+    reject(body, "roughness [m]", flow.roughness, limit.str().c_str());
   }
   if (!(flow.maximum_load_error >= 0)) {
     reject(body, "largest error of its loads", flow.maximum_load_error, "zero or positive");

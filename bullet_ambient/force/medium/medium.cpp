@@ -9,8 +9,9 @@ std::optional<MediumFault> faultOf(const Medium& medium) noexcept {
   const auto is_wrong = [](double value) { return !(value >= 0) || !std::isfinite(value); };
   if (is_wrong(medium.density))
     return MediumFault{"density", "kg/m^3", medium.density, kNotNegative};
-  if (is_wrong(medium.viscosity))
-    return MediumFault{"viscosity", "Pa s", medium.viscosity, kNotNegative};
+  constexpr double kStiffest = 1e24;  // the mantle has some 1e21
+  if (!(medium.viscosity >= 0) || !(medium.viscosity <= kStiffest))
+    return MediumFault{"viscosity", "Pa s", medium.viscosity, "from 0 to 1e24"};
   if (!medium.velocity.allFinite())
     return MediumFault{"speed", "m/s", medium.velocity.norm(), "finite"};
   if (!medium.acceleration.allFinite())

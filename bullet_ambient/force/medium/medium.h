@@ -9,7 +9,7 @@ namespace ambient {
 /// Fluid around one body. All vectors in the world frame W.
 struct Medium {
   double density = 0;             ///< [kg/m^3], >= 0
-  double viscosity = 0;           ///< dynamic viscosity [Pa s], >= 0; 0 switches skin friction off
+  double viscosity = 0;           ///< dynamic [Pa s], 0 to 1e24; 0 switches skin friction off
   Vector3 velocity{0, 0, 0};      ///< ambient velocity at the body, without its disturbance [m/s]
   Vector3 acceleration{0, 0, 0};  ///< rate of change of velocity, for unsteady currents [m/s^2]
 };
@@ -28,7 +28,7 @@ struct MediumFault {
 };
 
 /// Finds the first fault of a medium; none: density and viscosity are finite and not negative,
-/// velocity and acceleration finite.
+/// nothing is stiffer than the Earth's mantle, velocity and acceleration are finite.
 std::optional<MediumFault> faultOf(const Medium& medium) noexcept;
 
 }  // namespace ambient

@@ -20,7 +20,7 @@ from typing import Any, NamedTuple, Optional, Union
 import numpy as np
 import numpy.typing as npt
 
-from bullet_ambient import FluidBody
+from bullet_ambient import FluidBody, _core
 
 __all__ = ["Fluid", "Spectrum", "Wave", "plugin_path"]
 
@@ -52,11 +52,6 @@ class Spectrum(NamedTuple):
 def plugin_path() -> str:
     """Returns the path of the plugin's file, for `pybullet.loadPlugin(plugin_path(), "_ambient")`."""
     return str(Path(__file__).parent / "libbullet_ambient_pybullet.so")
-
-
-def _plain(value: Any) -> Any:
-    """Converts what JSON does not know: arrays and numbers of NumPy."""
-    return value.tolist()
 
 
 def _corners(bounds: Optional[_Vector]) -> Optional[dict[str, Any]]:
@@ -255,7 +250,7 @@ class Fluid:
     def _give(self, name: str, /, **values: Any) -> str:
         """Gives the plugin a command with all values that are not None, and returns its answer."""
         given = {key: value for key, value in values.items() if value is not None}
-        text = json.dumps({name: given}, default=_plain, allow_nan=False)
+        text = _core._json_text({name: given}, "")
         while len(text) > _PIECE:
             self._send("+" + text[:_PIECE])
             text = text[_PIECE:]

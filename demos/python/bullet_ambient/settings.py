@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from numbers import Real
@@ -75,3 +76,6 @@ class FlowSettings:
     def __post_init__(self) -> None:
         _convert(self)
         _core._check_flow(self)
+        if self.law == "form" and self.separation_angle != type(self).separation_angle:
+            warnings.warn("FlowSettings.separation_angle: only the law \"published\" reads it; the law \"form\" has roughness",
+                          stacklevel=3)

@@ -12,7 +12,7 @@ import numpy as np
 
 import bullet_ambient as ba
 
-FLUID = ba.Medium(density=1)
+FLUID = ba.Medium(density=1, viscosity=4e-7)  # hulls of 4 to 17 m at 1 m/s: Reynolds numbers of 10^7 on their length
 AIRSHIP = Path(__file__).resolve().parents[3] / "data/meshes/airship.obj"  # 4 : 1, with fins
 DRIFT, TURN = 0.035, 0.01  # [m/s] at a speed of 1, [rad/s]
 
@@ -21,7 +21,7 @@ def derivatives(body, law):
     """Side force and yawing moment by drift and by turning (2, 2), at a speed of 1 m/s along x."""
     if law is None:
         return np.zeros((2, 2))
-    flow = ba.FlowSettings(law=law, skin_friction=False)
+    flow = ba.FlowSettings(law=law)
     ahead = np.array([0, 0, 0, 1, 0, 0.0])
     columns = []
     for way in (np.array([0, 0, 0, 0, DRIFT, 0]), np.array([0, 0, TURN, 0, 0, 0])):

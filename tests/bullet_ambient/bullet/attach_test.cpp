@@ -81,6 +81,10 @@ TEST(Attach, SaysWhatIsWrong) {
        "density of the medium [kg/m^3] is -1"},
       {[](BodyDef&, AttachDef& a) { a.medium.density = kNaN; }, "density"},
       {[](BodyDef&, AttachDef& a) { a.medium.viscosity = -2; }, "viscosity"},
+      {[](BodyDef&, AttachDef& a) { a.medium.viscosity = 1e25; }, "must be from 0 to 1e24"},
+      {[](BodyDef&, AttachDef& a) { a.flow.roughness = -1e-4; },
+       "roughness [m] is -0.0001, must be from 0 to 3.54491, the root of its area"},
+      {[](BodyDef&, AttachDef& a) { a.flow.roughness = 4; }, "roughness [m] is 4"},
       {[](BodyDef&, AttachDef& a) { a.medium.velocity.setConstant(kNaN); }, "must be finite"},
       {[](BodyDef&, AttachDef& a) { a.medium.acceleration.z() = kNaN; }, "must be finite"}};
   for (const Wrong& wrong : wrongs) {
@@ -115,6 +119,17 @@ TEST(Attach, ReportsMomentsOfInertiaOfNoRigidBodyOnce) {
   ASSERT_EQ(said.size(), 1u);
   expectSays(said[0], "inertia of 10.0");
   expectSays(said[0], "above 2.0");
+}
+
+TEST(Attach, ReportsAnAngleThatTheFormLawDoesNotReadOnce) {
+  AttachDef def = unitBallIn(air());
+  EXPECT_TRUE(saidAbout({}, def).empty());
+  def.flow.separation_angle = 2;
+  const std::vector<std::string> said = saidAbout({}, def);
+  ASSERT_EQ(said.size(), 1u);
+  expectSays(said[0], "a separation angle, which the form law does not read");
+  def.flow.law = PressureLaw::kPublished;
+  EXPECT_TRUE(saidAbout({}, def).empty());
 }
 
 TEST(Attach, ReportsAnEmptyFluidBodyOnce) {

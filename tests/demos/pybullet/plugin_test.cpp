@@ -272,6 +272,17 @@ TEST_F(PyBulletPlugin, RefusesInOneLineWhatItDoesNotUnderstand) {
   expectRefusal(R"({"settings": {"law": "published"}})", "too late");
 }
 
+TEST_F(PyBulletPlugin, SaysThatTheDefaultLawDoesNotReadAnAngle) {
+  const std::string angle = R"({"settings": {"separation": 2}})", status = R"({"status": {}})";
+  EXPECT_EQ(server.command(angle), "0 ");
+  server.command(kWater);
+  server.add(0.1, 4);
+  server.step(1);
+  const std::string said = server.command(status);
+  EXPECT_NE(said.find("a separation angle, which the form law does not read"), std::string::npos)
+      << said;
+}
+
 // PyBullets before 3.1.7 have a smaller btMultiBody: here members hold what none of ours does.
 TEST_F(PyBulletPlugin, RefusesOtherLayouts) {
   server.command(kWater);

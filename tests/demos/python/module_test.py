@@ -75,6 +75,16 @@ class SettingsTest(unittest.TestCase):
         self.assertEqual(ba.FlowSettings(law="form").law, "form")
 
 
+    def test_an_angle_that_the_law_does_not_read_is_a_warning(self):
+        with self.assertWarnsRegex(UserWarning, 'separation_angle: only the law "published" reads it') as caught:
+            ba.FlowSettings(separation_angle=2)
+        self.assertEqual(caught.filename, __file__)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            ba.FlowSettings(separation_angle=2, law="published")
+            ba.FlowSettings()
+
+
 class FluidBodyTest(Temporary):
     def test_a_sphere_carries_half_of_what_it_displaces(self):
         ball = ba.FluidBody.from_shape({"type": "sphere", "radius": 2})
@@ -288,7 +298,33 @@ class SceneTest(Temporary):
                 make()
 
 
+    def test_numbers_that_are_not_finite_are_named(self):
+        nan = float("nan")
+        for words, make in (
+            ("./scene.json: bodies[0].mass is nan; must be finite", lambda: ba.Scene({**STILL, "bodies": [{**BALL, "mass": nan}]})),
+            ("bodies.0.position[2] is -inf; must be finite",
+             lambda: ba.Scene(STILL, {"bodies.0.position": np.array([0, 0, -np.inf])})),
+            ("duration is nan; must be finite", lambda: ba.Scene("sphere_fall").replace({"duration": np.float32(nan)})),
+            ("pea: radius is inf; must be finite",
+             lambda: ba.FluidBody.from_shape({"type": "sphere", "radius": np.inf}, name="pea")),
+        ):
+            with self.assertRaises(ValueError) as caught:
+                make()
+            self.assertEqual(str(caught.exception), words)
+
+
 class WorldTest(Temporary):
+    def test_reports_are_warnings(self):
+        def world(angle, law="form"):
+            return ba.World(ba.Scene(STILL, {"medium": {"density": 1}, "law": law, "bodies.0.separation_angle": angle}))
+
+        with self.assertWarnsRegex(UserWarning, "body 'ball' has a separation angle, which the form law does not read"):
+            world(2).step()
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            world(np.pi / 2).step()
+            world(2, "published").step()
+
     def test_forces_and_torques_act_for_one_step(self):
         vacuum = ba.Scene(STILL, {"model": "vacuum", "bodies.0.inertia": [0.2, 0.3, 0.4, 0, 0, 0]})
         world = ba.World(vacuum)

@@ -73,7 +73,7 @@ class FileTest(Cases):
         self.assertIn("is not known", self.complaint('{"scene": "gone"}'))
         self.assertIn("is not valid JSON: Expecting", self.complaint('{"scene": '))
         self.assertIn('key "set" is given twice', self.complaint('{"scene": "plate_8cm", "set": {}, "set": {}}'))
-        self.assertIn("Out of range", self.complaint(line(duration=math.nan)))
+        self.assertEqual("duration is nan; must be finite", self.complaint(line(duration=math.nan)))
         self.assertIn("bodies[0].mass is -1", self.complaint(line(bodies__0__mass=-1)))
 
     def test_bytes_that_are_no_text_are_a_fault_of_their_case_alone(self):

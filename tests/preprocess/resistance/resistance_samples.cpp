@@ -81,7 +81,7 @@ void printCapsuleLayers() {
     Matrix3 axes;
     axes << 0, 1, 0, 0, 0, 1, 1, 0, 0;
     const Separation separation =
-        computeSeparation(mesh, solvePotentialFlow(mesh).potential.rightCols<3>(), axes);
+        computeSeparation(mesh, solvePotentialFlow(mesh).potential.rightCols<3>(), axes).separation;
     std::printf("layers 1 %.9g:", height);
     print(separation.ways[0]);
     print(separation.ways[2]);

@@ -161,9 +161,8 @@ Achenbach's (1972): the largest are beyond the crisis.
 ROUND = """\
 ## Balls
 
-Both laws share the closed forms of the smooth sphere. Real balls have more lift at small spin and less at large, and
-less drag beyond the drag crisis; a larger separation angle stands for that in the [scenes](experiments.md) of golf
-balls.
+By the published law lift grows with the spin without end, and drag knows no crisis: a separation angle has to be typed for each
+ball. The form law has both from the Reynolds number and the roughness of the pattern, as in the [scenes](experiments.md) of balls.
 """
 
 TABLE = """\

@@ -100,6 +100,19 @@ TEST_F(Robots, GoWithAFluidWhoseVelocityChanges) {
   }
 }
 
+TEST_F(Robots, SayOfTheirLinksWhatIsDoubtful) {
+  btMultiBody& body = add();
+  AttachDef def = fluidOf(body, 0);
+  def.name = "arm";
+  world.fluid.add(body, 0, def);
+  EXPECT_TRUE(heard.empty()) << heard.front();
+  def.flow.separation_angle = 2;
+  world.fluid.add(body, 1, def);
+  world.fluid.add(body, 2, def);
+  ASSERT_EQ(heard.size(), 1u);
+  EXPECT_NE(heard[0].find("body 'arm' has a separation angle"), std::string::npos) << heard[0];
+}
+
 // Links are light beside what they displace; a robot rises if all of it is.
 TEST_F(Robots, AreLightAsAWhole) {
   std::vector<std::string> said;

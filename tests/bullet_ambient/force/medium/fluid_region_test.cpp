@@ -108,8 +108,7 @@ TEST(FluidRegion, SaysWhatIsWrong) {
   EXPECT_EQ(regionError(region), "");  // there is nothing above
   region.surface = std::make_shared<StillWater>(0, Vector3(0, 0, 1));
   EXPECT_EQ(regionError(region),
-            "viscosity above the surface [Pa s] is inf; must be zero or positive "
-            "and finite");
+            "viscosity above the surface [Pa s] is inf; must be from 0 to 1e24");
   region.below = {};
   EXPECT_EQ(regionError(region),
             "density below the surface [kg/m^3] is 0; must be positive: set FluidRegion::below, "
