@@ -1,9 +1,10 @@
+#include "tests/benchmark/rivals/cases.h"
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "tests/benchmark/rivals/cases.h"
 #include "tests/reference/ellipsoid_added_mass.h"
 
 namespace ambient::rivals {

@@ -13,6 +13,7 @@
 #include "preprocess/base/surface_form.h"
 #include "tests/support/bodies/hull_bodies.h"
 #include "tests/support/bodies/random_bodies.h"
+#include "tests/support/runs.h"
 
 namespace ambient {
 namespace {

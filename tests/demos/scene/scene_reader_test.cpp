@@ -15,6 +15,13 @@
 namespace ambient {
 namespace {
 
+// Expects what a group of refusals.json says of changes to a scene.
+void expectSceneRefusals(const std::string& group, const nlohmann::json& scene) {
+  expectRefusals(AMBIENT_SCENE_REFUSALS, group, [&scene](const nlohmann::json& changes) {
+    return complaintAbout(withChanges(scene, changes));
+  });
+}
+
 using nlohmann::json;
 
 std::string complaintAboutText(const std::string& text) {

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "demos/scene/scene_reader.h"
-#include "tests/support/refusals.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ambient {
@@ -48,13 +47,6 @@ inline std::string complaintAbout(const nlohmann::json& scene,
                                                      : "names another file: " + text;
   }
   return "";
-}
-
-/// Expects what a group of refusals.json says of changes to a scene.
-inline void expectSceneRefusals(const std::string& group, const nlohmann::json& scene) {
-  expectRefusals(AMBIENT_SCENE_REFUSALS, group, [&scene](const nlohmann::json& changes) {
-    return complaintAbout(withChanges(scene, changes));
-  });
 }
 
 }  // namespace ambient

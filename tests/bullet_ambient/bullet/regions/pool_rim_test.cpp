@@ -12,6 +12,7 @@
 #include "tests/bullet_ambient/bullet/regions/region_world.h"
 #include "tests/bullet_ambient/bullet/state/state_scene.h"
 #include "tests/support/bodies/random_bodies.h"
+#include "tests/support/runs.h"
 
 // Bodies across the rim of a pool, docs/theory.md section 17.
 namespace ambient::test {

@@ -14,6 +14,7 @@
 #include "tests/support/bodies/part_bodies.h"
 #include "tests/support/bodies/random_bodies.h"
 #include "tests/support/convergence.h"
+#include "tests/support/runs.h"
 
 namespace ambient::test {
 namespace {

@@ -9,6 +9,7 @@
 
 #include "tests/bullet_ambient/bullet/contact/uneven_body.h"
 #include "tests/support/bodies/random_bodies.h"
+#include "tests/support/runs.h"
 
 // Rows of bodies of 25 to 10 000 kg/m3 in an ideal fluid of 1000 kg/m3. Added mass multiplies the
 // linear inertia of light bodies, not the angular one. So joint rows are nearly dependent, and ten
