@@ -2,6 +2,7 @@
 """Glycerine, sand and golf balls: the picture of docs/viscosity.md."""
 
 import argparse
+import warnings
 from pathlib import Path
 
 import matplotlib
@@ -16,7 +17,8 @@ GLYCERINE = ba.Medium(density=1260, viscosity=1.41)
 
 
 def in_glycerine(axes):
-    """Paths of the scene's bodies."""
+    """Paths of the scene's bodies, two of which are bubbles and meant to rise."""
+    warnings.filterwarnings("ignore", message=".*so that it rises")
     scene = ba.Scene("glycerine")
     motion = ba.World(scene).run(scene.duration)
     fallen = 1e3 * (motion.position[:, :, 2] - motion.position[0, :, 2])

@@ -83,7 +83,7 @@ TEST(Attach, SaysWhatIsWrong) {
       {[](BodyDef&, AttachDef& a) { a.medium.viscosity = -2; }, "viscosity"},
       {[](BodyDef&, AttachDef& a) { a.medium.viscosity = 1e25; }, "must be from 0 to 1e24"},
       {[](BodyDef&, AttachDef& a) { a.flow.roughness = -1e-4; },
-       "roughness [m] is -0.0001, must be from 0 to 3.54491, the root of its area"},
+       "roughness [m] is -0.0001, must be from 0 to 3.41554, the root of its area"},
       {[](BodyDef&, AttachDef& a) { a.flow.roughness = 4; }, "roughness [m] is 4"},
       {[](BodyDef&, AttachDef& a) { a.medium.velocity.setConstant(kNaN); }, "must be finite"},
       {[](BodyDef&, AttachDef& a) { a.medium.acceleration.z() = kNaN; }, "must be finite"}};

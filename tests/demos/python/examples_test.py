@@ -23,6 +23,7 @@ import hull_rates  # noqa: E402
 import plate_map  # noqa: E402
 import pybullet_limits  # noqa: E402
 import scene_energy  # noqa: E402
+import viscosity  # noqa: E402
 
 
 class PyBulletTest(unittest.TestCase):
@@ -42,6 +43,13 @@ class PyBulletTest(unittest.TestCase):
         scene = ba.Scene("football_vacuum", {"duration": 0.1, "medium": {"density": 0}})
         path, fall = pybullet_limits.fall_by_forces(scene), ba.World(scene).run(0.1, scene.time_step).position[1:, 0]
         np.testing.assert_allclose(path, fall, rtol=1e-9, atol=1e-12)
+
+
+class ViscosityTest(unittest.TestCase):
+    def test_sand_settles_as_spheres_do(self):
+        # Of 1 and 0.1 mm in water, by the closed form of a ball, eq. (119).
+        water = ba.Medium(density=1000, viscosity=1e-3)
+        np.testing.assert_allclose(viscosity.settling_speeds([1e-3, 1e-4], water), [0.15773, 0.0080817], rtol=2e-4)
 
 
 class PlateMapTest(unittest.TestCase):
