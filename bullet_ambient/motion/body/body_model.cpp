@@ -172,8 +172,10 @@ SurfaceLoad computeSurfaceLoad(const BodyModel& model, const Twist& relative_twi
   AMBIENT_ASSERT(model.loads);
   const Resistance* const resistance = model.resistance.get();
   return loadAlong(flow, relative_twist, resistance, [&](const Twist& x) -> SurfaceLoad {
-    const SplitLoad split = model.loads->split(model.load_frame.toF(x));
-    const Wrench wrench = load_share * model.load_frame.toB(split.wrench);
+    const FrameOffset& frame = model.load_frame;
+    const bool is_B = frame.isIdentity();
+    const SplitLoad split = model.loads->split(is_B ? x : frame.toF(x));
+    const Wrench wrench = load_share * (is_B ? split.wrench : frame.toB(split.wrench));
     SurfaceLoad load{wrench};
     if (model.loads->needsGuard()) load = removePositivePower(wrench, x, model.inertia);
     load.growth = split.growth;
