@@ -53,6 +53,7 @@ struct InspectArguments {
   std::optional<double> mass;          // [kg]
   std::vector<double> centre_of_mass;  // in F [m]; empty: spread evenly over the volume
   std::vector<double> inertia;         // xx yy zz xy xz yz [kg m^2]; empty: likewise
+  std::vector<double> water;           // in its holds [m^3]
   double density = 998;                // [kg/m^3]
   double gravity = 9.81;               // [m/s^2]
   bool json = false;
@@ -72,6 +73,7 @@ FloatingBody onWater(const FluidBody& body, const InspectArguments& arguments) {
     floating.inertia << v[0], v[3], v[4], v[3], v[1], v[5], v[4], v[5], v[2];
   floating.density = arguments.density;
   floating.gravity = arguments.gravity;
+  setWater(floating, arguments.water);
   return floating;
 }
 
@@ -81,7 +83,8 @@ void warnOfMass(const FloatingBody& body, const ordered_json& attitudes) {
     std::cerr << "warning: it is lighter than the " << air_mass
               << " kg of air in its place: is its mesh in metres?\n";
   if (attitudes.empty())
-    std::cerr << "it sinks: it displaces " << body.density * body.shape->volume << " kg\n";
+    std::cerr << "it sinks: it displaces " << body.density * body.shape->volume << " kg"
+              << (body.water.empty() ? "\n" : ", with the water in it\n");
 }
 
 void runInspect(const InspectArguments& arguments) {
@@ -108,6 +111,9 @@ void addInspect(CLI::App& app) {
   addOption(command, "--inertia", arguments->inertia, "XX YY ZZ XY XZ YZ",
             "With --mass: about the centre of mass, in the body's axes [kg m^2]; default: likewise")
       ->expected(6);
+  addOption(command, "--water", arguments.water, "V,V,...",
+            "With --mass: water in its holds, in their order [m^3]; default: none")
+      ->delimiter(',');
   command.add_option("--density", arguments->density, "With --mass: of the water [kg/m^3]")
       ->capture_default_str();
   command.add_option("--gravity", arguments->gravity, "With --mass: [m/s^2]")
