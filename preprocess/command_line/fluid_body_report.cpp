@@ -27,6 +27,7 @@ const std::map<std::string, const char*, std::less<>> kUnits{
     {"centre_of_volume", "m"},
     {"drag_falls_at", "Reynolds number on D_A, of both ways"},
     {"draught", "m"},
+    {"freeboard", "m to the lowest rim"},
     {"friction", "N m, N"},
     {"height", "m"},
     {"height_of_mass", "m"},

@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 
 #include "bullet_ambient/fluid_body/displaced_mass.h"
@@ -23,7 +25,20 @@ ordered_json modeJson(const SmallOscillation& mode) {
   return json;
 }
 
-ordered_json attitudeJson(const FloatingAttitude& attitude) {
+/// Height of the lowest place of all rims above the water [m]; none without an opening.
+std::optional<double> freeboardOf(const FluidBody& body, const SurfacePlane& plane) {
+  std::optional<double> least;
+  for (const Hold& hold : body.holds)
+    for (const HoldOpening& opening : hold.openings)
+      for (std::size_t i = 0; opening.to < 0 && i < opening.outline.size(); i += 3) {
+        const double* corner = &opening.outline[i];
+        const double height = -plane.depth({corner[0], corner[1], corner[2]});
+        least = std::min(height, least.value_or(height));
+      }
+  return least;
+}
+
+ordered_json attitudeJson(const FluidBody& body, const FloatingAttitude& attitude) {
   ordered_json json{{"up", vectorJson(attitude.up)},
                     {"alike", attitude.alike},
                     {"share", attitude.share},
@@ -32,6 +47,7 @@ ordered_json attitudeJson(const FloatingAttitude& attitude) {
                     {"waterplane_area", attitude.wet.waterplane.area},
                     {"metacentres", ordered_json::array()},
                     {"modes", ordered_json::array()}};
+  if (const auto freeboard = freeboardOf(body, attitude.plane)) json["freeboard"] = *freeboard;
   for (const Metacentre& metacentre : attitude.metacentres)
     json["metacentres"].push_back(
         {{"height", metacentre.height}, {"axis", vectorJson(metacentre.axis)}});
@@ -43,7 +59,7 @@ ordered_json attitudeJson(const FloatingAttitude& attitude) {
 ordered_json floatingFacts(const FloatingBody& body) {
   ordered_json list = ordered_json::array();
   for (const FloatingAttitude& attitude : findFloatingAttitudes(body))
-    list.push_back(attitudeJson(attitude));
+    list.push_back(attitudeJson(*body.shape, attitude));
   return list;
 }
 

@@ -129,6 +129,7 @@ TEST_F(FloatingCommand, TrayStaysDryUnlessItIsToldNotTo) {
   const Arguments inspect = {"inspect", file, "--mass", "60", "--json"};
   const double draught = 60 / (998 * 0.6);
   EXPECT_NEAR(upright(resultOf(inspect))["draught"].get<double>(), draught, 1e-9);
+  EXPECT_NEAR(upright(resultOf(inspect))["freeboard"].get<double>(), 0.4 - draught, 1e-9);
   const json with_water = resultOf(appended(inspect, {"--water", "0.03"}));
   EXPECT_NEAR(upright(with_water)["draught"].get<double>(), draught + 0.05, 1e-4);
   // Upside down there is no room: the walls alone sink.
