@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kNobody = -1;
 constexpr double kRimCosine = 0.76604444;  // of 40 degrees: more is a rim
-constexpr double kHoldRounding = 1e-9;
+constexpr double kLabelRounding = 1e-9;
 
 /// Grows the labels of some triangles over all of them.
 class Watershed {
@@ -50,7 +50,7 @@ class Watershed {
       const Eigen::Vector3d way(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
       if (way.isZero(0) || way.dot(up_) > way.norm() / 2) continue;
       const Eigen::VectorXd far = mesh_.vertices.transpose() * way;
-      const double farthest = far.maxCoeff() - kHoldRounding * size_;
+      const double farthest = far.maxCoeff() - kLabelRounding * size_;
       for (std::size_t t = 0; t < labels_.size(); ++t) {
         const auto corners = mesh_.triangles.col(static_cast<Eigen::Index>(t));
         if (labels_[t] == kNobody && normals_[t].dot(way) > 0 &&
@@ -94,7 +94,7 @@ class Watershed {
   bool isRim(int t, int other) const {
     return normals_[t].dot(normals_[other]) < kRimCosine &&
            (mesh_.barycentre(other) - mesh_.barycentre(t)).dot(normals_[t]) <
-               -kHoldRounding * size_;
+               -kLabelRounding * size_;
   }
 
   const TriangleMesh& mesh_;

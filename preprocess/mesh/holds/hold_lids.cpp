@@ -16,7 +16,7 @@ namespace {
 using Eigen::Vector3d;
 using Triangles = std::vector<Eigen::Vector3i>;
 
-constexpr double kHoldRounding = 1e-9;
+constexpr double kLidRounding = 1e-9;
 
 Eigen::Vector3i turned(const Eigen::Vector3i& t) { return {t[0], t[2], t[1]}; }
 
@@ -128,7 +128,7 @@ class LidSpanner {
   /// by more than rounding.
   bool passes(const TriangleMesh& a, Eigen::Index s, const TriangleMesh& b, Eigen::Index t) const {
     const Vector3d normal = b.twiceArea(t).stableNormalized();
-    const double least = kHoldRounding * size_;
+    const double least = kLidRounding * size_;
     for (int k = 0; k < 3; ++k) {
       const Vector3d p = a.corner(s, k), q = a.corner(s, (k + 1) % 3);
       const double from = normal.dot(p - b.corner(t, 0)), to = normal.dot(q - b.corner(t, 0));

@@ -166,6 +166,35 @@ TEST(HoldSearch, FittingsBelongToTheRoom) {
              kBarge - .2 * .96 * .1 - .2 * .2 * .2, 2, 1e-12);
 }
 
+TEST(HoldSearch, HandlesDecksAndCounters) {
+  const auto isBar = [](const Vector3& p, double x, double y, double low, double high) {
+    return std::abs(p.x()) < x && std::abs(p.y()) < y && p.z() > low && p.z() < high;
+  };
+  // A mug's handle on its side.
+  expectHold(fitted({{{1.15, 1.2}, {-.05, .05}, {.1, .15, .35, .4}}},
+                    [&](const Vector3& p) {
+                      return p.x() > 1 && isBar(p, 1.2, .05, .1, .4) &&
+                             (p.x() > 1.15 || p.z() < .15 || p.z() > .35);
+                    }),
+             kBarge, 1);
+  // A basket's handle, from the middle of the rim over the lid.
+  expectHold(fitted({{{-.995, -.985, .985, .995}, {-.05, .05}, {.75, .8}}},
+                    [&](const Vector3& p) {
+                      return isBar(p, .995, .05, .5, .8) && (std::abs(p.x()) > .985 || p.z() > .75);
+                    }),
+             kBarge, 1);
+  // A kayak: the tube of its cockpit is outside.
+  expectHold(fitted({{{-.3, .3}, {-.3, .3}, {.48}}},
+                    [&](const Vector3& p) {
+                      return p.z() > .48 && (std::abs(p.x()) > .3 || std::abs(p.y()) > .3);
+                    }),
+             1.96 * .96 * .46, 1);
+  // A basin in a counter.
+  expectHold(makeBlocks({{{-1, -.25, .25, 1}, {-.5, -.2, .2, .5}, {0, .1, .3}}},
+                        [&](const Vector3& p) { return !isBar(p, .25, .2, .1, .3); }),
+             .5 * .4 * .2, 1);
+}
+
 TEST(HoldSearch, LowBowIsTheRim) {
   const TriangleMesh landing_craft = fitted({{{}, {}, {.2}}}, nowhere, [](const Vector3d& p) {
     return p.x() > .98 && p.z() > .2 && std::abs(p.y()) < .48;
