@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <queue>
+#include <set>
 #include <utility>
 
 namespace ambient {
@@ -84,9 +86,14 @@ class Watershed {
     }
   }
 
-  /// What nobody has reached: parts of their own, outside.
+  /// What nobody has reached are parts of their own, outside. Holds that became others leave no gap
+  /// in the numbers.
   std::vector<int> labels() {
     std::replace(labels_.begin(), labels_.end(), kNobody, 0);
+    std::set<int> used(labels_.begin(), labels_.end());
+    used.insert(0);
+    for (int& label : labels_)
+      label = static_cast<int>(std::distance(used.begin(), used.find(label)));
     return labels_;
   }
 
