@@ -1,5 +1,6 @@
 #include "preprocess/mesh/holds/hold_search.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -70,6 +71,9 @@ Vessel findHolds(const TriangleMesh& mesh, const HoldSearch& search, const std::
   Vessel vessel =
       spanLids(mesh, neighbours,
                labelTriangles(mesh, neighbours, found.up, found.pools, found.is_tilted), name);
+  // A corner of three walls has pools when it is tilted, and no hole that would leak as it stands.
+  const auto leaks = [](const Hold& hold) { return hold.openings.size() > 1; };
+  if (found.is_tilted && !std::all_of(vessel.holds.begin(), vessel.holds.end(), leaks)) return {};
   for (std::size_t i = 0; i < vessel.holds.size(); ++i)
     vessel.holds[i].name = vessel.holds.size() == 1 ? "hold" : "hold " + std::to_string(i + 1);
   return vessel;

@@ -24,8 +24,8 @@ struct HoldSearch {
 ///
 /// Without a direction up, that one of the six along the axes counts whose holds are largest, +z if
 /// they are as large within 1 %. If no pool is found, the mesh is tilted by 30 degrees to eight
-/// sides: a hold with a hole in its lowest place has pools then. Cost O(T log T) for each
-/// direction.
+/// sides: a hold with a hole in its lowest place has pools then, and two openings. Cost O(T log T)
+/// for each direction.
 /// @param mesh closed, manifold and outward: a checked body
 /// @param name begins each line
 Vessel findHolds(const TriangleMesh& mesh, const HoldSearch& search, const std::string& name);

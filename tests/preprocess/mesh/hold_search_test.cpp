@@ -167,31 +167,31 @@ TEST(HoldSearch, FittingsBelongToTheRoom) {
 }
 
 TEST(HoldSearch, HandlesDecksAndCounters) {
-  const auto isBar = [](const Vector3& p, double x, double y, double low, double high) {
+  const auto isBar = [](const Vector3d& p, double x, double y, double low, double high) {
     return std::abs(p.x()) < x && std::abs(p.y()) < y && p.z() > low && p.z() < high;
   };
   // A mug's handle on its side.
   expectHold(fitted({{{1.15, 1.2}, {-.05, .05}, {.1, .15, .35, .4}}},
-                    [&](const Vector3& p) {
+                    [&](const Vector3d& p) {
                       return p.x() > 1 && isBar(p, 1.2, .05, .1, .4) &&
                              (p.x() > 1.15 || p.z() < .15 || p.z() > .35);
                     }),
              kBarge, 1);
   // A basket's handle, from the middle of the rim over the lid.
   expectHold(fitted({{{-.995, -.985, .985, .995}, {-.05, .05}, {.75, .8}}},
-                    [&](const Vector3& p) {
+                    [&](const Vector3d& p) {
                       return isBar(p, .995, .05, .5, .8) && (std::abs(p.x()) > .985 || p.z() > .75);
                     }),
              kBarge, 1);
   // A kayak: the tube of its cockpit is outside.
   expectHold(fitted({{{-.3, .3}, {-.3, .3}, {.48}}},
-                    [&](const Vector3& p) {
+                    [&](const Vector3d& p) {
                       return p.z() > .48 && (std::abs(p.x()) > .3 || std::abs(p.y()) > .3);
                     }),
              1.96 * .96 * .46, 1);
   // A basin in a counter.
   expectHold(makeBlocks({{{-1, -.25, .25, 1}, {-.5, -.2, .2, .5}, {0, .1, .3}}},
-                        [&](const Vector3& p) { return !isBar(p, .25, .2, .1, .3); }),
+                        [&](const Vector3d& p) { return !isBar(p, .25, .2, .1, .3); }),
              .5 * .4 * .2, 1);
 }
 
@@ -252,10 +252,13 @@ TEST(HoldSearch, WhatHoldsNoWaterHasNoHold) {
       makeBlocks({{{-.5, -.4, .4, .5}, {-.5, -.4, .4, .5}, {0, .7, .75}}}, [](const Vector3d& p) {
         return p.z() > .7 || (std::abs(p.x()) > .4 && std::abs(p.y()) > .4);
       });
+  const TriangleMesh corner =
+      makeBlocks({{{0, .02, 1}, {0, .02, 1}, {0, .02, 1}}},
+                 [](const Vector3d& p) { return p.x() < .02 || p.y() < .02 || p.z() < .02; });
   const TriangleMesh tube = makeLathe({{0.1, 0}, {0.12, 0}, {0.12, 0.5}, {0.1, 0.5}, {0.1, 0}}, 24);
   const TriangleMesh welded = weldVertices(tube, 1e-9);
-  for (const TriangleMesh& mesh :
-       {catamaran, table, welded, makeBoxMesh({1, 1, 1}, 12), makeEllipsoidMesh({1, 2, 3}, 320)}) {
+  for (const TriangleMesh& mesh : {catamaran, table, corner, welded, makeBoxMesh({1, 1, 1}, 12),
+                                   makeEllipsoidMesh({1, 2, 3}, 320)}) {
     ASSERT_TRUE(isClosed(computeMeshEdges(mesh)));
     EXPECT_TRUE(vesselOf(mesh).holds.empty());
   }
