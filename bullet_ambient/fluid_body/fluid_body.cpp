@@ -72,6 +72,15 @@ void scale(MassDistribution& mass, double factor) {
   mass.inertia *= factor * factor;
 }
 
+void scale(Hold& hold, double factor) {
+  const double cube = factor * factor * factor;
+  scale(hold.surface.vertices, factor);
+  hold.volume *= cube;
+  hold.centre *= factor;
+  hold.turning_inertia *= cube * factor * factor;
+  for (HoldOpening& opening : hold.openings) scale(opening.outline, factor);
+}
+
 }  // namespace
 
 void FaceTable::reserve(std::size_t faces) {
@@ -147,6 +156,7 @@ FluidBody scaled(const FluidBody& body, double factor) {
   result.added_mass_parts = body.added_mass_parts.scaled(factor);
   for (Matrix6& correction : result.waterline.corrections)
     correction = scaleShape(correction, factor);
+  for (Hold& hold : result.holds) scale(hold, factor);
   for (FormLevel& level : result.form_levels) scale(level.faces, factor);
   std::ostringstream settings;
   settings.precision(17);
@@ -220,6 +230,19 @@ std::uint64_t contentHash(const FluidBody& body) {
   }
   append(body.waterline.immersions.data(), body.waterline.immersions.size());
   for (const Matrix6& correction : body.waterline.corrections) append(correction.data(), 36);
+  const auto appendTriangles = [&](const std::vector<double>& places,
+                                   const std::vector<std::int32_t>& triangles) {
+    append(places.data(), places.size());
+    bytes.append(reinterpret_cast<const char*>(triangles.data()),
+                 triangles.size() * sizeof(std::int32_t));
+  };
+  for (const Hold& hold : body.holds) {
+    appendTriangles(hold.surface.vertices, hold.surface.triangles);
+    for (const HoldOpening& opening : hold.openings) {
+      appendTriangles(opening.outline, opening.lid);
+      bytes.append(reinterpret_cast<const char*>(&opening.to), sizeof opening.to);
+    }
+  }
   return fnv1a64(bytes);
 }
 

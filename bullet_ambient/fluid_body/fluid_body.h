@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bullet_ambient/fluid_body/added_mass_parts.h"
+#include "bullet_ambient/fluid_body/hold.h"
 #include "bullet_ambient/fluid_body/viscous_form.h"
 #include "bullet_ambient/spatial/vector_types.h"
 
@@ -139,13 +140,6 @@ struct Provenance {
   std::string generator;          ///< program and version that made the fluid body
 };
 
-/// Triangles of the shape in F: for drawing, hydrostatics and the form law.
-struct Surface {
-  std::vector<double> vertices;  ///< x, y, z per vertex [m]
-  std::vector<std::int32_t>
-      triangles;  ///< three vertex indices per triangle, counter-clockwise from the fluid
-};
-
 /// Largest measured drag coefficient; keeps its products with the motion finite.
 constexpr double kLargestDrag = 1e6;
 
@@ -158,7 +152,7 @@ struct FluidBody {
   Matrix6 added_mass =
       Matrix6::Zero();   ///< K_fluid / rho about F's origin, symmetric positive semi-definite
   double asymmetry = 0;  ///< largest |K - K^T| before symmetrising, over the largest |K| [1]
-  double volume = 0;     ///< displaced volume [m^3]; 0 for a sheet
+  double volume = 0;     ///< displaced volume [m^3], with that of the holds; 0 for a sheet
   double area = 0;       ///< wetted area [m^2]
   Vector3 centre_of_volume{0, 0, 0};  ///< in F [m]
   Vector3 origin{0, 0, 0};            ///< F's origin in the source mesh's frame [m]
@@ -182,6 +176,9 @@ struct FluidBody {
   AddedMassParts added_mass_parts;
   /// Correction to the sum over added_mass_parts at the surface of the water; may be empty.
   WaterlineTable waterline;
+  /// Rooms that keep water out or in; surface, faces, volume, area and added mass are those of the
+  /// closed vessel, with lids across their openings. Empty: none.
+  std::vector<Hold> holds;
   TablesPlace tables;  ///< of the loads; a fluid body that loads were made of must not change
 };
 
@@ -211,7 +208,7 @@ void requirePrepared(const FluidBody& body);
 
 /// FNV-1a hash of all data that influence motion: added mass, volume, area, centre of volume,
 /// faces, form, viscous form, levels, drag, sphere radius, surface triangles, parts of the added
-/// mass and waterline table. Name and provenance do not count. Saved states hold the hash to
+/// mass, waterline table and holds. Name and provenance do not count. Saved states hold the hash to
 /// recognise their fluid body. Detects accidental change, not forgery.
 std::uint64_t contentHash(const FluidBody& body);
 

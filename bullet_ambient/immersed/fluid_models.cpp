@@ -205,12 +205,12 @@ void setMass(FluidModels& models, const AttachDef& def, const InverseMass& mass)
     medium = inMedium(def, mass, medium.kind, medium.model.loads);
   for (SurfaceMedia& surface : models.surfaces) {
     SurfaceModel& model = surface.model;
-    const auto inFluid = [&](const Medium& medium, const BodyModel& before) {
+    const auto inFluid = [&](const Medium& medium, const BodyModel& before, HoldContent content) {
       return makeBodyModel(*def.fluid_body, def.fluid_frame, propertiesOf(mass), medium,
-                           before.loads);
+                           before.loads, content);
     };
-    model.below = inFluid(surface.kind.below.medium(), model.below);
-    model.above = inFluid(surface.kind.mediumAbove(def.medium), model.above);
+    model.below = inFluid(surface.kind.below.medium(), model.below, HoldContent::kSealed);
+    model.above = inFluid(surface.kind.mediumAbove(def.medium), model.above, HoldContent::kFull);
   }
   models.inverse_mass = mass;
 }

@@ -157,6 +157,21 @@ void bindProperties(py::class_<FluidBody, FluidBodyPtr>& type) {
       "waterline_table", [](const FluidBody& b) { return b.waterline.subdivisions; },
       "Number of divisions of the table of added mass at the surface of water; 0: no table.");
   get(
+      "holds",
+      [](const FluidBody& b) {
+        py::list holds;
+        for (const Hold& hold : b.holds) {
+          py::dict facts;
+          facts["name"] = hold.name;
+          facts["volume"] = hold.volume;
+          facts["centre"] = arrayOf(hold.centre);
+          facts["openings"] = hold.openings.size();
+          holds.append(facts);
+        }
+        return holds;
+      },
+      "Rooms that stay dry: name, volume [m^3], centre (3,) in F [m], number of openings.");
+  get(
       "settings", [](const FluidBody& b) { return b.provenance.settings; },
       "Settings of its build, in words.");
   get(

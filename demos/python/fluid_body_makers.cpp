@@ -76,6 +76,7 @@ Provenance provenanceOf(const TriangleMesh& mesh, bool sheet, const SourceSettin
   if (settings.waterline_subdivisions != 0)
     text << ", waterline " << settings.waterline_subdivisions;
   if (settings.strict) text << ", strict";
+  if (!sheet) text << holdsText(settings.holds);
   Provenance provenance;
   provenance.source = "arrays";
   provenance.source_hash =
@@ -98,6 +99,10 @@ BuiltBody buildFromMesh(const TriangleMesh& mesh, bool sheet, const SourceSettin
                               ? requireSound(checkMesh(mesh, settings.name, {true}), settings.name)
                               : makeBodyMesh(mesh, settings.name, settings.strict);
     build.cavities = checked.cavities;
+    if (!sheet) {
+      const std::vector<std::string> lines = takeHolds(checked.mesh, build);
+      checked.warnings.insert(checked.warnings.end(), lines.begin(), lines.end());
+    }
     build.warn = [&](const std::string& text) { checked.warnings.push_back(text); };
     FluidBody body = makeFluidBody(checked.mesh, build);
     return {std::move(body), std::move(checked.warnings)};
@@ -172,6 +177,12 @@ TriangleMesh meshFrom(const py::object& mesh, const py::object& faces) {
   return made;
 }
 
+bool holdsWanted(const std::string& word) {
+  if (word != "auto" && word != "none")
+    throw py::value_error("holds must be \"auto\" or \"none\", not \"" + word + "\"");
+  return word == "auto";
+}
+
 SourceSettings settingsFrom(const std::string& name, const py::kwargs& given) {
   SourceSettings settings;
   settings.name = name;
@@ -186,13 +197,18 @@ SourceSettings settingsFrom(const std::string& name, const py::kwargs& given) {
       settings.flow.threads = value.cast<int>();
     else if (word == "waterline_table")
       settings.waterline_subdivisions = value.cast<int>();
+    else if (word == "holds")
+      settings.holds.is_wanted = holdsWanted(value.cast<std::string>());
+    else if (word == "up")
+      settings.holds.up = vectorFrom(py::cast<InputArray>(value), word).normalized();
     else if (word == "strict")
       settings.strict = value.cast<bool>();
     else if (word == "cache")
       settings.cache = pathFrom(py::reinterpret_borrow<py::object>(value));
     else
       throw py::type_error("unknown keyword " + word +
-                           "; known are origin, panels, threads, waterline_table, strict, cache");
+                           "; known are origin, panels, threads, waterline_table, holds, up, "
+                           "strict, cache");
   }
   return settings;
 }
@@ -254,6 +270,8 @@ panels : largest number of panels for the flow; default 4200; 0: the faces of th
 threads : number of threads; 0 (default): all cores; the result does not depend on it
 waterline_table : N from 1 to 16: also computes a table of the added mass at the surface of water, for
     N divisions of the octahedron of attitudes, which takes half a minute and more; default 0: none
+holds : "auto" (default): rooms that hold water stay dry, with a warning that names them; "none": the body of its walls
+up : (3,) which way the mesh stands when its holds are found; default: the axis with the largest ones
 strict : raise ValueError where the mesh is open, crosses itself or is otherwise no body; default: wrap it
     into a closed surface, with a warning that has volume and area before and after
 cache : folder in which results are stored and found by content
@@ -265,7 +283,7 @@ Cost: a second or two for a thousand faces.)")
           py::arg("folder") = ".",
           R"(Builds the fluid body of a shape described as in scenes: {"type": "box", "size": [1, 2, 3]}.
 
-`folder` is the folder of relative file names. from_mesh() describes origin, panels, threads, waterline_table, strict and cache.)")
+`folder` is the folder of relative file names. from_mesh() describes origin, panels, threads, waterline_table, holds, up, strict and cache.)")
       .def_static("read", &read, py::arg("path"), "Reads an .ambient file.")
       .def("write", &write, py::arg("path"),
            "Writes an .ambient file completely, or leaves the old one.")

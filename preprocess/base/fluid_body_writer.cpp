@@ -120,6 +120,28 @@ Offset<file::WaterlineTable> pack(FlatBufferBuilder& builder, const WaterlineTab
   return file::CreateWaterlineTable(builder, table.subdivisions, immersions, corrections);
 }
 
+Offset<flatbuffers::Vector<Offset<file::Hold>>> pack(FlatBufferBuilder& builder,
+                                                     const std::vector<Hold>& holds) {
+  if (holds.empty()) return 0;
+  std::vector<Offset<file::Hold>> packed;
+  for (const Hold& hold : holds) {
+    std::vector<Offset<file::HoldOpening>> openings;
+    for (const HoldOpening& opening : hold.openings) {
+      const auto outline = builder.CreateVector(opening.outline);
+      const auto lid = builder.CreateVector(opening.lid);
+      openings.push_back(file::CreateHoldOpening(builder, outline, lid, opening.to));
+    }
+    const auto name = builder.CreateString(hold.name);
+    const auto surface = pack(builder, hold.surface);
+    const auto all_openings = builder.CreateVector(openings);
+    const auto centre = packMatrix<file::Vector3>(hold.centre);
+    const auto turning_inertia = packMatrix<file::Matrix3>(hold.turning_inertia);
+    packed.push_back(file::CreateHold(builder, name, surface, hold.volume, &centre,
+                                      &turning_inertia, all_openings));
+  }
+  return builder.CreateVector(packed);
+}
+
 void packInto(FlatBufferBuilder& builder, const FluidBody& body) {
   builder.ForceDefaults(true);  // else -0.0 would come back as +0.0
   const auto name = builder.CreateString(body.name);
@@ -133,6 +155,7 @@ void packInto(FlatBufferBuilder& builder, const FluidBody& body) {
   const auto waterline = pack(builder, body.waterline);
   const auto form = pack(builder, body.form);
   const auto viscous = pack(builder, body.viscous);
+  const auto holds = pack(builder, body.holds);
   const auto added_mass = packMatrix<file::Matrix6>(body.added_mass);
   const auto centre_of_volume = packMatrix<file::Vector3>(body.centre_of_volume);
   const auto origin = packMatrix<file::Vector3>(body.origin);
@@ -144,13 +167,25 @@ void packInto(FlatBufferBuilder& builder, const FluidBody& body) {
                                      body.volume, body.area, &centre_of_volume, &origin,
                                      uniform_mass, surface_mass, faces, surface, sphere_radius,
                                      form_levels, body.drag.isZero(0) ? nullptr : &drag, parts,
-                                     waterline, form, viscous));
+                                     waterline, form, viscous, holds));
 }
 
 std::size_t numbersIn(const FaceTable& faces) {
   std::size_t numbers = faces.sharpness.size();
   for (const std::vector<double>* column : faces.columns()) numbers += column->size();
   return numbers;
+}
+
+/// Upper bound of the bytes of a hold.
+std::size_t boundOf(const Hold& hold) {
+  constexpr std::size_t kFixedPart = 512;
+  std::size_t bound = kFixedPart + hold.name.size() +
+                      hold.surface.vertices.size() * sizeof(double) +
+                      hold.surface.triangles.size() * sizeof(std::int32_t);
+  for (const HoldOpening& opening : hold.openings)
+    bound += kFixedPart + opening.outline.size() * sizeof(double) +
+             opening.lid.size() * sizeof(std::int32_t);
+  return bound;
 }
 
 /// Upper bound of the payload's size [bytes].
@@ -164,6 +199,7 @@ std::size_t payloadBound(const FluidBody& body) {
   level_bytes += body.added_mass_parts.size() * AddedMassPart::kNumbers * sizeof(float);
   level_bytes += body.waterline.corrections.size() * kSymmetricNumbers * sizeof(float) +
                  body.waterline.immersions.size() * sizeof(double);
+  for (const Hold& hold : body.holds) level_bytes += boundOf(hold);
   return kFixedPart + level_bytes + sizeof(double) * doubles +
          sizeof(std::int32_t) * (body.surface.triangles.size() + body.form.hull.size()) +
          body.name.size() + body.provenance.source.size() + body.provenance.settings.size() +
@@ -172,7 +208,9 @@ std::size_t payloadBound(const FluidBody& body) {
 
 /// Oldest format version that can hold the body: older programs can then read the file.
 std::uint32_t versionFor(const FluidBody& body) {
-  return body.sphere_radius > 0 ? kFormatVersion : 1;
+  constexpr std::uint32_t kSpheres = 3;
+  if (!body.holds.empty()) return kFormatVersion;
+  return body.sphere_radius > 0 ? kSpheres : 1;
 }
 
 void appendLittleEndian(std::string& bytes, std::uint64_t value, int size) {

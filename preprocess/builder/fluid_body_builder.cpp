@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/pi.h"
@@ -25,11 +27,18 @@ const std::string& sourceOf(const BuildSettings& settings) {
   return settings.source.empty() ? settings.name : settings.source;
 }
 
-/// Uniform density between the surface and the cavities.
+/// Uniform density between the surface and the cavities and holds.
 MassDistribution uniformMassOf(const TriangleMesh& mesh, const MeshProperties& properties,
-                               const TriangleMesh& cavities) {
-  if (cavities.triangleCount() == 0) return properties.uniform;
-  return computeMassProperties(joinMeshes({mesh, cavities})).uniform;
+                               const BuildSettings& settings) {
+  if (settings.cavities.triangleCount() == 0 && settings.found_holds.empty())
+    return properties.uniform;
+  return computeMassProperties(joinMeshes({mesh, settings.cavities, emptied(settings.found_holds)}))
+      .uniform;
+}
+
+MassDistribution surfaceMassOf(const MeshProperties& properties, const TriangleMesh& walls) {
+  if (walls.triangleCount() == 0) return properties.surface;
+  return computeMassProperties(walls).surface;
 }
 
 FaceTable facesOf(const TriangleMesh& mesh, bool sheet) {
@@ -133,11 +142,24 @@ std::string libraryVersion() {
   return "bullet_ambient " AMBIENT_VERSION ", solver revision " + std::to_string(kSolverRevision);
 }
 
-Surface surfaceOf(const TriangleMesh& mesh) {
-  const double* vertices = mesh.vertices.data();
-  const int* triangles = mesh.triangles.data();
-  return {{vertices, vertices + mesh.vertices.size()},
-          {triangles, triangles + mesh.triangles.size()}};
+std::vector<std::string> takeHolds(TriangleMesh& mesh, BuildSettings& settings) {
+  Vessel vessel = findHolds(mesh, settings.holds, sourceOf(settings));
+  if (vessel.holds.empty()) return vessel.lines;
+  settings.walls = std::move(mesh);
+  mesh = std::move(vessel.closed);
+  settings.found_holds = std::move(vessel.holds);
+  for (const Hold& hold : settings.found_holds)
+    vessel.lines.push_back(
+        inputMessage(sourceOf(settings), holdText(hold, settings.holds.unit), "; it stays dry"));
+  return vessel.lines;
+}
+
+std::string holdsText(const HoldSearch& search) {
+  std::ostringstream text;
+  text.precision(17);
+  text << ", holds " << (search.is_wanted ? "auto" : "none");
+  if (search.is_wanted && search.up) text << ", up " << search.up->transpose();
+  return text.str();
 }
 
 FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& settings) {
@@ -147,7 +169,7 @@ FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& se
   const MeshProperties properties = computeMassProperties(mesh, settings.flow.sheet);
   const Eigen::Vector3d origin = settings.origin.value_or(properties.uniform.centre);
   requireNearOrigin(mesh, origin, sourceOf(settings));
-  const MassDistribution uniform_mass = uniformMassOf(mesh, properties, settings.cavities);
+  const MassDistribution uniform_mass = uniformMassOf(mesh, properties, settings);
   mesh.vertices.colwise() -= origin;
 
   FluidBody body;
@@ -190,7 +212,8 @@ FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& se
   AMBIENT_ASSERT(body.volume >= 0 && body.area > 0 && origin.allFinite());
   AMBIENT_ASSERT(isSymmetric(body.added_mass, 1e-9));
   body.uniform_mass = aboutOrigin(uniform_mass, origin);
-  body.surface_mass = aboutOrigin(properties.surface, origin);
+  body.surface_mass = aboutOrigin(surfaceMassOf(properties, settings.walls), origin);
+  for (const Hold& hold : settings.found_holds) body.holds.push_back(moved(hold, -origin));
   body.centre_of_volume = properties.uniform.centre - origin;
   body.faces = facesOf(mesh, settings.flow.sheet);
   body.surface = surfaceOf(mesh);

@@ -5,6 +5,8 @@
 #include <string>
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
+#include "preprocess/mesh/holds/hold_search.h"
+#include "preprocess/mesh/holds/vessel.h"
 #include "preprocess/mesh/triangle_mesh.h"
 #include "preprocess/potential_flow/results/potential_flow.h"
 #include "preprocess/resistance/prepare.h"
@@ -22,15 +24,13 @@ constexpr int kDefaultPanels = 4200;
 /// Name of this library with version and revision of the solver, for Provenance::generator.
 std::string libraryVersion();
 
-/// Converts a mesh to the surface of a fluid body.
-Surface surfaceOf(const TriangleMesh& mesh);
-
 /// Settings for making a fluid body, from a mesh or from a shape.
 struct CommonBuildSettings {
   std::string name;  ///< name of the fluid body
   /// Origin of the fluid body frame F in the frame of the mesh or shape [m]; none: the centre of
   /// volume, of a sheet the centre of its area.
   std::optional<Eigen::Vector3d> origin;
+  HoldSearch holds;     ///< of meshes and of shapes that are united
   int least_faces = 0;  ///< the mesh is divided into at least so many triangles for the loads
   /// The flow is solved on up to max_panels, finer than the mesh where that helps, and on four
   /// times as many where long triangles need them; the faces remain those of the mesh.
@@ -46,7 +46,9 @@ struct CommonBuildSettings {
 struct BuildSettings : CommonBuildSettings {
   std::string source;     ///< begins every message: the file of the mesh; empty: the name
   TriangleMesh cavities;  ///< closed surfaces inside, as in CheckedMesh: empty in the uniform mass
-  double sphere_radius = 0;  ///< of a mesh that stands for a sphere [m]; 0: any other shape
+  std::vector<Hold> found_holds;  ///< of a mesh that is a closed vessel, in its frame: empty, too
+  TriangleMesh walls;             ///< with holds: the faces of walls alone, for the mass per area
+  double sphere_radius = 0;       ///< of a mesh that stands for a sphere [m]; 0: any other shape
   /// Added mass per unit density about the mesh's origin, if it is known: the flow is not solved.
   std::optional<Matrix6> added_mass;
   /// Parts of that added mass, about the mesh's origin; may be empty.
@@ -58,6 +60,13 @@ struct BuildSettings : CommonBuildSettings {
   /// Receives warnings about the result, one line each; null: no warnings.
   std::function<void(const std::string&)> warn = nullptr;
 };
+
+/// Finds the holds of a checked mesh, in place of which the closed vessel comes, and returns what a
+/// user should know about them, a line each.
+std::vector<std::string> takeHolds(TriangleMesh& mesh, BuildSettings& settings);
+
+/// Text of the settings of a search for Provenance::settings; begins with ", ".
+std::string holdsText(const HoldSearch& search);
 
 /// Makes a fluid body from a mesh: mass properties, added mass, faces. The axes of F are those of
 /// the mesh. Both sides of a sheet are faces, first the front of all triangles, then the back; both

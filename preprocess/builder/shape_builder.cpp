@@ -94,6 +94,19 @@ std::string meshText(const ShapeDescription& shape) {
   return text.str();
 }
 
+/// Whether a shape may have holds: its mesh is read, or put together of several.
+bool mayHaveHolds(const ShapeDescription& shape) {
+  const auto* mesh = std::get_if<MeshFile>(&shape.geometry);
+  return (mesh != nullptr && mesh->stand_in != MeshStandIn::kHull) ||
+         std::holds_alternative<Compound>(shape.geometry);
+}
+
+HoldSearch searchFor(const ShapeDescription& shape, const ShapeBuildSettings& settings) {
+  HoldSearch search = settings.holds;
+  search.is_wanted = search.is_wanted && shape.has_holds;
+  return search;
+}
+
 std::string settingsText(const ShapeDescription& shape, const ShapeBuildSettings& settings) {
   std::ostringstream text;
   text.precision(17);
@@ -105,6 +118,7 @@ std::string settingsText(const ShapeDescription& shape, const ShapeBuildSettings
     text << "centre-of-volume";
   }
   text << ", faces " << settings.least_faces;
+  if (mayHaveHolds(shape)) text << holdsText(searchFor(shape, settings));
   if (settings.waterline_subdivisions > 0)
     text << ", waterline " << settings.waterline_subdivisions;
   if (const auto known = knownAddedMass(shape, settings)) {
@@ -178,6 +192,11 @@ BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& se
   static_cast<CommonBuildSettings&>(build) = settings;
   build.source = shape.source;
   build.cavities = checked.cavities;
+  if (mayHaveHolds(shape)) {
+    build.holds = searchFor(shape, settings);
+    const std::vector<std::string> lines = takeHolds(checked.mesh, build);
+    checked.warnings.insert(checked.warnings.end(), lines.begin(), lines.end());
+  }
   if (const auto known = knownAddedMass(shape, settings)) {
     build.added_mass = known->added_mass;
     build.viscous_flow = facts.viscous_flow(settings.scale, known->added_mass);

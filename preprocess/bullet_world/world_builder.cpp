@@ -340,6 +340,7 @@ void build(const WorldShape& shape, const WorldBuildSettings& settings, WorldSha
   shape_settings.name = shape.name;
   shape_settings.flow = settings.flow;
   shape_settings.tables = settings.tables;
+  shape_settings.holds = settings.holds;
   shape_settings.strict = settings.strict;
   shape_settings.report = [&](const std::string& text) { result.warnings.push_back(text); };
   const Provenance provenance = describeCollisionShape(*shape.shape, shape_settings);

@@ -13,6 +13,7 @@ namespace ambient {
 struct WorldBuildSettings {
   PotentialFlowSettings flow{false, kDefaultPanels};  ///< as in BuildSettings
   bool tables = true;                                 ///< as in CollisionShapeSettings
+  bool holds = true;                                  ///< likewise
   bool strict = false;                                ///< likewise
   bool reuse = true;  ///< true: keep a file that was made from the same geometry and settings
 };

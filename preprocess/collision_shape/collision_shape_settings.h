@@ -25,6 +25,7 @@ struct CollisionShapeSettings {
   int waterline_subdivisions = 0;
   bool tables = true;  ///< true: tables of the added mass are used as far as they reach; false: the
                        ///< flow is solved
+  bool holds = true;   ///< true: rooms of meshes and of united shapes stay dry, findHolds()
   /// True: triangles of a btGImpactMeshShape that are not a closed body are refused; false: they
   /// are wrapped, with a warning.
   bool strict = false;

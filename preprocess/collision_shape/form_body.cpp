@@ -335,6 +335,12 @@ bool isTabulated(const ShapeForm& form, const CollisionShapeSettings& settings) 
          tabulatedAddedMass(form.parts.front().shape);
 }
 
+/// Whether a form may have holds: it is a mesh or several shapes.
+bool mayHaveHolds(const ShapeForm& form, const CollisionShapeSettings& settings) {
+  return settings.holds &&
+         (form.parts.size() > 1 || std::holds_alternative<TriangleSoup>(form.parts.front().shape));
+}
+
 /// Settings with a number of faces. The default law takes sides of a box as they are, so that few
 /// triangles do; no loads on a sphere come from its own; round bodies of known added mass need them
 /// for the loads alone.
@@ -389,19 +395,28 @@ FluidBody bodyOf(const std::vector<Solid>& solids, const ShapeForm& form,
   build.origin = Eigen::Vector3d::Zero();
   build.provenance = describeForm(form, settings);
   build.begin = settings.begin;
+  build.holds.is_wanted = mayHaveHolds(form, settings);
+  build.holds.unit = form.size;
   build.flow = flowSettingsFor(solids, settings.flow);
-  if (std::optional<AddedMass> known = addedMassOf(solids, settings, build.name)) {
+  if (solids.size() == 1) build.sphere_radius = solids.front().sphere_radius;
+  if (build.sphere_radius == 0) build.waterline_subdivisions = settings.waterline_subdivisions;
+  build.cavities = joined(solids, &Solid::cavities);
+  TriangleMesh mesh = joined(solids, &Solid::mesh);
+  std::vector<std::string> lines;
+  if (build.holds.is_wanted) lines = takeHolds(mesh, build);
+  if (std::optional<AddedMass> known =
+          build.found_holds.empty() ? addedMassOf(solids, settings, build.name) : std::nullopt) {
     build.added_mass = known->total;
     build.added_mass_parts = std::move(known->parts);
     build.viscous_flow = known->viscous_flow;
   }
-  if (solids.size() == 1) build.sphere_radius = solids.front().sphere_radius;
-  if (build.sphere_radius == 0) build.waterline_subdivisions = settings.waterline_subdivisions;
-  build.cavities = joined(solids, &Solid::cavities);
-  FluidBody body = makeFluidBody(joined(solids, &Solid::mesh), build);
+  FluidBody body = makeFluidBody(mesh, build);
   if (std::optional<FormLevel> level = levelOf(body, form, settings))
     body.form_levels.push_back(*std::move(level));
-  if (settings.report) reportSolids(solids, body, settings);
+  if (settings.report) {
+    reportSolids(solids, body, settings);
+    for (const std::string& line : lines) settings.report(line);
+  }
   return body;
 }
 
@@ -449,6 +464,8 @@ Provenance describeForm(const ShapeForm& form, const CollisionShapeSettings& wan
   if (settings.waterline_subdivisions != 0)
     text << ", waterline " << settings.waterline_subdivisions;
   if (settings.strict) text << ", strict";
+  if (form.parts.size() > 1 || std::holds_alternative<TriangleSoup>(form.parts.front().shape))
+    text << holdsText({settings.holds, std::nullopt, 1});
   provenance.settings = text.str();
   provenance.generator = libraryVersion();
   return provenance;

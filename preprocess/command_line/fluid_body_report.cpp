@@ -8,6 +8,7 @@
 #include "bullet_ambient/base/fnv1a.h"
 #include "bullet_ambient/base/plain_text.h"
 #include "bullet_ambient/spatial/inertia.h"
+#include "preprocess/mesh/holds/vessel.h"
 #include "preprocess/resistance/separation.h"
 #include "preprocess/resistance/stokes_resistance.h"
 
@@ -26,6 +27,7 @@ const std::map<std::string, const char*, std::less<>> kUnits{
     {"centre_of_volume", "m"},
     {"drag_falls_at", "Reynolds number on D_A, of both ways"},
     {"draught", "m"},
+    {"freeboard", "m to the lowest rim"},
     {"friction", "N m, N"},
     {"height", "m"},
     {"height_of_mass", "m"},
@@ -33,6 +35,7 @@ const std::map<std::string, const char*, std::less<>> kUnits{
     {"origin", "m in the mesh's frame"},
     {"period", "s"},
     {"pressure", "N m, N"},
+    {"rim", "m round"},
     {"resistance", "m^3, m^2; m^2, m, per unit viscosity, rotation first"},
     {"rotation_resistance", "m^3"},
     {"seconds", "s"},
@@ -159,6 +162,21 @@ std::string factsText(const ordered_json& facts, bool json) {
               : rowsText(facts, "");
 }
 
+ordered_json holdsJson(const std::vector<Hold>& holds) {
+  ordered_json list = ordered_json::array();
+  for (const Hold& hold : holds) {
+    ordered_json facts{{"name", hold.name}, {"volume", hold.volume}};
+    for (const HoldOpening& opening : hold.openings) {
+      const Rim rim = rimOf(opening);
+      ordered_json own{{"rim", rim.length}, {"centre", vectorJson(rim.centre)}};
+      if (opening.to >= 0) own["to"] = holds[static_cast<std::size_t>(opening.to)].name;
+      facts["openings"].push_back(own);
+    }
+    list.push_back(facts);
+  }
+  return list;
+}
+
 ordered_json bodyFacts(const FluidBody& body) {
   ordered_json facts{{"name", body.name},
                      {"vertices", body.surface.vertices.size() / 3},
@@ -178,6 +196,7 @@ ordered_json bodyFacts(const FluidBody& body) {
                      {"settings", body.provenance.settings},
                      {"generator", body.provenance.generator}};
   if (!body.form_levels.empty()) facts["form_levels"] = levelsJson(body.form_levels);
+  if (!body.holds.empty()) facts["holds"] = holdsJson(body.holds);
   if (!body.waterline.empty())
     facts["waterline_table"] = {{"subdivisions", body.waterline.subdivisions},
                                 {"immersions", body.waterline.immersions.size()}};

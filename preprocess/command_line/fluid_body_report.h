@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
 
@@ -28,6 +29,9 @@ nlohmann::ordered_json matrixJson(const Matrix& matrix) {
 /// empty. Numbers in JSON have as many digits, 17 at most, as it takes to read back the same bits,
 /// those for people 9.
 std::string factsText(const nlohmann::ordered_json& facts, bool json);
+
+/// Lists holds: name, volume, rims.
+nlohmann::ordered_json holdsJson(const std::vector<Hold>& holds);
 
 /// Returns the facts about a fluid body.
 nlohmann::ordered_json bodyFacts(const FluidBody& body);

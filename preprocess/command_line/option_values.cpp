@@ -141,6 +141,23 @@ void addInputOptions(CLI::App& command, InputOptions& options) {
       "--strict", options.strict,
       "Refuse a mesh that is not a closed body after mending, in place of --wrap with a "
       "warning");
+  addOption(command, "--holds", options.holds, "auto|none",
+            "Rooms that hold water stay dry, or the body is that of its walls (default auto)");
+  addOption(command, "--up", options.up, "X Y Z",
+            "Which way the mesh stands when holds are found (default: the axis with the largest)")
+      ->expected(3);
+}
+
+HoldSearch holdsOf(const InputOptions& options) {
+  if (options.holds != "auto" && options.holds != "none")
+    raiseUsageError("--holds", "\"", options.holds, "\" is neither auto nor none");
+  HoldSearch search;
+  search.is_wanted = options.holds == "auto";
+  if (options.up.empty()) return search;
+  const Eigen::Vector3d up = Eigen::Map<const Eigen::Vector3d>(options.up.data());
+  if (!up.allFinite() || up.isZero(0)) raiseUsageError("--up", up.transpose(), " is no direction");
+  search.up = up.stableNormalized();
+  return search;
 }
 
 ShapeDescription describeInput(const std::filesystem::path& input, const InputOptions& options) {

@@ -5,9 +5,11 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/force/law/flow_settings.h"
+#include "preprocess/mesh/holds/hold_search.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/potential_flow/results/potential_flow.h"
 #include "preprocess/shape/shapes.h"
@@ -70,10 +72,15 @@ struct InputOptions {
       wrap;             ///< use a closed surface around the mesh; value: its size [m] as text
   double scale = 1;     ///< factor on all lengths of the result
   bool strict = false;  ///< refuse what is not a closed body after mending, in place of wrapping it
+  std::string holds = "auto";   ///< or "none"
+  std::vector<double> up = {};  ///< which way the mesh stands; empty: not given
 };
 
-/// Adds --scale, --sheet, --hull, --wrap [SIZE] and --strict.
+/// Adds --scale, --sheet, --hull, --wrap [SIZE], --strict, --holds and --up.
 void addInputOptions(CLI::App& command, InputOptions& options);
+
+/// Reads --holds and --up. @throws UsageError for words and directions that are none.
+HoldSearch holdsOf(const InputOptions& options);
 
 /// Reads the shape of an INPUT of the command line: a mesh file, or a JSON file with a shape.
 /// @throws UsageError for options that exclude each other.

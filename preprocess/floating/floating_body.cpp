@@ -27,11 +27,27 @@ Matrix3 leverStiffness(const Vector3& s, const Vector3& r) {
 
 constexpr double kRounding = 1e-12;
 
+/// Of the water in all holds [m^3].
+double waterIn(const FloatingBody& body) {
+  double volume = 0;
+  for (const HeldWater& held : body.water) volume += held.volume;
+  return volume;
+}
+
+/// Takes the water inside off what is wet, with its free surface.
+void addWater(const FloatingBody& body, FloatingPose& pose) {
+  for (const HeldWater& held : body.water) {
+    const HoldFill fill = fillHold(held.hold, pose.plane.normal, held.volume, pose.plane.height);
+    pose.wet = withWaterInside(pose.wet, pose.plane, fill);
+    pose.wet.waterplane.spread -= fill.water.waterplane.spread;
+  }
+}
+
 // The height of the plane at which the water carries the body: Newton's method within an interval
 // that halving keeps.
 void balance(const FloatingBody& body, const PackedHull& hull, FloatingPose& pose) {
   const auto [low, high] = computeExtent(hull, pose.plane.normal);
-  const double wanted = body.mass / body.density;
+  const double wanted = body.mass / body.density + waterIn(body);
   AMBIENT_ASSERT(body.mass > 0 && body.density > 0 && high > low);
   double below = low, above = high;
   pose.plane.height = (low + high) / 2;
@@ -60,11 +76,27 @@ PlaneEigen planeEigen(const Matrix3& matrix, const PlaneAxes& axes) {
   return {{small.dot(matrix * small), large.dot(matrix * large)}, {small, large}};
 }
 
+void setWater(FloatingBody& body, const std::vector<double>& volumes) {
+  const std::vector<Hold>& holds = body.shape->holds;
+  if (volumes.size() > holds.size())
+    reject(*body.shape, "number of volumes of water", static_cast<double>(volumes.size()),
+           "at most that of its holds");
+  body.water.clear();
+  for (std::size_t i = 0; i < volumes.size(); ++i) {
+    if (!(volumes[i] >= 0) || !(volumes[i] <= holds[i].volume))
+      reject(*body.shape, "water in its " + holds[i].name + " [m^3]", volumes[i],
+             "zero or positive, and no more than it holds");
+    body.water.push_back({HoldShape(holds[i]), volumes[i]});
+  }
+}
+
 FloatingPose floatAt(const FloatingBody& body, const PackedHull& hull, const Vector3& up) {
   AMBIENT_ASSERT(isUnit(up));
   FloatingPose pose;
   pose.plane = {up, 0, body.density, body.gravity};
   balance(body, hull, pose);
+  pose.outside = pose.wet;
+  addWater(body, pose);
   const double weight = body.mass * body.gravity;
   AMBIENT_ASSERT(pose.wet.volume > 0);
   const Vector3 lever = body.centre_of_mass - pose.wet.moment / pose.wet.volume;
@@ -151,10 +183,17 @@ Eigen::Matrix3d stiffnessOf(const FloatingBody& body, const FloatingPose& pose,
 Eigen::Matrix3d inertiaOf(const FloatingBody& body, const PackedHull& hull,
                           const FloatingPose& pose, const Motions& motions) {
   const auto [low, high] = computeExtent(hull, pose.plane.normal);
-  const Matrix6 added = makeWettedInertia(body.shape)->inertia({pose.plane, low, high, pose.wet});
+  const Matrix6 added =
+      makeWettedInertia(body.shape)->inertia({pose.plane, low, high, pose.outside});
   const FrameOffset about_mass{Matrix3::Identity(), -body.centre_of_mass};
-  const Matrix6 total =
+  Matrix6 total =
       rigidBodyInertia(body.mass, body.inertia) + body.density * about_mass.inertiaToB(added);
+  for (const HeldWater& held : body.water) {  // at its centre, where it turns freely
+    const HoldFill fill = fillHold(held.hold, pose.plane.normal, held.volume, pose.plane.height);
+    if (!(fill.water.volume > 0)) continue;
+    const Vector3 centre = fill.water.moment / fill.water.volume - body.centre_of_mass;
+    total += shiftOrigin(rigidBodyInertia(body.density * held.volume, Matrix3::Zero()), -centre);
+  }
   const Matrix3 response = motions.transpose() * Cholesky<6>(total).inverse() * motions;
   return Cholesky<3>(response).inverse();
 }
@@ -285,7 +324,7 @@ void add(const FloatingPose& pose, double scale, std::vector<Found>& found) {
 std::vector<FloatingAttitude> findFloatingAttitudes(const FloatingBody& body) {
   constexpr int kStarts = 400;
   checkFloating(body);
-  if (body.mass >= body.density * body.shape->volume) return {};
+  if (body.mass + body.density * waterIn(body) >= body.density * body.shape->volume) return {};
   const PackedHull hull(*body.shape);
   const double scale = body.mass * body.gravity * portable::cbrt(body.shape->volume);
   std::vector<Found> found;

@@ -6,9 +6,16 @@
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
 #include "bullet_ambient/fluid_body/packed/packed_hull.h"
+#include "bullet_ambient/force/surface/hold_shape.h"
 #include "bullet_ambient/force/surface/hydrostatics.h"
 
 namespace ambient {
+
+/// Water in a hold of a floating body, which stays there in every attitude.
+struct HeldWater {
+  HoldShape hold;
+  double volume = 0;  ///< [m^3]
+};
 
 /// A body on still water; all in frame F.
 struct FloatingBody {
@@ -18,7 +25,13 @@ struct FloatingBody {
   Matrix3 inertia = Matrix3::Zero();  ///< about the centre of mass [kg m^2]
   double density = 998;               ///< of the water [kg/m^3]
   double gravity = 9.81;              ///< [m/s^2]
+  std::vector<HeldWater> water = {};  ///< in its holds
 };
+
+/// Puts water into the holds of a body: volumes [m^3] in their order.
+/// @throws std::invalid_argument, naming value and limit, for more numbers than holds, or a volume
+/// outside of its hold.
+void setWater(FloatingBody& body, const std::vector<double>& volumes);
 
 /// Metacentric height of a floating body for turns about one axis in the plane of the water.
 struct Metacentre {
@@ -70,15 +83,19 @@ Matrix6 restoringStiffness(const WetVolume& wet, const SurfacePlane& plane, cons
 /// A body that floats at a given attitude, the water's normal s in F:
 ///
 ///   E(s) = min_h ( rho g W(s, h) + m g (s.c - h) ),  c the centre of mass
+///
+/// With water in its holds W, and volume and moment of what is wet, are those of docs/theory.md eq.
+/// (135), and the second moments of the water's levels are taken off that of the waterplane (137).
 struct FloatingPose {
   SurfacePlane plane;
   WetVolume wet;
+  WetVolume outside;                    ///< of the closed body
   double energy = 0;                    ///< E [J]
   Vector3 gradient{0, 0, 0};            ///< of E by s, in the plane [J]
   Matrix3 stiffness = Matrix3::Zero();  ///< second derivative of E by s, in the plane [J]
 };
 
-/// @pre 0 < mass < density times the volume of the hull.
+/// @pre 0 < mass with that of the water < density times the volume of the hull.
 FloatingPose floatAt(const FloatingBody& body, const PackedHull& hull, const Vector3& up);
 
 /// Descends to a local minimum of the energy near an attitude.

@@ -100,7 +100,8 @@ Points projected(const std::vector<Eigen::Vector3d>& corners) {
 /// The remaining polygon while its ears are cut off.
 class EarClipping {
  public:
-  explicit EarClipping(Points points) : points_(std::move(points)), left_(points_.size()) {
+  explicit EarClipping(Points points)
+      : points_(std::move(points)), left_(points_.size()), blocker_(points_.size(), kUnknown) {
     std::iota(left_.begin(), left_.end(), 0);
   }
 
@@ -109,6 +110,7 @@ class EarClipping {
     while (left_.size() > 3) {
       const std::size_t ear = bestEar();
       result.push_back(triangleAt(ear));
+      forget(result.back());
       left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(ear));
     }
     result.push_back({left_[0], left_[1], left_[2]});
@@ -136,13 +138,25 @@ class EarClipping {
     return cross(b - a, p - a) >= 0 && cross(c - b, p - b) >= 0 && cross(a - c, p - c) >= 0;
   }
 
-  bool isEmpty(const Eigen::Vector3i& t) const {
-    return std::none_of(left_.begin(), left_.end(), [&](int i) {
-      return i != t[0] && i != t[1] && i != t[2] && contains(t, points_[i]);
-    });
+  /// Remembers who is in the way: as long as it is there, it still is.
+  bool isEmpty(const Eigen::Vector3i& t) {
+    int& blocker = blocker_[t[1]];
+    if (blocker == kUnknown) {
+      const auto found = std::find_if(left_.begin(), left_.end(), [&](int i) {
+        return i != t[0] && i != t[1] && i != t[2] && contains(t, points_[i]);
+      });
+      blocker = found == left_.end() ? kNobody : *found;
+    }
+    return blocker == kNobody;
   }
 
-  std::size_t bestEar() const {
+  /// Cutting off an ear changes those beside it, and those that it was in the way of.
+  void forget(const Eigen::Vector3i& ear) {
+    blocker_[ear[0]] = blocker_[ear[2]] = kUnknown;
+    std::replace(blocker_.begin(), blocker_.end(), ear[1], kUnknown);
+  }
+
+  std::size_t bestEar() {
     std::size_t best = 0, best_regardless = 0;
     double best_shape = 0, best_shape_regardless = -2;
     for (std::size_t i = 0; i < left_.size(); ++i) {
@@ -160,8 +174,10 @@ class EarClipping {
     return best_shape > 0 ? best : best_regardless;
   }
 
+  static constexpr int kUnknown = -2, kNobody = -1;
   Points points_;
   std::vector<int> left_;
+  std::vector<int> blocker_;  // of each corner: who lies in its ear
 };
 
 }  // namespace

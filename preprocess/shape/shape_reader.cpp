@@ -134,6 +134,7 @@ ShapeDescription readShape(const json& shape, const std::filesystem::path& direc
   schema.check(shape, source);
   ShapeDescription description;
   description.geometry = readGeometry({shape, directory, source});
+  description.has_holds = shape.value("holds", "auto") == "auto";
   description.faces = shape.value("faces", ShapeDescription::kDefaultFaces);
   description.text = shape.dump();
   description.source = source;

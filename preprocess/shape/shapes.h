@@ -96,6 +96,7 @@ struct ShapeDescription {
   static constexpr int kDefaultFaces = 1300;
 
   Shape geometry;
+  bool has_holds = true;      ///< false: rooms of a mesh or compound do not stay dry
   int faces = kDefaultFaces;  ///< triangles aimed at, where the shape has no mesh of its own
   std::string text;           ///< the description, as JSON on one line
   std::string source;         ///< begins every message about it: the file, and the place therein

@@ -16,6 +16,9 @@ namespace {
 // Tolerance for conditions that hold exactly but for the rounding of some thousand operations.
 constexpr double kRounding = 1e-9;
 
+// Of the volume of a hold against that of its triangles: coordinates far from the origin.
+constexpr double kHoldRounding = 1e-6;
+
 // Largest distance from the origin in sizes of the body: the preprocessor's own limit. Beyond,
 // rounding of the coordinates would exceed the details of the shape.
 constexpr double kFarthest = 1e12;
@@ -184,6 +187,18 @@ void checkSurface(const Surface& surface, const Checker& check) {
   checkTriangles(surface.triangles, surface, "triangle", check);
 }
 
+/// Volume inside triangles, by tetrahedra from a point [m^3].
+double volumeInside(const Surface& surface, const Vector3& from) {
+  const auto corner = [&](std::size_t i) -> Vector3 {
+    const double* place = &surface.vertices[3 * static_cast<std::size_t>(surface.triangles[i])];
+    return Vector3(place[0], place[1], place[2]) - from;
+  };
+  double volume = 0;
+  for (std::size_t i = 0; i < surface.triangles.size(); i += 3)
+    volume += corner(i).dot(corner(i + 1).cross(corner(i + 2))) / 6;
+  return volume;
+}
+
 /// Checks the form for what loads and hydrostatics rely on, of a body that is prepared.
 void checkForm(const FluidBody& body, const Checker& check) {
   constexpr double kLongest = 1 + kRounding;  // of directions and of lengths of at most 1
@@ -321,6 +336,38 @@ void checkWaterline(const FluidBody& body, const Checker& check) {
     check.finiteMatrix(correction, "a correction of the waterline table");
 }
 
+/// Fails unless a hold is a closed room: its area vectors and triangles say so.
+void checkHold(const Hold& hold, std::size_t holds, const FluidBody& body, const Checker& check) {
+  checkSurface(hold.surface, check);
+  check.finiteMatrix(hold.centre, "centre of a hold");
+  check.near(hold.centre, sizeOf(body), "centre of a hold");
+  check.finiteMatrix(hold.turning_inertia, "turning inertia of a hold");
+  check.positiveSemiDefinite(hold.turning_inertia, "turning inertia of a hold");
+  check.finite(hold.volume, "volume of a hold");
+  if (!(hold.volume > 0)) check.fail("volume of a hold is ", hold.volume, ", but must be positive");
+  const double inside = volumeInside(hold.surface, hold.centre);
+  if (!(std::abs(inside - hold.volume) <= kHoldRounding * hold.volume))
+    check.fail("the triangles of a hold enclose ", inside, " m^3, but its volume is ", hold.volume);
+  for (const HoldOpening& opening : hold.openings) {
+    checkSurface({opening.outline, opening.lid}, check);
+    if (opening.outline.size() < 9 || opening.lid.empty())
+      check.fail("an opening of a hold has ", opening.outline.size() / 3, " corners and ",
+                 opening.lid.size() / 3, " triangles, but must have at least 3 and 1");
+    if (opening.to < -1 || opening.to >= static_cast<std::int64_t>(holds))
+      check.fail("an opening leads to hold ", opening.to, ", but there are ", holds);
+  }
+}
+
+void checkHolds(const FluidBody& body, const Checker& check) {
+  double sum = 0;
+  for (const Hold& hold : body.holds) {
+    checkHold(hold, body.holds.size(), body, check);
+    sum += hold.volume;
+  }
+  if (!(sum <= body.volume))
+    check.fail("the holds have ", sum, " m^3, but the whole body has ", body.volume);
+}
+
 }  // namespace
 
 void checkFluidBody(const FluidBody& body, const std::string& source) {
@@ -351,6 +398,7 @@ void checkFluidBody(const FluidBody& body, const std::string& source) {
   for (const AddedMassPart& part : body.added_mass_parts.all())
     checkPart(part, sizeOf(body), check);
   checkWaterline(body, check);
+  checkHolds(body, check);
   checkPlaces(body, check);
 }
 

@@ -125,6 +125,19 @@ WaterlineTable unpack(const file::WaterlineTable& packed, const std::string& sou
   return table;
 }
 
+Hold unpack(const file::Hold& packed) {
+  Hold hold;
+  hold.name = packed.name()->str();
+  hold.surface = unpack(*packed.surface());
+  hold.volume = packed.volume();
+  hold.centre = unpackMatrix<Vector3>(*packed.centre());
+  hold.turning_inertia = unpackMatrix<Matrix3>(*packed.turning_inertia());
+  for (const file::HoldOpening* opening : *packed.openings())
+    hold.openings.push_back(
+        {unpackVector(*opening->outline()), unpackVector(*opening->lid()), opening->to()});
+  return hold;
+}
+
 FluidBody unpack(const file::FluidBody& packed, const std::string& source) {
   FluidBody body;
   body.name = packed.name()->str();
@@ -150,6 +163,8 @@ FluidBody unpack(const file::FluidBody& packed, const std::string& source) {
   if (packed.waterline()) body.waterline = unpack(*packed.waterline(), source);
   if (packed.form()) body.form = unpack(*packed.form(), source);
   if (packed.viscous()) body.viscous = unpack(*packed.viscous(), source);
+  if (packed.holds())
+    for (const file::Hold* hold : *packed.holds()) body.holds.push_back(unpack(*hold));
   return body;
 }
 

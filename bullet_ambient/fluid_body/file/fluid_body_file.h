@@ -24,7 +24,7 @@ inline constexpr std::string_view kFileMagic(
     "AMB\r\n\x1a\n",
     8);
 constexpr std::size_t kFileHeaderSize = 32;
-constexpr std::uint32_t kFormatVersion = 3;  ///< newest version that can be read
+constexpr std::uint32_t kFormatVersion = 4;  ///< newest version that can be read
 /// Largest payload [bytes]: FlatBuffers addresses less than 2 GiB.
 constexpr std::uint64_t kPayloadLimit = (std::uint64_t{1} << 31) - 1 - (std::uint64_t{1} << 16);
 
@@ -54,7 +54,8 @@ FluidBody decodeFluidBody(std::string_view bytes, const std::string& source);
 
 /// Checks a fluid body: all numbers finite; centres and faces at most 1e12 body sizes from the
 /// origin; unit normals; areas and volume >= 0; columns of equal length; added mass symmetric and
-/// positive semi-definite up to rounding; triangles that index existing vertices.
+/// positive semi-definite up to rounding; triangles that index existing vertices; holds that are
+/// closed and leave something for the walls.
 /// @throws std::runtime_error with one sentence that begins with `source`.
 void checkFluidBody(const FluidBody& body, const std::string& source);
 

@@ -13,13 +13,12 @@ namespace {
 
 using Triangle = std::array<Vector3, 3>;
 
-std::vector<Triangle> trianglesOf(const FluidBody& body) {
+std::vector<Triangle> trianglesOf(const Surface& surface, const std::vector<std::int32_t>& hull) {
   std::vector<Triangle> triangles;
-  const auto corner = [&body](std::int32_t vertex) {
-    const double* place = &body.surface.vertices[3 * static_cast<std::size_t>(vertex)];
+  const auto corner = [&surface](std::int32_t vertex) {
+    const double* place = &surface.vertices[3 * static_cast<std::size_t>(vertex)];
     return Vector3(place[0], place[1], place[2]);
   };
-  const std::vector<std::int32_t>& hull = body.form.hull;
   for (std::size_t i = 0; i < hull.size(); i += 3)
     triangles.push_back({corner(hull[i]), corner(hull[i + 1]), corner(hull[i + 2])});
   return triangles;
@@ -114,12 +113,22 @@ double volumeOf(const std::vector<Triangle>& triangles) {
 PackedHull::PackedHull(const FluidBody& body) {
   if (body.surface.triangles.empty()) return;
   requirePrepared(body);
-  const std::vector<Triangle> triangles = trianglesOf(body);
+  const std::vector<Triangle> triangles = trianglesOf(body.surface, body.form.hull);
   packPoints(cornersOf(triangles));
   if (!(body.volume > 0)) return;
   const double volume = volumeOf(triangles);
   if (volume > 0) volume_factor_ = body.volume / volume;
   AMBIENT_ASSERT(volume_factor_ > 0 && std::isfinite(volume_factor_));
+  packInBlocks(triangles);
+}
+
+PackedHull::PackedHull(const Surface& surface) {
+  const std::vector<Triangle> triangles = trianglesOf(surface, surface.triangles);
+  packPoints(cornersOf(triangles));
+  packInBlocks(triangles);
+}
+
+void PackedHull::packInBlocks(const std::vector<Triangle>& triangles) {
   packTriangles(inBlocks(triangles, HullBlock::kTriangles,
                          [](const Triangle& t) { return Vector3(t[0] + t[1] + t[2]); }));
 }

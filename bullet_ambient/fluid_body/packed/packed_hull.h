@@ -15,6 +15,8 @@ class PackedHull {
  public:
   /// Cost: O(T log T). @throws std::invalid_argument as requirePrepared().
   explicit PackedHull(const FluidBody& body);
+  /// Of a closed surface as it is, such as that of a hold.
+  explicit PackedHull(const Surface& surface);
 
   HullBlocks blocks() const { return {blocks_.data(), moments_.data(), blocks_.size()}; }
   HullCorners corners() const { return {points_.data(), points_.size()}; }
@@ -23,6 +25,7 @@ class PackedHull {
 
  private:
   using Triangle = std::array<Vector3, 3>;
+  void packInBlocks(const std::vector<Triangle>& triangles);
   void packTriangles(const std::vector<Triangle>& triangles);
   void packPoints(const std::vector<Vector3>& points);
 

@@ -117,6 +117,28 @@ Matrix6 withoutRounding(const Matrix6& inertia) {
   return K;
 }
 
+/// What one fluid around a body and in its holds displaces and moves with it, per unit density.
+struct Displacement {
+  double volume = 0;
+  Vector3 centre{0, 0, 0};               // in F
+  Matrix6 added_mass = Matrix6::Zero();  // about F's origin
+};
+
+/// Holds full of the fluid displace nothing; what is in them is carried along.
+Displacement withFullHolds(const FluidBody& body) {
+  Displacement walls{body.volume, body.volume * body.centre_of_volume, body.added_mass};
+  for (const Hold& hold : body.holds) {
+    walls.volume -= hold.volume;
+    walls.centre -= hold.volume * hold.centre;
+    walls.added_mass +=
+        shiftOrigin(rigidBodyInertia(hold.volume, hold.turning_inertia), -hold.centre);
+  }
+  // Of walls thinner than rounding nothing is left.
+  walls.volume = std::max(walls.volume, 0.0);
+  walls.centre = walls.volume > 0 ? walls.centre / walls.volume : body.centre_of_volume;
+  return walls;
+}
+
 }  // namespace
 
 void checkMedium(const FluidBody& body, const Medium& medium) {
@@ -127,14 +149,18 @@ void checkMedium(const FluidBody& body, const Medium& medium) {
 
 BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_frame,
                         const MassProperties& mass, const Medium& medium,
-                        std::shared_ptr<const SurfaceLoads> loads) {
+                        std::shared_ptr<const SurfaceLoads> loads, HoldContent content) {
   checkMass(fluid_body, mass);
   checkShape(fluid_body);
   checkMedium(fluid_body, medium);
   checkFrame(fluid_body, fluid_frame);
+  const bool is_full = content == HoldContent::kFull && !fluid_body.holds.empty();
+  const Displacement displaced =
+      is_full ? withFullHolds(fluid_body)
+              : Displacement{fluid_body.volume, fluid_body.centre_of_volume, fluid_body.added_mass};
   BodyModel model;
   model.inertia = rigidBodyInertia(mass.mass, mass.inertia) +
-                  medium.density * fluid_frame.inertiaToB(fluid_body.added_mass);
+                  medium.density * fluid_frame.inertiaToB(displaced.added_mass);
   model.inertia = withoutRounding(model.inertia);
   const Cholesky<6> factor(model.inertia);
   if (!factor.isPositive() || !model.inertia.allFinite()) {
@@ -147,9 +173,8 @@ BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_fr
   AMBIENT_ASSERT(isSymmetric(model.inverse_inertia));
   model.even_response = makeEvenResponse(model.inverse_inertia, mass.inertia);
   model.mass = mass.mass;
-  model.displaced_mass = medium.density * fluid_body.volume;
-  model.centre_of_volume =
-      fluid_frame.rotation * fluid_body.centre_of_volume + fluid_frame.translation;
+  model.displaced_mass = medium.density * displaced.volume;
+  model.centre_of_volume = fluid_frame.rotation * displaced.centre + fluid_frame.translation;
   AMBIENT_ASSERT(model.displaced_mass >= 0 && model.centre_of_volume.allFinite());
   checkLever(fluid_body, model);
   if (loads) {

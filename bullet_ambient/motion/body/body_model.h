@@ -122,12 +122,17 @@ struct BodyModel {
 /// Throws std::invalid_argument, naming value and limit, if the medium is not physical.
 void checkMedium(const FluidBody& fluid_body, const Medium& medium);
 
+/// What is in the holds of a body that one fluid surrounds: that fluid, which then moves with the
+/// body and is not displaced, docs/theory.md eq. (134); or nothing.
+enum class HoldContent { kFull, kSealed };
+
 /// Builds the model. `fluid_frame`: pose of F in B; `loads`: of this body and medium, or null.
 /// @throws std::invalid_argument, naming value and limit, if shape, mass, inertia or medium are not
 /// physical.
 BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_frame,
                         const MassProperties& mass, const Medium& medium,
-                        std::shared_ptr<const SurfaceLoads> loads);
+                        std::shared_ptr<const SurfaceLoads> loads,
+                        HoldContent content = HoldContent::kFull);
 
 /// The share of pressure and friction in B for a twist in B relative to the ambient flow, after
 /// removePositivePower(); docs/theory.md eq. (13) to (17) and (20). `load_share`: factor of eq.

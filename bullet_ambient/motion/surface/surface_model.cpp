@@ -62,13 +62,13 @@ WetVolume wetVolumeInF(const SurfaceModel& model, const SurfacePlane& plane_F) {
 
 SurfaceModel makeSurfaceModel(const SurfaceModelDef& def) {
   checkSurfaceBody(def);
-  const auto modelIn = [&](const Medium& medium) {
+  const auto modelIn = [&](const Medium& medium, HoldContent content) {
     return makeBodyModel(*def.shape, def.fluid_frame, def.mass, medium,
-                         makeSurfaceLoads(def.shape, medium, def.flow));
+                         makeSurfaceLoads(def.shape, medium, def.flow), content);
   };
   SurfaceModel model;
-  model.above = modelIn(def.above);
-  model.below = modelIn(def.below);
+  model.above = modelIn(def.above, HoldContent::kFull);
+  model.below = modelIn(def.below, HoldContent::kSealed);
   model.fluid_frame = def.fluid_frame;
   model.excess_density = def.below.density - def.above.density;
   model.shape = def.shape;

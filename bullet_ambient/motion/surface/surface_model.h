@@ -28,7 +28,8 @@ struct PartLoads {
 /// Parameters of the motion of one body near a water surface; constant between changes of body or
 /// media. Frame: body frame B, unless the name says otherwise.
 struct SurfaceModel {
-  BodyModel above, below;  ///< models of the whole body in one of the fluids
+  /// Models of the whole body in one of the fluids; its holds are full of that above, and stay dry.
+  BodyModel above, below;
   FrameOffset fluid_frame;
   double excess_density = 0;  ///< density of the fluid below minus that of the fluid above [kg/m^3]
   std::shared_ptr<const FluidBody> shape;

@@ -36,6 +36,8 @@ class FluidBody:
         panels: int = ...,
         threads: int = ...,
         waterline_table: int = ...,
+        holds: str = ...,
+        up: _Vector | None = ...,
         strict: bool = ...,
         cache: _Path | None = ...,
     ) -> FluidBody: ...
@@ -49,6 +51,8 @@ class FluidBody:
         panels: int = ...,
         threads: int = ...,
         waterline_table: int = ...,
+        holds: str = ...,
+        up: _Vector | None = ...,
         strict: bool = ...,
         cache: _Path | None = ...,
     ) -> FluidBody: ...
@@ -111,6 +115,8 @@ class FluidBody:
     def areas(self) -> _Floats: ...
     @property
     def waterline_table(self) -> int: ...
+    @property
+    def holds(self) -> list[dict[str, Any]]: ...
     @property
     def settings(self) -> str: ...
     @property

@@ -44,6 +44,7 @@ ShapeBuildSettings settingsOf(const BuildArguments& arguments) {
   settings.name = fs::path(arguments.input).stem().string();
   settings.origin = parseOrigin(arguments.origin);
   settings.scale = arguments.options.scale;
+  settings.holds = holdsOf(arguments.options);
   settings.least_faces = arguments.least_faces;
   settings.flow.max_panels = arguments.panels;
   settings.flow.threads = arguments.threads;

@@ -16,6 +16,7 @@
 #include "preprocess/command_line/option_values.h"
 #include "preprocess/mesh/check/mesh_checks.h"
 #include "preprocess/mesh/geometry.h"
+#include "preprocess/mesh/holds/hold_search.h"
 #include "preprocess/mesh/import/mesh_import.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mass_properties.h"
@@ -186,6 +187,12 @@ int runCheck(const CheckArguments& arguments) {
     for (const std::string& warning : asked.usable->warnings)
       std::cerr << "warning: " << plainLine(warning) << "\n";
     facts.erase("warnings");
+  }
+  if (asked.usable && !isSheet(shape)) {
+    const Vessel vessel =
+        findHolds(asked.usable->mesh, holdsOf(arguments.options), arguments.input);
+    facts["holds"] = holdsJson(vessel.holds);
+    for (const std::string& line : vessel.lines) std::cerr << "warning: " << line << "\n";
   }
   facts["defects"] = ordered_json::array();
   for (const MeshDefect& defect : checked.defects) {

@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 
 #include "bullet_ambient/fluid_body/displaced_mass.h"
@@ -23,7 +25,20 @@ ordered_json modeJson(const SmallOscillation& mode) {
   return json;
 }
 
-ordered_json attitudeJson(const FloatingAttitude& attitude) {
+/// Height of the lowest place of all rims above the water [m]; none without an opening.
+std::optional<double> freeboardOf(const FluidBody& body, const SurfacePlane& plane) {
+  std::optional<double> least;
+  for (const Hold& hold : body.holds)
+    for (const HoldOpening& opening : hold.openings)
+      for (std::size_t i = 0; opening.to < 0 && i < opening.outline.size(); i += 3) {
+        const double* corner = &opening.outline[i];
+        const double height = -plane.depth({corner[0], corner[1], corner[2]});
+        least = std::min(height, least.value_or(height));
+      }
+  return least;
+}
+
+ordered_json attitudeJson(const FluidBody& body, const FloatingAttitude& attitude) {
   ordered_json json{{"up", vectorJson(attitude.up)},
                     {"alike", attitude.alike},
                     {"share", attitude.share},
@@ -32,6 +47,7 @@ ordered_json attitudeJson(const FloatingAttitude& attitude) {
                     {"waterplane_area", attitude.wet.waterplane.area},
                     {"metacentres", ordered_json::array()},
                     {"modes", ordered_json::array()}};
+  if (const auto freeboard = freeboardOf(body, attitude.plane)) json["freeboard"] = *freeboard;
   for (const Metacentre& metacentre : attitude.metacentres)
     json["metacentres"].push_back(
         {{"height", metacentre.height}, {"axis", vectorJson(metacentre.axis)}});
@@ -43,7 +59,7 @@ ordered_json attitudeJson(const FloatingAttitude& attitude) {
 ordered_json floatingFacts(const FloatingBody& body) {
   ordered_json list = ordered_json::array();
   for (const FloatingAttitude& attitude : findFloatingAttitudes(body))
-    list.push_back(attitudeJson(attitude));
+    list.push_back(attitudeJson(*body.shape, attitude));
   return list;
 }
 
@@ -53,6 +69,7 @@ struct InspectArguments {
   std::optional<double> mass;          // [kg]
   std::vector<double> centre_of_mass;  // in F [m]; empty: spread evenly over the volume
   std::vector<double> inertia;         // xx yy zz xy xz yz [kg m^2]; empty: likewise
+  std::vector<double> water;           // in its holds [m^3]
   double density = 998;                // [kg/m^3]
   double gravity = 9.81;               // [m/s^2]
   bool json = false;
@@ -72,6 +89,7 @@ FloatingBody onWater(const FluidBody& body, const InspectArguments& arguments) {
     floating.inertia << v[0], v[3], v[4], v[3], v[1], v[5], v[4], v[5], v[2];
   floating.density = arguments.density;
   floating.gravity = arguments.gravity;
+  setWater(floating, arguments.water);
   return floating;
 }
 
@@ -81,7 +99,8 @@ void warnOfMass(const FloatingBody& body, const ordered_json& attitudes) {
     std::cerr << "warning: it is lighter than the " << air_mass
               << " kg of air in its place: is its mesh in metres?\n";
   if (attitudes.empty())
-    std::cerr << "it sinks: it displaces " << body.density * body.shape->volume << " kg\n";
+    std::cerr << "it sinks: it displaces " << body.density * body.shape->volume << " kg"
+              << (body.water.empty() ? "\n" : ", with the water in it\n");
 }
 
 void runInspect(const InspectArguments& arguments) {
@@ -108,6 +127,9 @@ void addInspect(CLI::App& app) {
   addOption(command, "--inertia", arguments->inertia, "XX YY ZZ XY XZ YZ",
             "With --mass: about the centre of mass, in the body's axes [kg m^2]; default: likewise")
       ->expected(6);
+  addOption(command, "--water", arguments.water, "V,V,...",
+            "With --mass: water in its holds, in their order [m^3]; default: none")
+      ->delimiter(',');
   command.add_option("--density", arguments->density, "With --mass: of the water [kg/m^3]")
       ->capture_default_str();
   command.add_option("--gravity", arguments->gravity, "With --mass: [m/s^2]")

@@ -29,6 +29,7 @@ void requireWorldOptions(const BuildArguments& arguments) {
   if (arguments.options.sheet) refuse("--sheet");
   if (arguments.options.hull) refuseForMany("--hull");
   if (arguments.options.wrap) refuseForMany("--wrap");
+  if (!arguments.options.up.empty()) refuseForMany("--up");
   if (arguments.least_faces != 0) refuse("--least-faces");
   if (!arguments.levels.empty()) refuseForMany("--levels");
   if (arguments.waterline != 0) refuseForMany("--waterline-table");
@@ -96,6 +97,7 @@ int buildWorldFile(const BuildArguments& arguments) {
   settings.flow.max_panels = arguments.panels;
   settings.flow.threads = arguments.threads;
   settings.tables = !arguments.no_tables;
+  settings.holds = holdsOf(arguments.options).is_wanted;
   settings.strict = arguments.options.strict;
   settings.reuse = !arguments.rebuild;
   requireRegularFile(arguments.input, ".bullet");

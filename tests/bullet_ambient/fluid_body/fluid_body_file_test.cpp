@@ -260,7 +260,7 @@ TEST(FluidBodyFile, SaysThatItIsOfANewerVersion) {
   std::string bytes = encodeFluidBody(test::exampleBody(), "x");
   bytes[8] = 7;
   EXPECT_EQ(refusalOf([&] { decodeFluidBody(bytes, "f.ambient"); }),
-            "f.ambient: format version 7 is newer than this program reads, limit 3");
+            "f.ambient: format version 7 is newer than this program reads, limit 4");
 }
 
 TEST(FluidBodyFile, SaysThatAByteWasChanged) {

@@ -52,6 +52,31 @@ TEST(BodyModel, PutsTheCentreOfVolumeIntoBodyAxes) {
   EXPECT_LT((input.make().centre_of_volume - Vector3(0, 0.1, 0.5)).norm(), 1e-15);
 }
 
+// Closed forms of docs/theory.md eq. (134): the moments of a room that turns with its fluid.
+TEST(BodyModel, FullHoldsMoveWithTheBodyAndDisplaceNothing) {
+  Input input;
+  const BodyModel closed = input.make();
+  Hold hold;
+  hold.volume = 0.4 * input.shape.volume;
+  hold.centre = {0, 0, 0.05};
+  hold.turning_inertia = Vector3(1e-5, 2e-5, 3e-5).asDiagonal();
+  input.shape.holds = {hold};
+  const BodyModel full = input.make();
+  EXPECT_DOUBLE_EQ(full.displaced_mass, 0.6 * closed.displaced_mass);
+  EXPECT_NEAR(full.centre_of_volume.z(), -0.4 * 0.05 / 0.6, 1e-15);
+  const Matrix6 inside = full.inertia - closed.inertia;
+  const double mass = 998 * hold.volume;
+  EXPECT_NEAR(inside(3, 3), mass, 1e-12 * mass);
+  EXPECT_NEAR(inside(0, 0), 998 * 1e-5 + mass * 0.05 * 0.05, 1e-12);
+  EXPECT_NEAR(inside(2, 2), 998 * 3e-5, 1e-12);
+  // A force in x at the origin meets a mass that lies above it: momentum of turning about y.
+  EXPECT_NEAR(inside(1, 3), mass * 0.05, 1e-12 * mass);
+  const BodyModel sealed = makeBodyModel(input.shape, input.frame, input.mass, input.medium,
+                                         full.loads, HoldContent::kSealed);
+  EXPECT_EQ(sealed.inertia, closed.inertia);
+  EXPECT_EQ(sealed.displaced_mass, closed.displaced_mass);
+}
+
 struct BadInput {
   std::function<void(Input&)> spoil;
   std::string what, limit;  // message must contain both

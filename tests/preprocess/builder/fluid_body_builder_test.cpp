@@ -231,7 +231,7 @@ TEST(ShapeBuilder, ProvenanceNamesTheFileAndHashesItsBytes) {
   EXPECT_EQ(body.provenance.source, "c.obj");
   EXPECT_EQ(body.provenance.source_hash, fnv1a64(text));
   EXPECT_EQ(body.provenance.settings,
-            "body, scale 0.5, origin centre-of-volume, faces 0, panels 4200");
+            "body, scale 0.5, origin centre-of-volume, faces 0, holds auto, panels 4200");
   EXPECT_EQ(body.provenance.generator.substr(0, 15), "bullet_ambient ");
   EXPECT_NEAR(body.volume, kPi * 0.0625 * 0.2, 0.02 * body.volume);
   const FluidBody ball = buildText(R"({"type":"sphere", "radius":1, "faces":80})").body;

@@ -6,6 +6,8 @@
 #include <string>
 
 #include "tests/preprocess/command_line/command_line.h"
+#include "tests/preprocess/mesh/mesh_files.h"
+#include "tests/preprocess/mesh/vessel_meshes.h"
 
 namespace ambient {
 namespace {
@@ -105,6 +107,38 @@ TEST_F(FloatingCommand, InspectHasThePeriodsOfTheGravityThatIsGiven) {
     EXPECT_NEAR(moon["modes"][i]["period"].get<double>() / here["modes"][i]["period"].get<double>(),
                 std::sqrt(9.81 / 1.62), 1e-9)
         << i;
+}
+
+/// The attitude of the smallest tilt.
+json upright(const json& facts) {
+  json best;
+  for (const json& attitude : facts["floating"])
+    if (best.is_null() || attitude["up"][2] > best["up"][2]) best = attitude;
+  return best;
+}
+
+TEST_F(FloatingCommand, TrayStaysDryUnlessItIsToldNotTo) {
+  const std::string mesh = write("tray.obj", objText(makeBarge({1, 0.6, 0.4, 0.02})));
+  const json checked = resultOf({"check", mesh, "--json"});
+  ASSERT_EQ(checked["holds"].size(), 1u);
+  EXPECT_NEAR(checked["holds"][0]["volume"].get<double>(), 0.96 * 0.56 * 0.38, 1e-12);
+  EXPECT_NEAR(checked["holds"][0]["openings"][0]["rim"].get<double>(), 3.04, 1e-12);
+  const std::string file = path("tray.ambient");
+  const json built = resultOf({"build", mesh, "-o", file, "--panels", "0", "--json"});
+  EXPECT_EQ(built["holds"].size(), 1u);
+  const Arguments inspect = {"inspect", file, "--mass", "60", "--json"};
+  const double draught = 60 / (998 * 0.6);
+  EXPECT_NEAR(upright(resultOf(inspect))["draught"].get<double>(), draught, 1e-9);
+  EXPECT_NEAR(upright(resultOf(inspect))["freeboard"].get<double>(), 0.4 - draught, 1e-9);
+  const json with_water = resultOf(appended(inspect, {"--water", "0.03"}));
+  EXPECT_NEAR(upright(with_water)["draught"].get<double>(), draught + 0.05, 1e-4);
+  // Upside down there is no room: the walls alone sink.
+  for (const Arguments& option :
+       {Arguments{"--holds", "none"}, Arguments{"--up", "0", "0", "-1"}}) {
+    const Arguments build = {"build", mesh, "-o", file, "--panels", "0", "--json"};
+    EXPECT_FALSE(resultOf(appended(build, option)).contains("holds"));
+    EXPECT_TRUE(resultOf(inspect)["floating"].empty());
+  }
 }
 
 }  // namespace

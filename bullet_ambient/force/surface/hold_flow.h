@@ -1,0 +1,60 @@
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "bullet_ambient/fluid_body/hold.h"
+
+namespace ambient {
+
+/// An opening for flows through it, in frame F: edges of its outline and pieces of its lid, which
+/// are halved until they are many.
+class OpeningShape {
+ public:
+  explicit OpeningShape(const HoldOpening& opening);
+
+  struct Edge {
+    Vector3 middle, way;  ///< [m]
+  };
+  struct Piece {
+    Vector3 place;    ///< centroid [m]
+    double area = 0;  ///< [m^2]
+  };
+  const std::vector<Vector3>& corners() const { return corners_; }
+  const std::vector<Edge>& edges() const { return edges_; }
+  const std::vector<Piece>& pieces() const { return pieces_; }
+
+ private:
+  std::vector<Vector3> corners_;
+  std::vector<Edge> edges_;
+  std::vector<Piece> pieces_;
+};
+
+/// Water on one side of an opening: the sea by default, whose level does not move.
+struct WaterSide {
+  double height = 0;                                        ///< of its level along the normal [m]
+  double area = std::numeric_limits<double>::infinity();    ///< of its level [m^2]
+  double volume = std::numeric_limits<double>::infinity();  ///< [m^3]
+  double room = std::numeric_limits<double>::infinity();    ///< for more [m^3]
+};
+
+/// Which way is up, and how strong gravity is.
+struct Upward {
+  Vector3 normal{0, 0, 1};  ///< unit
+  double gravity = 9.81;    ///< [m/s^2]
+};
+
+/// Flow through an opening with air on both sides, docs/theory.md eq. (138), (139), from one side
+/// to the other; negative: back [m^3/s]. Water goes over the outline as over a weir, and, where the
+/// whole outline lies below the level of the side that gives, at most as through an orifice. Cost:
+/// a root for each edge and piece, 0.5 us.
+double flowThrough(const OpeningShape& opening, const Upward& up, double from_height,
+                   double to_height) noexcept;
+
+/// Volume that flows through an opening in a step, implicit in the levels, docs/theory.md eq.
+/// (140): at any duration these approach and never cross [m^3]. No more flows than there is water
+/// or room.
+double volumeThrough(const OpeningShape& opening, const Upward& up, const WaterSide& from,
+                     const WaterSide& to, double duration) noexcept;
+
+}  // namespace ambient

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "bullet_ambient/fluid_body/packed/packed_hull.h"
+#include "bullet_ambient/force/surface/hydrostatics.h"
+
+namespace ambient {
+
+/// A hold for hydrostatics, in frame F.
+class HoldShape {
+ public:
+  explicit HoldShape(const Hold& hold) : hull_(hold.surface), capacity_(hold.volume) {}
+
+  const PackedHull& hull() const { return hull_; }
+  double capacity() const { return capacity_; }  ///< [m^3]
+
+ private:
+  PackedHull hull_;
+  double capacity_;
+};
+
+/// Water in a hold, level along a normal.
+struct HoldFill {
+  double height = 0;  ///< of its level along the normal [m]
+  /// Full or empty: without a waterplane.
+  WetVolume water;
+  int clips = 0;  ///< how often the hold was clipped
+};
+
+/// Finds the level of water in a hold: Newton's method on V(h), whose derivative is the area of the
+/// level, between brackets, docs/theory.md eq. (136). Cost: two to four computeWetVolume() from a
+/// good guess; allocates nothing.
+/// @param normal unit, out of the water
+/// @param volume [m^3]; up to 1e-9 of the hold it is empty, from 1 - 1e-9 on full
+/// @param guess height to begin with, such as the last one [m]
+HoldFill fillHold(const HoldShape& shape, const Vector3& normal, double volume,
+                  double guess) noexcept;
+
+/// Takes what stands in a hold off the wet part of a closed vessel, docs/theory.md eq. (135).
+/// Volume, moment and depth integral become those of both; the waterplane remains that outside.
+/// @param wet of the closed vessel below the plane; in the frame of both planes
+WetVolume withWaterInside(WetVolume wet, const SurfacePlane& plane, const HoldFill& fill) noexcept;
+
+}  // namespace ambient

@@ -1,0 +1,122 @@
+#include "bullet_ambient/force/surface/hold_flow.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace ambient {
+namespace {
+
+constexpr double kGravity = 9.81, kDischarge = 0.6;
+const double kFall = kDischarge * std::sqrt(2 * kGravity);
+
+/// A rectangle of corners a, a + u, a + u + v, a + v.
+HoldOpening rectangle(const Vector3& a, const Vector3& u, const Vector3& v) {
+  HoldOpening opening;
+  for (const Vector3& corner : {a, Vector3(a + u), Vector3(a + u + v), Vector3(a + v)})
+    opening.outline.insert(opening.outline.end(), {corner.x(), corner.y(), corner.z()});
+  opening.lid = {0, 1, 2, 0, 2, 3};
+  return opening;
+}
+
+/// The rim of a hold of 1.96 x 0.96 m at z = 0.5 m.
+OpeningShape rim() {
+  return OpeningShape(rectangle({-0.98, -0.48, 0.5}, {1.96, 0, 0}, {0, 0.96, 0}));
+}
+
+TEST(HoldFlow, PiecesMakeUpTheOpening) {
+  const OpeningShape shape = rim();
+  Vector3 round(0, 0, 0);
+  double length = 0, area = 0;
+  for (const auto& edge : shape.edges()) {
+    round += edge.way;
+    length += edge.way.norm();
+  }
+  for (const auto& piece : shape.pieces()) area += piece.area;
+  EXPECT_LT(round.norm(), 1e-15);
+  EXPECT_NEAR(length, 5.84, 1e-14);
+  EXPECT_NEAR(area, 1.96 * 0.96, 1e-14);
+}
+
+// Poleni's weir, 2/3 C sqrt(2g) L H^1.5, while the rim is little below, and an orifice, C A
+// sqrt(2gH), where it lies deep.
+TEST(HoldFlow, RimIsAWeirAndThenAnOrifice) {
+  const double shallow = flowThrough(rim(), {}, 0.52, 0);
+  EXPECT_NEAR(shallow, 2.0 / 3 * kFall * 5.84 * std::pow(0.02, 1.5), 1e-14);
+  EXPECT_NEAR(shallow, 0.029266, 1e-6);
+  const double deep = flowThrough(rim(), {}, 1.5, 0);
+  EXPECT_NEAR(deep, kFall * 1.96 * 0.96, 1e-12);
+  EXPECT_NEAR(deep, 5.0007, 1e-4);
+  EXPECT_EQ(flowThrough(rim(), {}, 0.499, 0), 0);
+  EXPECT_EQ(flowThrough(rim(), {}, 0, 0.52), -shallow) << "out as in";
+}
+
+// A slot from its sill to full cover: C 2/3 sqrt(2g) b (h^1.5 - (h - a)^1.5).
+TEST(HoldFlow, HoleInTheSideIsRightAtAnyCover) {
+  const OpeningShape hole(rectangle({1, -0.1, 0}, {0, 0.2, 0}, {0, 0, 0.1}));
+  for (const double cover : {0.5, 1.0, 1.5, 3.0}) {
+    const double h = 0.1 * cover, above = std::max(0.0, h - 0.1);
+    const double exact = 2.0 / 3 * kFall * 0.2 * (std::pow(h, 1.5) - std::pow(above, 1.5));
+    EXPECT_NEAR(flowThrough(hole, {}, h, -1), exact, 1e-3 * exact) << cover;
+  }
+}
+
+TEST(HoldFlow, DrownedWeirSlowsDown) {
+  double last = flowThrough(rim(), {}, 0.55, 0);
+  for (const double inside : {0.51, 0.53, 0.549}) {
+    const double flow = flowThrough(rim(), {}, 0.55, inside);
+    EXPECT_LT(flow, last) << inside;
+    EXPECT_GT(flow, 0) << inside;
+    last = flow;
+  }
+  EXPECT_EQ(flowThrough(rim(), {}, 0.55, 0.55), 0);
+}
+
+TEST(HoldFlow, LevelsMeetAndNeverCrossAtAnyStep) {
+  const OpeningShape hole(rectangle({0, 0, 0}, {0, 1, 0}, {0, 0, 0.5}));
+  for (const double duration : {0.01, 1.0, 100.0}) {
+    WaterSide high{0.9, 1, 0.9, 0.1}, low{0.1, 2, 0.2, 1.8};
+    double sum = high.volume + low.volume;
+    for (int i = 0; i < 2000; ++i) {
+      const double q = volumeThrough(hole, {}, high, low, duration);
+      EXPECT_GE(q, 0);
+      high.height -= q / high.area;
+      low.height += q / low.area;
+      high.volume -= q;
+      low.volume += q;
+      EXPECT_GE(high.height, low.height - 1e-12) << duration << ' ' << i;
+    }
+    EXPECT_NEAR(high.volume + low.volume, sum, 1e-14);
+    EXPECT_NEAR(high.height, low.height, 1e-5) << duration;
+  }
+}
+
+TEST(HoldFlow, NoMoreFlowsThanThereIsWaterOrRoom) {
+  const WaterSide dregs{0.9, 1, 1e-3, 1}, full{0.1, 1, 1, 1e-4};
+  const OpeningShape hole(rectangle({0, 0, 0}, {0, 1, 0}, {0, 0, 0.5}));
+  EXPECT_DOUBLE_EQ(volumeThrough(hole, {}, dregs, {}, 10), 1e-3);
+  EXPECT_DOUBLE_EQ(volumeThrough(hole, {}, WaterSide{0.9}, full, 10), 1e-4);
+  EXPECT_DOUBLE_EQ(volumeThrough(hole, {}, full, WaterSide{0.9}, 10), -1e-4);
+}
+
+// A barge of 2 x 1 x 0.5 m and 200 kg, its hold 1.96 x 0.96 m from 0.02 m on, with a hole of 0.01
+// m^2 in its floor, sinks upright until its rim dips at 0.8 m^3: with the head D = D0 - c V, c =
+// 1/A_i - 1/A_o, after 2 (sqrt D0 - sqrt(D0 - c V)) / (C a sqrt(2g) c).
+TEST(HoldFlow, BargeWithAHoleSinksInItsTime) {
+  constexpr double kOuter = 2, kInner = 1.96 * 0.96, kHole = 0.01, kDips = 0.8;
+  const OpeningShape hole(rectangle({0, 0, 0}, {0, 0.1, 0}, {0.1, 0, 0}));
+  const double c = 1 / kInner - 1 / kOuter, D0 = 0.08;
+  const double exact = 2 * (std::sqrt(D0) - std::sqrt(D0 - c * kDips)) / (kFall * kHole * c);
+  EXPECT_NEAR(exact, 116.447, 1e-3);
+  constexpr double kStep = 1.0 / 60;
+  double volume = 0, time = 0;
+  while (volume < kDips) {
+    const WaterSide inside{0.02 + volume / kInner, kInner, volume, 0.903168 - volume};
+    volume += volumeThrough(hole, {}, WaterSide{(0.2 + volume) / kOuter}, inside, kStep);
+    time += kStep;
+  }
+  EXPECT_NEAR(time, exact, 0.001 * exact);
+}
+
+}  // namespace
+}  // namespace ambient
