@@ -18,8 +18,13 @@ using Eigen::Vector3d;
 
 // Limits of the distance of centroids over the sum of the radii.
 constexpr double kTouching = 1.1816;  // 2/3 sqrt(pi): up to here sixteen points
-constexpr double kNear = 8;           // six points, beyond one
-constexpr double kNearGroup = 3;      // in place of kNear, where groups have several panels
+constexpr double kNear = 3;           // six points
+constexpr double kFar = 8;  // three points, beyond one; kNear for groups of several panels
+
+/// Exact to degree 2.
+constexpr std::array<TriangleNode, 3> kTriangleRule3{{{{2.0 / 3, 1.0 / 6, 1.0 / 6}, 1.0 / 3},
+                                                      {{1.0 / 6, 2.0 / 3, 1.0 / 6}, 1.0 / 3},
+                                                      {{1.0 / 6, 1.0 / 6, 2.0 / 3}, 1.0 / 3}}};
 
 /// Panels with one force per area, and their extent.
 struct Group {
@@ -90,13 +95,23 @@ class PointBlock {
   std::size_t count_ = 0;
 };
 
-/// Adds int_G int_S of all groups G and one panel S, by points on G and the closed form on S.
-void addIntegrals(const Panel& source, const std::vector<Panel>& panels,
+/// Whether the integral of a pair has its points on the first group and the closed form on the
+/// second one: on the smaller one if they differ clearly, so that rounding does not decide.
+bool hasPoints(std::size_t first, std::size_t second, const std::vector<Group>& groups) {
+  constexpr double kClearlySmaller = 0.7937;
+  const double a = groups[first].radius, b = groups[second].radius;
+  if (a < kClearlySmaller * b || b < kClearlySmaller * a) return a < b;
+  return first <= second;
+}
+
+/// Adds int_G int_S of the groups G that have points and one panel S of a group.
+void addIntegrals(const Panel& source, std::size_t of, const std::vector<Panel>& panels,
                   const std::vector<Group>& groups, std::vector<Matrix3d>& rows) {
   PointBlock block(source, rows);
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    const double limit = groups[g].members.size() > 1 ? kNearGroup : kNear;
-    if (!isWithin(limit, source, groups[g])) {
+    if (!hasPoints(g, of, groups)) continue;
+    const double far = groups[g].members.size() > 1 ? kNear : kFar;
+    if (!isWithin(far, source, groups[g])) {
       block.add(g, groups[g].centroid, groups[g].area);
       continue;
     }
@@ -104,8 +119,10 @@ void addIntegrals(const Panel& source, const std::vector<Panel>& panels,
       const Panel& panel = panels[t];
       if (isWithin(kTouching, source, panel))
         block.add(g, panel, kTriangleRule16);
-      else if (isWithin(limit, source, panel))
+      else if (isWithin(kNear, source, panel))
         block.add(g, panel, kTriangleRule6);
+      else if (isWithin(far, source, panel))
+        block.add(g, panel, kTriangleRule3);
       else
         block.add(g, panel.centroid, panel.area);
     }
@@ -149,15 +166,16 @@ Eigen::MatrixXd assembleStokesMatrix(const std::vector<Panel>& panels,
   const Index size = 3 * static_cast<Index>(count);
   Eigen::MatrixXd A(size, size);
   parallelFor(threads, count, [&](std::ptrdiff_t column) {
+    const auto of = static_cast<std::size_t>(column);
     std::vector<Matrix3d> rows(groups.size(), Matrix3d::Zero());
-    for (const std::size_t s : groups[static_cast<std::size_t>(column)].members)
-      addIntegrals(panels[s], panels, groups, rows);
+    for (const std::size_t s : groups[of].members)
+      addIntegrals(panels[s], of, panels, groups, rows);
+    rows[of] /= 2;
     for (std::size_t g = 0; g < rows.size(); ++g)
       A.block<3, 3>(3 * static_cast<Index>(g), 3 * column) = rows[g];
   });
-  // The mean of both orders, in place.
   for (Index j = 0; j < size; ++j)
-    for (Index i = 0; i <= j; ++i) A(i, j) = A(j, i) = (A(i, j) + A(j, i)) / 2;
+    for (Index i = 0; i <= j; ++i) A(i, j) = A(j, i) = A(i, j) + A(j, i);
   return A;
 }
 
