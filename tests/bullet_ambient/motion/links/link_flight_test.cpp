@@ -329,7 +329,7 @@ TEST(LinkFlight, SinksSteadilyThroughAStiffFluid) {
       Resistance resistance;
       resistance.matrix.diagonal() << Vector3::Constant(0.1 * drag), Vector3::Constant(drag);
       model.loads = std::make_shared<ResistanceAlone>();
-      model.resistance = std::make_shared<Resistance>(resistance);
+      giveResistance(model, std::make_shared<Resistance>(resistance));
       test.setModel(l, std::move(model));
       test.tree.links[l].surroundings.applied.force = drag * sinking;
     }

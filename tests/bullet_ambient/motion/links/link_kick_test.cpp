@@ -44,7 +44,7 @@ void setResistance(TestTree& test, int l, const Matrix6& resistance, const Vecto
   BodyModel model = *test.tree.links[l].model;
   const Matrix6 none = Matrix6::Zero();
   model.loads = std::make_shared<QuadraticLoads>(none, none, Growth{0.7, 1.3});
-  model.resistance = std::make_shared<Resistance>(Resistance{resistance, centre});
+  giveResistance(model, std::make_shared<Resistance>(Resistance{resistance, centre}));
   test.setModel(l, std::move(model));
 }
 
