@@ -242,6 +242,12 @@ Vessel spanLids(const TriangleMesh& mesh, const TriangleNeighbours& neighbours,
     }
     if (holds.empty()) return vessel;
     vessel.closed = withUsedVertices(mesh.vertices, drafts.outside);
+    if (!isClosed(computeMeshEdges(vessel.closed))) {
+      vessel.lines.push_back(
+          inputMessage(name, "its holds are left out: lids and walls share edges"));
+      vessel.closed = {};
+      return vessel;
+    }
     vessel.holds = std::move(holds);
     return vessel;
   }
