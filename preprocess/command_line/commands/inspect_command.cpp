@@ -127,7 +127,7 @@ void addInspect(CLI::App& app) {
   addOption(command, "--inertia", arguments->inertia, "XX YY ZZ XY XZ YZ",
             "With --mass: about the centre of mass, in the body's axes [kg m^2]; default: likewise")
       ->expected(6);
-  addOption(command, "--water", arguments.water, "V,V,...",
+  addOption(command, "--water", arguments->water, "V,V,...",
             "With --mass: water in its holds, in their order [m^3]; default: none")
       ->delimiter(',');
   command.add_option("--density", arguments->density, "With --mass: of the water [kg/m^3]")
