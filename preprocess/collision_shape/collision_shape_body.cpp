@@ -7,6 +7,7 @@
 
 #include "bullet_ambient/bullet/core/conversions.h"
 #include "preprocess/collision_shape/form_body.h"
+#include "preprocess/collision_shape/round_hull.h"
 #include "preprocess/mesh/input_error.h"
 
 AMBIENT_BEGIN
@@ -135,7 +136,7 @@ class PartCollector {
     }
   }
 
-  std::vector<PlacedShape> parts() const { return parts_; }
+  std::vector<PlacedShape> takeParts() { return std::move(parts_); }
 
  private:
   void take(const PlacedShape& part, const btCollisionShape& shape, const Place& place) {
@@ -234,6 +235,7 @@ class PartCollector {
   static Hull readHull(const btConvexHullShape& shape) {
     const Vector3 scaling = toVector3(shape.getLocalScalingNV());
     Hull hull;
+    hull.points.reserve(static_cast<std::size_t>(shape.getNumPoints()));
     for (int i = 0; i < shape.getNumPoints(); ++i) {
       hull.points.emplace_back(scaling.cwiseProduct(toVector3(shape.getUnscaledPoints()[i])));
     }
@@ -271,18 +273,18 @@ ShapeForm readForm(const btCollisionShape& shape, const CollisionShapeSettings& 
   Place place;
   place.name = name;
   collector.add(shape, place);
-  ShapeForm form{shape.getName(), collector.parts(), 1};
+  ShapeForm form{shape.getName(), collector.takeParts(), 1};
   requireUsualNumbers(form.parts);
   return form;
 }
 
 FluidBody makeFluidBody(const btCollisionShape& shape, const CollisionShapeSettings& settings) {
-  return makeFormBody(readForm(shape, settings), settings);
+  return makeFormBody(recognised(readForm(shape, settings)), settings);
 }
 
 Provenance describeCollisionShape(const btCollisionShape& shape,
                                   const CollisionShapeSettings& settings) {
-  return describeForm(readForm(shape, settings), settings);
+  return describeForm(recognised(readForm(shape, settings)), settings);
 }
 
 AMBIENT_END

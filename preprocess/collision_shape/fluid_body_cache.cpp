@@ -10,6 +10,7 @@
 #include "preprocess/builder/body_maker.h"
 #include "preprocess/collision_shape/collision_shape_body.h"
 #include "preprocess/collision_shape/form_body.h"
+#include "preprocess/collision_shape/round_hull.h"
 
 AMBIENT_BEGIN
 namespace {
@@ -85,10 +86,11 @@ SharedBody FluidBodyCache::fluidBody(const btCollisionShape& shape) {
 SharedBody FluidBodyCache::fluidBodyOf(const std::function<std::string()>& whose,
                                        const btCollisionShape& shape) {
   Store& store = *store_;
-  const ShapeForm form = normalised(readForm(shape, store.settings));
-  const std::string content = form.kind + contentOf(form.parts);
-  const std::string sized = withSize(content, form.size);
-  return store.shapes.get(sized, [&] {
+  const ShapeForm read = readForm(shape, store.settings);
+  return store.shapes.get(read.kind + contentOf(read.parts), [&] {
+    const ShapeForm form = normalised(recognised(read));
+    const std::string content = form.kind + contentOf(form.parts);
+    const std::string sized = withSize(content, form.size);
     const SharedBody unit = store.getUnit(content, form, whose);
     FluidBody body = form.size == 1 ? *unit : scaled(*unit, form.size);
     // Tells the fluid bodies of one kind of shape apart, the same in all programs.

@@ -39,6 +39,7 @@ struct Lengths {
 template <class List>
 auto addressesOf(List& list) {
   std::vector<decltype(&*list.begin())> addresses;
+  addresses.reserve(static_cast<std::size_t>(list.size()));
   for (auto& item : list) addresses.push_back(&item);
   return addresses;
 }
@@ -314,11 +315,12 @@ std::optional<AddedMass> addedMassOf(const std::vector<Solid>& solids,
 
 /// Settings of the flow around solids. Polyhedra need fewer panels than round bodies: all their
 /// triangles are merged, and the added mass is extrapolated.
-PotentialFlowSettings flowSettingsFor(const std::vector<Solid>& solids,
+PotentialFlowSettings flowSettingsFor(const std::vector<Solid>& solids, const ShapeForm& form,
                                       PotentialFlowSettings flow) {
   constexpr int kPanelsOfPolyhedra = 1500;
   flow.polyhedron = flow.max_panels > 0 && arePolyhedra(solids);
   if (flow.polyhedron) flow.max_panels = std::min(flow.max_panels, kPanelsOfPolyhedra);
+  flow.convex = flow.polyhedron && form.parts.size() == 1;
   return flow;
 }
 
@@ -397,7 +399,7 @@ FluidBody bodyOf(const std::vector<Solid>& solids, const ShapeForm& form,
   build.begin = settings.begin;
   build.holds.is_wanted = mayHaveHolds(form, settings);
   build.holds.unit = form.size;
-  build.flow = flowSettingsFor(solids, settings.flow);
+  build.flow = flowSettingsFor(solids, form, settings.flow);
   if (solids.size() == 1) build.sphere_radius = solids.front().sphere_radius;
   if (build.sphere_radius == 0) build.waterline_subdivisions = settings.waterline_subdivisions;
   build.cavities = joined(solids, &Solid::cavities);

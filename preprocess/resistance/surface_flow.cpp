@@ -105,31 +105,43 @@ class SurfaceFit {
       places.col(i) = basis_.transpose() * (Vector3d(surface.mesh.vertices.col(at_[i])) - p);
     size_ = std::sqrt(places.squaredNorm() / static_cast<double>(count));
     places /= size_;
+    distances_ = places.colwise().norm();
     const bool is_cut = !surface.copies[vertex].empty();
     constexpr Index kEnoughForCubic = 15, kEnoughForQuadratic = 8;
     terms_ = count >= kEnoughForCubic && !is_cut ? kCubic
              : count >= kEnoughForQuadratic      ? kQuadratic
                                                  : kLinear;
-    weights_ = (1 / (0.3 + places.colwise().norm().array())).matrix().transpose();
+    weights_ = (1 / (0.3 + distances_.array())).matrix();
     Eigen::MatrixXd rows(count, terms_);
     for (Index i = 0; i < count; ++i)
       rows.row(i) = weights_[i] * monomials(places(0, i), places(1, i)).head(terms_);
     solver_.compute(rows);
   }
 
-  /// Derivatives of a function of the vertices at the vertex.
+  /// Derivatives of a function of the vertices at the vertex. They are limited by its differences
+  /// to the neighbours: where these lie nearly in line, as between slivers, what a fit says across
+  /// the line is noise.
   template <class ValueAt>
   VertexFlow derivatives(const ValueAt& value_at) const {
     Eigen::VectorXd values(static_cast<Index>(at_.size()));
     const double here = value_at(at_.front());
-    for (Index i = 0; i < values.size(); ++i) values[i] = weights_[i] * (value_at(at_[i]) - here);
-    const Eigen::VectorXd c = solver_.solve(values);
+    constexpr double kNearest = 0.1;  // closer, differences are noise
+    double steepest = 0;
+    for (Index i = 0; i < values.size(); ++i) {
+      const double change = value_at(at_[i]) - here;
+      values[i] = weights_[i] * change;
+      steepest = std::max(steepest, std::abs(change) / std::max(distances_[i], kNearest));
+    }
+    constexpr double kMostSlope = 2, kMostBend = 8;  // of a smooth function at most 1.2 and 2 or so
+    Eigen::VectorXd c = solver_.solve(values);
+    c.segment<2>(1) *= shareWithin(kMostSlope * steepest, c.segment<2>(1).norm());
     VertexFlow flow;
     flow.potential = here;
     flow.velocity = basis_ * c.segment<2>(1) / size_;
     if (terms_ == kLinear) return flow;
     Eigen::Matrix2d second;
     second << 2 * c[3], c[4], c[4], 2 * c[5];
+    second *= shareWithin(kMostBend * steepest, second.norm());
     flow.stretching = basis_ * (second / (size_ * size_)) * basis_.transpose();
     return flow;
   }
@@ -141,9 +153,12 @@ class SurfaceFit {
     return m;
   }
 
+  /// What leaves of a size at most a limit.
+  static double shareWithin(double most, double size) { return size > most ? most / size : 1; }
+
   std::vector<int> at_;
   Eigen::Matrix<double, 3, 2> basis_;
-  Eigen::VectorXd weights_;
+  Eigen::VectorXd distances_, weights_;  ///< distances in units of size_
   double size_ = 0;
   int terms_ = 0;
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver_;

@@ -197,13 +197,29 @@ RefinedFlow solveOnPanels(const TriangleMesh& mesh, const PotentialFlowSettings&
   return refined;
 }
 
+constexpr int kPanelsPerTriangle = 5;  // where triangles are to be divided
+
+/// Triangles about as long as wide in place of a convex polyhedron's many strips; none if it has
+/// few sides. Panels that are cut from them are fewer and more exact: hulls of links of robots are
+/// 0.9 % off in rotation and 0.3 % in translation on 1000 panels, in the mean against 4200; cut
+/// from their own sides 1.6 and 0.5 % on 1500.
+std::optional<TriangleMesh> inCompactTriangles(const TriangleMesh& mesh, const TriangleMesh& sides,
+                                               int triangles) {
+  if (2 * sides.triangleCount() <= triangles) return std::nullopt;
+  return inFewerTriangles(mesh, triangles);
+}
+
 RefinedFlow solvePolyhedron(const TriangleMesh& mesh, const PotentialFlowSettings& settings) {
-  const TriangleMesh basis = mergePolyhedronSides(mesh);
-  const SurfaceLevels levels = refineInLevels(basis, false, settings.max_panels);
+  const TriangleMesh sides = mergePolyhedronSides(mesh);
+  const int fewer = 2 * settings.max_panels / 3;
+  std::optional<TriangleMesh> compact;
+  if (settings.convex) compact = inCompactTriangles(mesh, sides, fewer / kPanelsPerTriangle);
+  const SurfaceLevels levels = compact ? refineInLevels(*compact, false, fewer)
+                                       : refineInLevels(sides, false, settings.max_panels);
   PotentialFlowSettings undivided = settings;
   undivided.max_panels = 0;
   const PotentialFlow flow = solvePotentialFlow(levels.fine.mesh, undivided);
-  RefinedFlow refined = refinedFrom(flow, basis);
+  RefinedFlow refined = refinedFrom(flow, compact ? levels.fine.mesh : sides);
   if (levels.coarse) {
     const PotentialFlow coarse = solvePotentialFlow(*levels.coarse, undivided);
     refined.added_mass = extrapolated(flow, coarse, kPolyhedronOrder);
@@ -220,8 +236,6 @@ RefinedFlow solveDivided(const TriangleMesh& mesh, const PotentialFlowSettings& 
   AMBIENT_ASSERT(!settings.polyhedron || !settings.sheet);
   return settings.polyhedron ? solvePolyhedron(mesh, settings) : solveOnPanels(mesh, settings);
 }
-
-constexpr int kPanelsPerTriangle = 5;  // where triangles are to be divided
 
 /// Solves the flow around the body of a mesh in other triangles. A difference of two divisions is
 /// then not due to long triangles.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <thread>
@@ -13,6 +14,7 @@
 #include "preprocess/base/fluid_body_writer.h"
 #include "tests/preprocess/collision_shape/shape_fixtures.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
+#include "tests/support/allocation_counter.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ambient {
@@ -101,6 +103,22 @@ TEST(FluidBodyCache, ScaledShapesAreSolvedOnce) {
   EXPECT_NEAR(large->volume / cube->volume, 27, 1e-5);
   EXPECT_NEAR(large->added_mass(0, 0) / cube->added_mass(0, 0), 243, 243e-5);
   EXPECT_NEAR(large->added_mass(3, 3) / cube->added_mass(3, 3), 27, 27e-5);
+}
+
+// As after resetSimulation of a robot: what a known hull costs is reading its numbers.
+TEST(FluidBodyCache, AKnownHullIsFoundByItsNumbersAsTheyAre) {
+  constexpr int kPoints = 1000;
+  btConvexHullShape hull;
+  for (int i = 0; i < kPoints; ++i) {
+    const double angle = i, z = 2.0 * i / kPoints - 1, radius = std::sqrt(1 - z * z);
+    hull.addPoint(sizes(radius * std::cos(angle), radius * std::sin(angle), z), false);
+  }
+  FluidBodyCache cache(coarse());
+  const auto body = cache.fluidBody(hull);
+  const std::size_t bytes = test::allocatedBytes();
+  EXPECT_EQ(cache.fluidBody(hull), body);
+  constexpr double kOfPoints = 3.0 * kPoints * sizeof(double);
+  EXPECT_LT(static_cast<double>(test::allocatedBytes() - bytes), 8 * kOfPoints);
 }
 
 TEST(FluidBodyCache, KnowsHullsByTheirLocalScaling) {

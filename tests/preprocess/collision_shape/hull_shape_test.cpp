@@ -8,6 +8,10 @@
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
+#include "preprocess/added_mass_tables/known_added_mass.h"
+#include "preprocess/collision_shape/solids.h"
+#include "preprocess/mesh/mass_properties.h"
+#include "preprocess/mesh/shapes/convex_hull.h"
 #include "preprocess/potential_flow/results/refined_flow.h"
 #include "tests/preprocess/collision_shape/shape_fixtures.h"
 #include "tests/reference/body_added_mass.h"
@@ -159,6 +163,74 @@ TEST(HullShape, FewPanelsDoForAPolyhedron) {
   EXPECT_GT(many.panels, 2 * few.panels);
   EXPECT_LT(test::rotationError(few.added_mass, many.added_mass), 1e-2);
   EXPECT_LT(test::translationError(few.added_mass, many.added_mass), 5e-3);
+}
+
+/// Two polygons of so many corners on circles of radius 0.3 and `radius`, 0.5 apart, around x;
+/// rounded to 1e-4 of their extents, as Bullet does.
+btConvexHullShape drum(int corners, double radius = 0.3) {
+  btConvexHullShape hull;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2 * kPi * i / corners, y = std::sin(angle), z = std::cos(angle);
+    hull.addPoint(toBullet(Vector3(0.1, 0.3 * y, 0.3 * z)), false);
+    hull.addPoint(toBullet(Vector3(0.6, radius * y, radius * z)), false);
+  }
+  hull.recalcLocalAabb();
+  hull.optimizeConvexHull();
+  return hull;
+}
+
+TriangleMesh meshOf(const btConvexHullShape& hull) {
+  Eigen::Matrix3Xd points(3, hull.getNumPoints());
+  for (int i = 0; i < hull.getNumPoints(); ++i)
+    points.col(i) = toVector3(hull.getUnscaledPoints()[i]);
+  return makeConvexHull(points, "drum");
+}
+
+TEST(HullShape, AHullOfManySidesIsSolvedOnFewCompactPanels) {
+  const btConvexHullShape hull = drum(60, 0.2);
+  const TriangleMesh mesh = meshOf(hull);
+  PotentialFlowSettings settings;
+  settings.polyhedron = settings.convex = true;
+  settings.max_panels = 1500;
+  EXPECT_LE(solveRefinedFlow(evenlyDivided(mesh, 1300), settings).panels, 1000);
+  settings.convex = false;
+  settings.max_panels = static_cast<int>(kMostDensePanels);
+  const RefinedFlow many = solveRefinedFlow(mesh, settings);
+  EXPECT_GT(many.panels, 2000);
+  const FluidBody body = makeFluidBody(hull);
+  EXPECT_LT(test::rotationError(body.added_mass, many.added_mass), 1.5e-2);
+  EXPECT_LT(test::translationError(body.added_mass, many.added_mass), 5e-3);
+}
+
+bool isTabulated(const btCollisionShape& shape) {
+  return describeCollisionShape(shape).settings.find(addedMassTablesName()) != std::string::npos;
+}
+
+TEST(HullShape, DrumsOfManyCornersAreCylindersOfTheirVolume) {
+  constexpr int kCorners = 24;
+  const btConvexHullShape hull = drum(kCorners);
+  ASSERT_TRUE(isTabulated(hull));
+  const FluidBody body = makeFluidBody(hull);
+  const double volume = computeMassProperties(meshOf(hull)).volume;
+  EXPECT_NEAR(body.volume / volume, 1, 3e-4);
+  EXPECT_NEAR(body.centre_of_volume.x(), 0.35, 1e-4);
+  PotentialFlowSettings settings;
+  settings.polyhedron = true;
+  settings.max_panels = 3000;
+  const RefinedFlow flow = solveRefinedFlow(meshOf(hull), settings);
+  EXPECT_LT(test::rotationError(body.added_mass, flow.added_mass), 1e-2);
+  EXPECT_LT(test::translationError(body.added_mass, flow.added_mass), 5e-3);  // measured 3.0e-3
+}
+
+TEST(HullShape, OtherHullsAreNoCylinders) {
+  EXPECT_TRUE(isTabulated(drum(32)));
+  EXPECT_FALSE(isTabulated(drum(23)));
+  btConvexHullShape with_tip = drum(32);
+  with_tip.addPoint(btVector3(btScalar(0.61), 0, 0));
+  EXPECT_FALSE(isTabulated(with_tip));
+  btConvexHullShape oval = drum(32);
+  oval.setLocalScaling(btVector3(1, 1, btScalar(1.01)));
+  EXPECT_FALSE(isTabulated(oval));
 }
 
 TEST(HullShape, LocalScalingCounts) {

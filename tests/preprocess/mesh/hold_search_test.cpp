@@ -18,7 +18,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-double volumeOf(const TriangleMesh& mesh) { return tetrahedraVolume(mesh, mesh.bounds().center()); }
+double roomOf(const TriangleMesh& mesh) { return tetrahedraVolume(mesh, mesh.bounds().center()); }
 
 /// Finds the holds and checks what holds of every vessel: all surfaces are closed, and the volume
 /// of the closed vessel is that of walls and holds.
@@ -26,14 +26,14 @@ Vessel vesselOf(const TriangleMesh& mesh, const HoldSearch& search = {}) {
   Vessel vessel = findHolds(mesh, search, "mesh");
   if (vessel.holds.empty()) return vessel;
   EXPECT_TRUE(isClosed(computeMeshEdges(vessel.closed)));
-  double sum = volumeOf(mesh);
+  double sum = roomOf(mesh);
   for (const Hold& hold : vessel.holds) {
     const TriangleMesh own = meshOf(hold.surface);
     EXPECT_TRUE(isClosed(computeMeshEdges(own)));
     EXPECT_GT(hold.volume, 0);
-    sum += volumeOf(own);
+    sum += roomOf(own);
   }
-  EXPECT_NEAR(volumeOf(vessel.closed), sum, 1e-12 * sum);
+  EXPECT_NEAR(roomOf(vessel.closed), sum, 1e-12 * sum);
   return vessel;
 }
 
@@ -83,7 +83,7 @@ TEST(HoldSearch, BargeHasItsRoom) {
   ASSERT_EQ(vessel.holds.size(), 1u);
   const Hold& hold = vessel.holds[0];
   EXPECT_NEAR(hold.volume, kBarge, 1e-14);
-  EXPECT_NEAR(volumeOf(vessel.closed), 1, 1e-14);
+  EXPECT_NEAR(roomOf(vessel.closed), 1, 1e-14);
   EXPECT_TRUE(hold.centre.isApprox(Vector3d(0, 0, 0.26), 1e-12));
   ASSERT_EQ(hold.openings.size(), 1u);
   EXPECT_EQ(hold.openings[0].to, -1);
