@@ -100,7 +100,7 @@ TEST(BodyModel, RejectsInputThatIsNotPhysicalInOneSentence) {
       {[](Input& i) { i.medium.density = kNan; }, "density of the medium [kg/m^3] is nan",
        "finite"},
       {[](Input& i) { i.medium.viscosity = -1e-3; }, "viscosity of the medium [Pa s] is -0.001",
-       "zero or positive"},
+       "from 0 to 1e24"},
       {[](Input& i) { i.medium.velocity.y() = kNan; }, "speed of the medium [m/s] is nan",
        "finite"},
       {[](Input& i) { i.medium.acceleration.z() = kInfinity; },

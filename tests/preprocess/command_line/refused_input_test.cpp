@@ -52,7 +52,9 @@ TEST_F(CommandLine, BrokenMeshesAreBuiltWithOneLineUnlessStrict) {
     const ProgramResult built =
         run({"build", input, "-o", path("out.ambient"), "--panels", "0", "--json"});
     EXPECT_EQ(built.exit_code, 0) << built.errors;
-    EXPECT_EQ(std::count(built.errors.begin(), built.errors.end(), '\n'), 1) << built.errors;
+    EXPECT_EQ(built.errors.find("; wrapped with"), built.errors.rfind("; wrapped with"))
+        << built.errors;
+    if (volume > 8) EXPECT_NE(built.errors.find("is not resolved"), std::string::npos);
     EXPECT_EQ(built.errors.find("warning: " + input + ": not watertight: "), 0u) << built.errors;
     EXPECT_NEAR(json::parse(built.output)["volume"].get<double>(), volume, 0.02 * volume);
     EXPECT_EQ(readFluidBody(path("out.ambient")).name, "mesh");
