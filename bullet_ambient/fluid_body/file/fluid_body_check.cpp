@@ -227,7 +227,7 @@ void checkViscousLimits(const FluidBody& body, const Checker& check) {
   const Vector3 middle = (vertices.rowwise().minCoeff() + vertices.rowwise().maxCoeff()) / 2;
   const double radius = (vertices.colwise() - middle).colwise().norm().maxCoeff();
   const double reach = vertices.colwise().norm().maxCoeff();
-  const auto largest = [](const Matrix3& block) { return symmetricEigen(block).values[2]; };
+  const auto largest = [](const Matrix3& block) { return symmetricEigen<3>(block).values[2]; };
   const Matrix6& R = form.resistance;
   check.atMost(largest(R.bottomRightCorner<3, 3>()), 6 * kPi * radius,
                "resistance to translation [m]", "that of the ball around the body");

@@ -54,7 +54,7 @@ TEST_F(CommandLine, BrokenMeshesAreBuiltWithOneLineUnlessStrict) {
     EXPECT_EQ(built.exit_code, 0) << built.errors;
     EXPECT_EQ(built.errors.find("; wrapped with"), built.errors.rfind("; wrapped with"))
         << built.errors;
-    if (volume > 8) EXPECT_NE(built.errors.find("is not resolved"), std::string::npos);
+    EXPECT_EQ(volume > 8, built.errors.find("is not resolved") != std::string::npos);
     EXPECT_EQ(built.errors.find("warning: " + input + ": not watertight: "), 0u) << built.errors;
     EXPECT_NEAR(json::parse(built.output)["volume"].get<double>(), volume, 0.02 * volume);
     EXPECT_EQ(readFluidBody(path("out.ambient")).name, "mesh");

@@ -144,7 +144,12 @@ inline void expectSavedStatesGoOn(const Scene& scene, int rounds = 1) {
       simulation.step();
       other.step();
     }
-    EXPECT_TRUE(other.saveState() == simulation.saveState()) << scene.name << ", " << round;
+    const std::vector<MotionSample> there = other.sample(), here = simulation.sample();
+    for (std::size_t body = 0; body < bodies.size(); ++body) {
+      EXPECT_EQ(there[body].position, here[body].position) << scene.name << ", " << round;
+      EXPECT_EQ(there[body].twist.vector(), here[body].twist.vector())
+          << scene.name << ", " << round;
+    }
   }
 }
 
