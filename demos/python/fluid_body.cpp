@@ -110,6 +110,19 @@ py::tuple massOf(const MassDistribution& mass) {
   return py::make_tuple(arrayOf(mass.centre), arrayOf(mass.inertia));
 }
 
+py::list holdsOf(const FluidBody& body) {
+  py::list holds;
+  for (const Hold& hold : body.holds) {
+    py::dict facts;
+    facts["name"] = hold.name;
+    facts["volume"] = hold.volume;
+    facts["centre"] = arrayOf(hold.centre);
+    facts["openings"] = hold.openings.size();
+    holds.append(facts);
+  }
+  return holds;
+}
+
 void bindProperties(py::class_<FluidBody, FluidBodyPtr>& type) {
   const auto get = [&type](const char* name, auto function, const char* doc) {
     type.def_property_readonly(name, function, doc);
@@ -156,20 +169,7 @@ void bindProperties(py::class_<FluidBody, FluidBodyPtr>& type) {
   get(
       "waterline_table", [](const FluidBody& b) { return b.waterline.subdivisions; },
       "Number of divisions of the table of added mass at the surface of water; 0: no table.");
-  get(
-      "holds",
-      [](const FluidBody& b) {
-        py::list holds;
-        for (const Hold& hold : b.holds) {
-          py::dict facts;
-          facts["name"] = hold.name;
-          facts["volume"] = hold.volume;
-          facts["centre"] = arrayOf(hold.centre);
-          facts["openings"] = hold.openings.size();
-          holds.append(facts);
-        }
-        return holds;
-      },
+  get("holds", holdsOf,
       "Rooms that stay dry: name, volume [m^3], centre (3,) in F [m], number of openings.");
   get(
       "settings", [](const FluidBody& b) { return b.provenance.settings; },

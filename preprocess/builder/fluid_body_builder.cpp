@@ -136,6 +136,32 @@ WaterlineTable waterlineOf(const FluidBody& body, const BuildSettings& settings)
   }
 }
 
+/// Solves the flow about a mesh. Sets the added mass of the body, and where boundary layers leave
+/// it.
+void takeFlow(const TriangleMesh& mesh, const BuildSettings& settings, FluidBody& body,
+              KnownViscousFlow& viscous_flow) {
+  tellStage(settings, "solving the flow");
+  const RefinedFlow flow = solveFlow(mesh, settings);
+  if (flow.is_coarse && settings.warn) {
+    settings.warn(
+        sourceOf(settings) +
+        ": its long triangles leave too few panels across its edges: the added mass may be some, "
+        "at worst tens of per cent off; cut them into shorter ones, or give more panels");
+  }
+  body.added_mass = flow.added_mass;
+  body.added_mass_parts = flow.parts;
+  body.asymmetry = flow.asymmetry;
+  if (settings.flow.sheet) return;
+  const MeshSeparation found = computeSeparation(flow.surface, flow.potential.rightCols<3>(),
+                                                 translationAxes(flow.added_mass));
+  viscous_flow.separation = found.separation;
+  if (!found.is_resolved && settings.warn) {
+    settings.warn(sourceOf(settings) +
+                  ": the flow at its edges or in its hollows is not resolved: friction of "
+                  "layers came out negative there and counts as 0; smaller triangles help");
+  }
+}
+
 }  // namespace
 
 std::string libraryVersion() {
@@ -183,27 +209,7 @@ FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& se
     body.added_mass = shiftOrigin(*settings.added_mass, origin);
     body.added_mass_parts = placed(settings.added_mass_parts, 1, -origin);
   } else {
-    tellStage(settings, "solving the flow");
-    const RefinedFlow flow = solveFlow(mesh, settings);
-    if (flow.is_coarse && settings.warn) {
-      settings.warn(
-          sourceOf(settings) +
-          ": its long triangles leave too few panels across its edges: the added mass may be some, "
-          "at worst tens of per cent off; cut them into shorter ones, or give more panels");
-    }
-    body.added_mass = flow.added_mass;
-    body.added_mass_parts = flow.parts;
-    body.asymmetry = flow.asymmetry;
-    if (!settings.flow.sheet) {
-      const MeshSeparation found = computeSeparation(flow.surface, flow.potential.rightCols<3>(),
-                                                     translationAxes(flow.added_mass));
-      viscous_flow.separation = found.separation;
-      if (!found.is_resolved && settings.warn) {
-        settings.warn(sourceOf(settings) +
-                      ": the flow at its edges or in its hollows is not resolved: friction of "
-                      "layers came out negative there and counts as 0; smaller triangles help");
-      }
-    }
+    takeFlow(mesh, settings, body, viscous_flow);
   }
   requireFinite(body.added_mass, mesh, sourceOf(settings));
   body.volume = properties.volume;

@@ -64,6 +64,33 @@ Vector6 midpoint(const LockedRates& rates, const Vector6& x, double dt) {
   return mid;
 }
 
+// Returns the mean acceleration over the step by a load at a twist relative to the fluid, and by
+// the resistance. `locked`: the model of the task with the inverse inertia that the locks leave.
+Vector6 accelerationBy(const SurfaceLoad& load, const FlightTask& task, const BodyModel& locked,
+                       const Twist& relative) {
+  const double dt = task.duration;
+  const Vector6 x = relative.vector();
+  const PairsOf<double> motion = plain(pairOfTwist(locked, x));
+  Vector6 acceleration;
+  if (turnsWithFluid(task.surroundings)) {
+    const Wrench mean = meanLoadInTurningFluid(task, locked, relative, load.wrench);
+    acceleration = locked.inverse_inertia * mean.vector();
+  } else {
+    // The wrench that K^-1 would need for the acceleration that the locks allow.
+    const PairsOf<double> sample =
+        plain(pairOfTwist(locked, locked.inverse_inertia * load.wrench.vector()));
+    acceleration = (asEigen(passiveKick(motion, motion, sample, dt).twist) - x) / dt;
+  }
+  if (!locked.resistance || !(load.growth.translation > 0)) return acceleration;
+  const SymmetricOf<double> K = plain(task.model.inertia);
+  const SymmetricOf<double> inverse = plain(task.model.inverse_inertia);
+  const SymmetricOf<double> C = plain(locked.resistance->grown(load.growth));
+  const Settling<double> terms(K, inverse, C);
+  const Vector6 settled =
+      asEigen((settle<double>(motion, noWrench<double>(), terms, 0, dt) - motion).momentum);
+  return acceleration + locked.inverse_inertia * settled / dt;
+}
+
 }  // namespace
 
 Matrix6 freeInertia(const Matrix6& inertia_W, const AxisFactors& factors) {
@@ -108,26 +135,7 @@ RowVelocity computeLockedVelocity(const FlightTask& task, const RigidState& star
   if (result.settled_inertia) {
     forced += model.inverse_inertia * wholeLoad(load, model.resistance.get(), relative).vector();
   } else if (model.loads) {
-    if (turnsWithFluid(s)) {
-      const Wrench mean = meanLoadInTurningFluid(task, model, relative, load.wrench);
-      forced += model.inverse_inertia * mean.vector();
-    } else {
-      const PairsOf<double> motion = plain(pairOfTwist(model, x));
-      // The wrench that K^-1 would need for the acceleration that the locks allow.
-      const PairsOf<double> sample =
-          plain(pairOfTwist(model, model.inverse_inertia * load.wrench.vector()));
-      forced += (asEigen(passiveKick(motion, motion, sample, dt).twist) - x) / dt;
-    }
-    if (model.resistance && load.growth.translation > 0) {
-      const SymmetricOf<double> K = plain(task.model.inertia);
-      const SymmetricOf<double> inverse = plain(task.model.inverse_inertia);
-      const SymmetricOf<double> C = plain(model.resistance->grown(load.growth));
-      const Settling<double> terms(K, inverse, C);
-      const PairsOf<double> motion = plain(pairOfTwist(model, x));
-      const Vector6 settled =
-          asEigen((settle<double>(motion, noWrench<double>(), terms, 0, dt) - motion).momentum);
-      forced += model.inverse_inertia * settled / dt;
-    }
+    forced += accelerationBy(load, task, model, relative);
   }
   const LockedRates rates(model.inertia, model.inverse_inertia, forced);
   const DualPair turned = pairOfTwist(model, dt * (rates.acceleration(x) - forced));

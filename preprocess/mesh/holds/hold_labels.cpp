@@ -49,7 +49,8 @@ class Watershed {
   /// Labels the faces at the farthest points to the sides and below that look there.
   void seedOutside() {
     for (int i = 0; i < 27; ++i) {
-      const Eigen::Vector3d way(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+      const Eigen::Vector3d way =
+          Eigen::Vector3i(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1).cast<double>();
       if (way.isZero(0) || way.dot(up_) > way.norm() / 2) continue;
       const Eigen::VectorXd far = mesh_.vertices.transpose() * way;
       const double farthest = far.maxCoeff() - kLabelRounding * size_;

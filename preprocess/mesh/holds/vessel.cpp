@@ -37,7 +37,7 @@ std::string holdText(const Hold& hold, double unit) {
 
 Matrix3 turningInertia(const Matrix3& inertia) {
   constexpr double kPi5 = kPi * kPi * kPi * kPi * kPi;
-  const SymmetricEigen<3> principal = symmetricEigen(inertia);
+  const SymmetricEigen<3> principal = symmetricEigen<3>(inertia);
   const Vector3 squares =  // of the sides of the box with these moments
       6 * (Vector3::Constant(principal.values.sum()) - 2 * principal.values).cwiseMax(0);
   Vector3 turning;
