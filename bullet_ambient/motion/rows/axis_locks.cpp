@@ -64,31 +64,30 @@ Vector6 midpoint(const LockedRates& rates, const Vector6& x, double dt) {
   return mid;
 }
 
-// Returns the mean acceleration over the step by a load at a twist relative to the fluid, and by
-// the resistance. `locked`: the model of the task with the inverse inertia that the locks leave.
-Vector6 accelerationBy(const SurfaceLoad& load, const FlightTask& task, const BodyModel& locked,
-                       const Twist& relative) {
+// Adds the mean acceleration over the step by a load at a twist relative to the fluid, and by the
+// resistance. `locked`: the model of the task with the inverse inertia that the locks leave.
+void addLoad(const SurfaceLoad& load, const FlightTask& task, const BodyModel& locked,
+             const Twist& relative, Vector6& acceleration) {
   const double dt = task.duration;
   const Vector6 x = relative.vector();
   const PairsOf<double> motion = plain(pairOfTwist(locked, x));
-  Vector6 acceleration;
   if (turnsWithFluid(task.surroundings)) {
     const Wrench mean = meanLoadInTurningFluid(task, locked, relative, load.wrench);
-    acceleration = locked.inverse_inertia * mean.vector();
+    acceleration += locked.inverse_inertia * mean.vector();
   } else {
     // The wrench that K^-1 would need for the acceleration that the locks allow.
     const PairsOf<double> sample =
         plain(pairOfTwist(locked, locked.inverse_inertia * load.wrench.vector()));
-    acceleration = (asEigen(passiveKick(motion, motion, sample, dt).twist) - x) / dt;
+    acceleration += (asEigen(passiveKick(motion, motion, sample, dt).twist) - x) / dt;
   }
-  if (!locked.resistance || !(load.growth.translation > 0)) return acceleration;
+  if (!locked.resistance || !(load.growth.translation > 0)) return;
   const SymmetricOf<double> K = plain(task.model.inertia);
   const SymmetricOf<double> inverse = plain(task.model.inverse_inertia);
   const SymmetricOf<double> C = plain(locked.resistance->grown(load.growth));
   const Settling<double> terms(K, inverse, C);
   const Vector6 settled =
       asEigen((settle<double>(motion, noWrench<double>(), terms, 0, dt) - motion).momentum);
-  return acceleration + locked.inverse_inertia * settled / dt;
+  acceleration += locked.inverse_inertia * settled / dt;
 }
 
 }  // namespace
@@ -135,7 +134,7 @@ RowVelocity computeLockedVelocity(const FlightTask& task, const RigidState& star
   if (result.settled_inertia) {
     forced += model.inverse_inertia * wholeLoad(load, model.resistance.get(), relative).vector();
   } else if (model.loads) {
-    forced += accelerationBy(load, task, model, relative);
+    addLoad(load, task, model, relative, forced);
   }
   const LockedRates rates(model.inertia, model.inverse_inertia, forced);
   const DualPair turned = pairOfTwist(model, dt * (rates.acceleration(x) - forced));
