@@ -200,6 +200,32 @@ TEST(TinyVelocity, ATorqueOfATraceDoesNotTurnABodyWithRows) {
   scene.world.removeConstraint(&joint);
 }
 
+TEST(TinyVelocity, NewtonsCradleHasNone) {
+  constexpr double kBall = 0.05, kLength = 1, kAngle = 0.7;
+  FluidWorld scene;
+  scene.world.setGravity({0, bt(-9.81), 0});
+  btSphereShape shape(bt(kBall));
+  std::vector<btRigidBody*> balls;
+  for (int i = 0; i < 5; ++i) {
+    const double angle = i == 0 ? kAngle : 0;
+    const Vector3 rod(std::sin(angle), std::cos(angle), 0);
+    BodyDef def = ballOf(4, kBall);
+    def.shape = &shape;
+    def.start.position = Vector3(2 * kBall * i, 0, 0) - kLength * rod;
+    balls.push_back(&scene.add(def, ball(kBall), air()));
+    balls.back()->setRestitution(1);
+    scene.contents.take(
+        std::make_unique<btPoint2PointConstraint>(*balls.back(), toBullet(kLength * rod)));
+  }
+  for (int i = 0; i < 600; ++i) {
+    scene.step(kTinyStep);
+    for (const btRigidBody* body : balls) {
+      ASSERT_FALSE(isTiny(body->getAngularVelocity())) << i;
+      ASSERT_FALSE(isTiny(body->getLinearVelocity())) << i;
+    }
+  }
+}
+
 TEST(TinyVelocity, WhatCountsIsNotTouched) {
   FluidWorld scene;
   btRigidBody& body = scene.add(ballOf(5, kBallRadius), ball(kBallRadius), water());
