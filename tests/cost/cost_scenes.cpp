@@ -76,7 +76,8 @@ void fillStacks(CostWorld& world, int count) {
           btTransform(btQuaternion(vectorOf(0, 0, 1), static_cast<btScalar>(turn)), position));
   };
   const double pi = std::acos(-1.0);
-  for (double east = 0; left > 0; east += 60) {
+  double east = 0;
+  while (left > 0) {
     for (int layer = 0; layer < 6; ++layer)  // pyramid
       for (int i = 0; i < (6 - layer) * (6 - layer); ++i)
         addBox(vectorOf(east + 2.04 * (i % (6 - layer)) + 1.02 * layer,
@@ -92,6 +93,7 @@ void fillStacks(CostWorld& world, int count) {
                angle);
       }
     }
+    east += 60;
   }
 }
 
