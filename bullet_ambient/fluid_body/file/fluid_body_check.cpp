@@ -16,7 +16,7 @@ namespace {
 // Tolerance for conditions that hold exactly but for the rounding of some thousand operations.
 constexpr double kRounding = 1e-9;
 
-// Of the volume of a hold against that of its triangles: coordinates far from the origin.
+// Rounding error of the volume inside triangles far from the origin, relative to it.
 constexpr double kHoldRounding = 1e-6;
 
 // Largest distance from the origin in sizes of the body: the preprocessor's own limit. Beyond,

@@ -15,7 +15,7 @@ class PackedHull {
  public:
   /// Cost: O(T log T). @throws std::invalid_argument as requirePrepared().
   explicit PackedHull(const FluidBody& body);
-  /// Of a closed surface as it is, such as that of a hold.
+  /// Packs the triangles of a closed surface, such as that of a hold.
   explicit PackedHull(const Surface& surface);
 
   HullBlocks blocks() const { return {blocks_.data(), moments_.data(), blocks_.size()}; }

@@ -74,8 +74,8 @@ class ViscousLaw {
   Scalars scalars(const Twist& x) const noexcept;
   /// Lambda of eq. (113); `power`: -F_P.x of the pressure [W], eq. (111).
   Growth growth(const Scalars& s, double power) const noexcept;
-  /// What only smooth bodies have, about O for the motion there: c times the lift of the tail, eq.
-  /// (115), and its drag; what eq. (116) and (117) add to the lift of the rotation (47).
+  /// Returns the wrench about O, for the motion there, that only smooth bodies have: c times lift
+  /// and drag of the tail, eq. (115), and what (116) and (117) add to the lift of rotation (47).
   Wrench smoothLoad(const Scalars& s, const Vector3& w, const Vector3& v) const noexcept;
   /// Friction of the smooth share's layer, eq. (114), at O for the velocity there.
   Vector3 layerForce(const Scalars& s, const Vector3& v) const noexcept;
@@ -103,7 +103,7 @@ class ViscousLaw {
   Vector3 share_{0, 0, 0};  ///< chi_j
   bool is_smooth_ = false;
 
-  // Of smooth bodies.
+  // Constants that only smooth bodies have.
   Ways thickness_sq_, layer_;               ///< N^2, x of eq. (107)
   Ways laminar_, bubble_, smooth_, rough_;  ///< sigma of eq. (106)
   Ways bubble_friction_, nose_friction_;    ///< A_j chi_j f_B, A_j chi_j f_T of eq. (114) [m^2]

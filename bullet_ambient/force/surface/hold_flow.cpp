@@ -107,7 +107,8 @@ double volumeThrough(const OpeningShape& opening, const Upward& up, const WaterS
   constexpr int kMostSteps = 60;
   constexpr double kAccuracy = 1e-12;  // of the explicit step
   AMBIENT_ASSERT(duration >= 0 && from.area > 0 && to.area > 0);
-  // What would have flowed at the levels after q, less q: falls with q.
+  // Returns the flow at the levels that a volume q leaves, times the duration, less q. Falls with
+  // q.
   const auto excess = [&](double q) {
     return duration *
                flowThrough(opening, up, from.height - q / from.area, to.height + q / to.area) -
