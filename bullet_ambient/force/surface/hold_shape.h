@@ -29,6 +29,7 @@ struct HoldFill {
 /// Finds the level of water in a hold: Newton's method on V(h), whose derivative is the area of the
 /// level, between brackets, docs/theory.md eq. (136). Cost: two to four computeWetVolume() from a
 /// good guess; allocates nothing.
+/// @param shape the hold, in the frame of the normal
 /// @param normal unit, out of the water
 /// @param volume [m^3]; up to 1e-9 of the hold it is empty, from 1 - 1e-9 on full
 /// @param guess height to begin with, such as the last one [m]
@@ -38,6 +39,8 @@ HoldFill fillHold(const HoldShape& shape, const Vector3& normal, double volume,
 /// Takes what stands in a hold off the wet part of a closed vessel, docs/theory.md eq. (135).
 /// Volume, moment and depth integral become those of both; the waterplane remains that outside.
 /// @param wet of the closed vessel below the plane; in the frame of both planes
+/// @param plane of the water outside
+/// @param fill of the hold, by fillHold() along the same normal
 WetVolume withWaterInside(WetVolume wet, const SurfacePlane& plane, const HoldFill& fill) noexcept;
 
 }  // namespace ambient

@@ -27,6 +27,7 @@ struct HoldSearch {
 /// sides: a hold with a hole in its lowest place has pools then, and two openings. Cost O(T log T)
 /// for each direction.
 /// @param mesh closed, manifold and outward: a checked body
+/// @param search direction up and unit
 /// @param name begins each line
 Vessel findHolds(const TriangleMesh& mesh, const HoldSearch& search, const std::string& name);
 

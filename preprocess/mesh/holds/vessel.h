@@ -24,6 +24,7 @@ struct Rim {
 Rim rimOf(const HoldOpening& opening);
 
 /// Says what a hold is, in half a line: "hold of 0.9 m^3, rim 5.84 m round at (0, 0, 0.5)".
+/// @param hold in any unit of length
 /// @param unit a length of 1 of the hold in metres
 std::string holdText(const Hold& hold, double unit = 1);
 
