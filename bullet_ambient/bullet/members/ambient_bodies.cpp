@@ -1,5 +1,7 @@
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+
 #include <stdexcept>
 #include <string>
 #include <utility>

@@ -71,6 +71,7 @@ bool prepareFluid(AmbientBody& ambient, const StepStart& start, AmbientBodies& b
                   double time_step) noexcept {
   AMBIENT_ASSERT(time_step >= 0);
   const bool may_be_in_region = mayBeInRegion(ambient, bodies.regions);
+  AMBIENT_ASSERT(start.now || !may_be_in_region);
   if (may_be_in_region) {
     followRegions(ambient, *start.now, bodies.regions, time_step, bodies.complaints);
   } else {
