@@ -276,17 +276,18 @@ struct KickStep {
   }
 };
 
-// Twice the kinetic energy, and the potential energy of forces that are constant over the step, eq.
-// (25a) [J].
+// Twice the kinetic energy, the potential energy of forces that are constant over the step, eq.
+// (25a), and what of it the way since the start has added [J].
 struct Energies {
-  Lanes kinetic2, potential;
+  Lanes kinetic2, potential, risen;
 };
 inline Energies energies(const FlightLanes& bodies, int at) {
   const Pairs x = motionOf(bodies, at);
   const Vectors buoyancy = load(bodies.buoyancy_W, at);
   const Vectors arm = orientationOf(bodies, at).toWorld(load(bodies.centre_of_volume_B, at));
   const Vectors force = load(bodies.force_W, at) + buoyancy;
-  return {inner(x, x), Lanes{} - dot(force, load(bodies.way_W, at)) - dot(buoyancy, arm)};
+  const Lanes risen = Lanes{} - dot(force, load(bodies.way_W, at));
+  return {inner(x, x), risen - dot(buoyancy, arm), risen};
 }
 
 struct MeasureStep {
@@ -303,10 +304,15 @@ struct BoundStep {
     const Lanes zero = Lanes{};
     const Vectors torque = load(bodies.torque_W, at);
     const Energies now = energies(bodies, at);
-    const Lanes allowed = larger(2 * (load(bodies.energy + at) - now.potential), zero);
+    const Lanes left = load(bodies.energy + at) - now.potential;
+    const Lanes allowed = larger(2 * left, zero);
     const Mask gains = active & (now.kinetic2 > allowed) & (dot(torque, torque) == zero);
     if (!anyOf(gains)) return;
-    const Lanes removed = gains ? 0.5 * (now.kinetic2 - allowed) : zero;
+    const Mask rises = gains & (left < zero) & (now.risen > zero);
+    const Lanes back = rises ? zero - larger(left, zero - now.risen) : zero;
+    const Lanes kept = zero + 1 - back / (rises ? now.risen : zero + 1);
+    store(bodies.way_W, at, kept * load(bodies.way_W, at));
+    const Lanes removed = gains ? 0.5 * (now.kinetic2 - allowed) + back : zero;
     store(bodies.energy_removed + at, load(bodies.energy_removed + at) + removed);
     setMotion(bodies, at, gains, scaleWithin(now.kinetic2, allowed) * motionOf(bodies, at));
   }

@@ -120,7 +120,8 @@ struct FlightKernel {
   void (*kick)(FlightLanes&) noexcept;
   /// Sets `energy` to the kinetic and potential energy of the present state.
   void (*measure)(FlightLanes&) noexcept;
-  /// Scales motions down to the measured energy if it is exceeded and torque_W is 0, eq. (25a).
+  /// Scales motions down to the measured energy if it is exceeded and torque_W is 0, eq. (25a); a
+  /// way that has cost more than that is shortened.
   void (*bound)(FlightLanes&) noexcept;
 
   // For bodies that constraint rows may move; for all lanes of a register with an active body.

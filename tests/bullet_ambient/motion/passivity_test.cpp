@@ -117,6 +117,27 @@ TEST(Leapfrog, CountsTheEnergyThatItsBoundRemoves) {
   EXPECT_GT(bounded, 10);
 }
 
+// A plate like a flake of air in water flutters upwards. Where it slides down a step is longer than
+// the time in which the water stops it: what it has cannot pay for its way, eq. (25a).
+TEST(Leapfrog, AFlakeThatFluttersNeverGainsEnergy) {
+  for (int seed = 1; seed <= 20; ++seed) {
+    Arbitrary arbitrary(static_cast<unsigned>(seed));
+    const Vector3 semi_axes(5e-4, 5e-4, 2.5e-6);
+    const FluidBody shape = test::meshedEllipsoid(semi_axes, 1);
+    const double mass = 1e-3 * water().density * shape.volume;
+    FreeBody body(
+        {shape, {mass, test::ellipsoidMoments(semi_axes, mass).asDiagonal()}, water(), {}});
+    body.setGravity({0, 0, -9.81});
+    body.state.orientation = Quaternion(arbitrary.rotation());
+    body.state.twist = arbitrary.twist(10, 1);
+    for (int n = 0; n < 240; ++n) {
+      const double before = body.totalEnergy();
+      body.advance(1.0 / 120);
+      EXPECT_LE(body.totalEnergy() - before, 1e-13 * std::abs(before)) << seed << " step " << n;
+    }
+  }
+}
+
 // Largest relative change of energy of a swing, in the first and last tenth of a minute. The body
 // has no faces and swings about its centre of volume.
 struct EnergySwing {
