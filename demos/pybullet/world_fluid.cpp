@@ -233,11 +233,13 @@ WorldFluid::Found WorldFluid::find(int body, int link) const {
 
 void WorldFluid::choose(int body, int link, const ChosenBody& chosen, FluidBodySource& shapes) {
   const Found found = find(body, link);
-  const btCollisionShape* shape = found.collider ? found.collider->getCollisionShape() : nullptr;
-  if (chosen.file.empty() && !shape)
-    throw std::invalid_argument("body: it has no collision shape; choose a file");
-  AttachDef def =
-      definitionOf(chosen, chosen.file.empty() ? shapes.fluidBody(*shape) : nullptr, found.mass);
+  std::shared_ptr<const FluidBody> made;
+  if (chosen.file.empty()) {
+    const btCollisionShape* shape = found.collider ? found.collider->getCollisionShape() : nullptr;
+    if (!shape) throw std::invalid_argument("body: it has no collision shape; choose a file");
+    made = shapes.fluidBody(*shape);
+  }
+  AttachDef def = definitionOf(chosen, std::move(made), found.mass);
   if (found.collider) def.name = nameOf(*found.collider);
   exclude(body, link);  // from what is added by its collision shape
   const Immersed member = found.rigid ? fluid_.add(*found.rigid, std::move(def))
