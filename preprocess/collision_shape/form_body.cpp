@@ -325,12 +325,11 @@ PotentialFlowSettings flowSettingsFor(const std::vector<Solid>& solids, const Sh
   return flow;
 }
 
-/// The resistance of polyhedra on half of the panels that others have: that of hulls of links of
-/// robots is within 1.6 % in rotation and 0.4 % in translation of that on 900, in a third of the
-/// time.
+/// The resistance of a single hull, on half of the panels that others have: that of links of robots
+/// is within 1.3 % in rotation and 0.3 % in translation of theirs, in a third of the time.
 std::optional<Matrix6> resistanceOf(const TriangleMesh& mesh, const PotentialFlowSettings& flow) {
   constexpr int kPanels = 150;
-  if (!flow.polyhedron) return std::nullopt;
+  if (!flow.convex) return std::nullopt;
   return computeStokesResistance(mesh, {false, kPanels, flow.threads});
 }
 
