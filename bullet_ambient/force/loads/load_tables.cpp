@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include "bullet_ambient/force/loads/face_loads.h"
 #include "bullet_ambient/force/loads/shared_tables.h"
 #include "bullet_ambient/force/medium/medium.h"
 
@@ -31,6 +32,7 @@ struct BodyTables {
   std::recursive_mutex mutex;  // loads are made of other tables
   std::unique_ptr<const ShapeFactors> shape;
   std::map<std::pair<const FaceTable*, bool>, std::unique_ptr<const PackedFaces>> packed;
+  std::map<const FaceTable*, Vector3> own_drag;
   std::unique_ptr<const PackedHull> hull;
   SharedTables<FluidBody, SurfaceLoads, LoadKey> loads;
   SharedTables<FluidBody, WettedInertia> wetted;
@@ -68,6 +70,18 @@ std::shared_ptr<const PackedFaces> LoadTables::packedFaces(const Faces& faces,
   return tables_.get(body_, tables_.packed[{faces.get(), shape != nullptr}], [&] {
     return shape ? PackedFaces(*faces, shape->shape) : PackedFaces(*faces);
   });
+}
+
+Vector3 LoadTables::ownDrag(const Faces& faces) const {
+  const Lock lock(tables_.mutex);
+  const auto [entry, is_new] = tables_.own_drag.try_emplace(faces.get());
+  if (!is_new) return entry->second;
+  const ViscousForm& viscous = body_->viscous;
+  const Shape factors = shape();
+  for (int j = 0; j < 3; ++j)
+    entry->second[j] = ambient::ownDrag(*faces, *factors, viscous.separation.axes.col(j),
+                                        viscous.surface.frontal[j]);
+  return entry->second;
 }
 
 std::shared_ptr<const PackedHull> LoadTables::hull() const {

@@ -44,6 +44,9 @@ class LoadTables {
   /// the form law of a shape; null: for the published law. Cost: PackedFaces().
   std::shared_ptr<const PackedFaces> packedFaces(const Faces& faces,
                                                  const ShapeFactors* shape) const;
+  /// Returns ownDrag() of faces along the axes of the fluid body's separation. Cost: six sums over
+  /// the faces.
+  Vector3 ownDrag(const Faces& faces) const;
   /// Hull for hydrostatics. Cost: PackedHull().
   std::shared_ptr<const PackedHull> hull() const;
 

@@ -149,22 +149,18 @@ ViscousFluid fluidOf(const LoadSettings& settings) {
 class FormLoads final : public ViscousLoads {
  public:
   /// on_faces: pressure on `faces`.
-  FormLoads(std::shared_ptr<const SurfaceLoads> on_faces, const FaceTable& faces,
-            LoadTables::Shape shape, const FluidBody& body, const LoadSettings& settings,
-            double stall_lag)
+  FormLoads(std::shared_ptr<const SurfaceLoads> on_faces, const LoadTables::Faces& faces,
+            const LoadTables::Body& body, const LoadSettings& settings, double stall_lag)
       : on_faces_(std::move(on_faces)),
-        shape_(std::move(shape)),
-        drag_(body, faces, *shape_),
-        lift_(body, *shape_, stall_lag),
+        shape_(LoadTables(body).shape()),
+        drag_(*body, *faces, *shape_),
+        lift_(*body, *shape_, stall_lag),
         density_(settings.density),
-        centre_(body.centre_of_volume) {
-    if (!(settings.viscosity > 0) || !body.viscous.isKnown()) return;
-    const Matrix3& axes = body.viscous.separation.axes;
+        centre_(body->centre_of_volume) {
+    if (!(settings.viscosity > 0) || !body->viscous.isKnown()) return;
     Vector3 own_drag{0, 0, 0};
-    if (!body.viscous.separation.smooth_base.isZero(0))
-      for (int j = 0; j < 3; ++j)
-        own_drag[j] = ownDrag(faces, *shape_, axes.col(j), body.viscous.surface.frontal[j]);
-    law_.emplace(body, shape_->shape, own_drag, fluidOf(settings));
+    if (!body->viscous.separation.smooth_base.isZero(0)) own_drag = LoadTables(body).ownDrag(faces);
+    law_.emplace(*body, shape_->shape, own_drag, fluidOf(settings));
     if (settings.skin_friction) resistance_ = law_->resistance();
   }
 
@@ -428,8 +424,7 @@ std::shared_ptr<const SurfaceLoads> loadsOnFaces(const Body& body, LoadSettings 
   smooth.shape = shape.get();
   smooth.skin_friction = false;
   auto on_faces = loadsOn(body, faces, smooth, flow.precision);
-  return std::make_shared<FormLoads>(std::move(on_faces), *faces, shape, *body, settings,
-                                     flow.stall_lag);
+  return std::make_shared<FormLoads>(std::move(on_faces), faces, body, settings, flow.stall_lag);
 }
 
 std::shared_ptr<const SurfaceLoads> waterlineLoadsOnFaces(const Body& body, LoadSettings settings,

@@ -32,7 +32,7 @@ struct PotentialFlowSettings {
   /// The body is this polyhedron, and not a round one that its triangles approximate: see
   /// solveRefinedFlow().
   bool polyhedron = false;
-  bool convex = false;  ///< a polyhedron without hollows: many small sides may become fewer
+  bool convex = false;  ///< a polyhedron without hollows: fewer panels do
 };
 
 /// Potentials of the six unit motions and the fluid's inertia, per unit density, about the mesh's

@@ -51,8 +51,9 @@ struct RefinedFlow {
 /// symmetries of the body forbid are removed, however its faces are cut. A mesh of long triangles
 /// on which two divisions disagree gets panels that are cut from compactSurface(), or else four
 /// times as many, unless the dense solver was asked for. Of a polyhedron, settings.polyhedron, all
-/// flat sides are merged before they are divided and none bulges; its divisions disagree from 10 %
-/// on, and it then gets kMostDensePanels.
+/// flat sides are merged before they are divided and none bulges; many small sides become
+/// fewer ones about as long as wide, and of a convex one fewer still. Its divisions disagree from
+/// 10 % on, and it then gets twice as many panels.
 /// @throws std::runtime_error as solvePotentialFlow().
 RefinedFlow solveRefinedFlow(const TriangleMesh& mesh, const PotentialFlowSettings& settings);
 

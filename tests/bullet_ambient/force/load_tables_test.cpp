@@ -6,6 +6,7 @@
 #include <thread>
 #include <vector>
 
+#include "bullet_ambient/force/loads/face_loads.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "bullet_ambient/force/surface/make_wetted_inertia.h"
 #include "preprocess/base/surface_form.h"
@@ -108,6 +109,28 @@ TEST(LoadTables, HaveOneSetOfLoadsPerShapeFluidAndSettings) {
   };
   for (const FlowSettings& other : others) EXPECT_NE(makeSurfaceLoads(body, water(), other), loads);
   EXPECT_NE(makeSurfaceLoads(body, water(), others[6]), makeSurfaceLoads(body, water(), others[6]));
+}
+
+// Sums over all faces, for which a world that is made anew does not wait.
+TEST(LoadTables, KeepTheDragOfEachSetOfFaces) {
+  const auto body = std::make_shared<FluidBody>(test::hullBody(test::geodesicSphere(2)));
+  body->viscous.separation.axes.setIdentity();
+  body->viscous.surface.frontal = {2, 3, 4};
+  const FaceTable& all = body->form.faces;
+  FaceTable half;
+  for (std::size_t i = 0; i < all.size(); i += 2) {
+    half.add(all.normal(i), all.centroid(i), all.area[i]);
+    half.sharpness.push_back(all.sharpness[i]);
+  }
+  const LoadTables tables(body);
+  for (const FaceTable* faces : {&all, static_cast<const FaceTable*>(&half), &all}) {
+    const Vector3 drag = tables.ownDrag({body, faces});
+    for (int j = 0; j < 3; ++j)
+      EXPECT_EQ(drag[j], ownDrag(*faces, *tables.shape(), body->viscous.separation.axes.col(j),
+                                 body->viscous.surface.frontal[j]));
+  }
+  half.area.assign(half.size(), 0);
+  EXPECT_GT(tables.ownDrag({body, &half})[0], 0) << "is not summed again";
 }
 
 TEST(LoadTables, PackTheSharpnessForTheFormLawOnly) {
