@@ -31,7 +31,7 @@ struct WaterShift {
   Vector3 normal;  ///< of the surface, in B
 };
 /// Replaces the water before in an inertia K by that after, and returns the twist thereafter,
-/// docs/theory.md eq. (141): the momentum stays but for a torque along the tilt, by which the
+/// docs/theory.md eq. (142): the momentum stays but for a torque along the tilt, by which the
 /// energy does, too, and it never grows. In B.
 Vector6 shiftWater(const WaterShift& shift, const Vector6& x, SymmetricMatrix& inertia) noexcept;
 
