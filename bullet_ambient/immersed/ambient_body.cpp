@@ -109,7 +109,7 @@ void takeHolds(AmbientBody& ambient) {
     return;
   }
   if (ambient.vessel && ambient.vessel->shape == def.fluid_body) return;
-  ambient.vessel = std::make_unique<Vessel>();
+  ambient.vessel = std::make_unique<VesselState>();
   ambient.vessel->shape = def.fluid_body;
   ambient.vessel->holds.resize(holds.size());
   ambient.vessel->is_known = !def.holds.water.empty();

@@ -135,7 +135,7 @@ struct FloatingState {
 };
 
 /// Water in the holds of one body, from step to step.
-struct Vessel {
+struct VesselState {
   std::shared_ptr<const FluidBody> shape;
   bool is_known = false;         ///< false: the body has met no surface yet, and no water was given
   std::vector<HoldState> holds;  ///< as in FluidBody::holds
@@ -174,8 +174,8 @@ struct AmbientBody {
                                ///< load on the body depends on it
   /// In this step; null: no region makes the fluid differ along the body.
   std::unique_ptr<FlowAlongBody> flow_along;
-  std::unique_ptr<Vessel> vessel;  ///< null: the body has no holds
-  int slot = -1;                   ///< in MemberSlots; -1: not yet there
+  std::unique_ptr<VesselState> vessel;  ///< null: the body has no holds
+  int slot = -1;                        ///< in MemberSlots; -1: not yet there
   int gaping =
       0;  ///< number of steps in a row in which a joint of the body was open by much of its size
 

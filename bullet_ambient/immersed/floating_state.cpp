@@ -199,7 +199,7 @@ Vector6 twistInWater(const AmbientBody& ambient, const RigidState& state) {
 
 void exchangeWater(AmbientBody& ambient, const MotionView& now, double duration) noexcept {
   constexpr double kStill = 1e-9;  // of a hold
-  Vessel& vessel = *ambient.vessel;
+  VesselState& vessel = *ambient.vessel;
   const SurfaceModel& model = *ambient.surface();
   const SurfaceStand& stand = standNow(ambient, now);
   const Vector6 x = twistInWater(ambient, now.state);

@@ -66,7 +66,7 @@ BodyModel modelNow(const AmbientBody& ambient, const MotionView& now);
 const SurfaceStand& standNow(AmbientBody& ambient, const MotionView& now) noexcept;
 
 /// Lets water pass through the openings of a body at a surface at the start of a step of `duration`
-/// [s]. Water that comes in was at rest in the water around: sets Vessel::change_B, which the
+/// [s]. Water that comes in was at rest in the water around: sets VesselState::change_B, which the
 /// motion of the step adds. Counts, and keeps the body from rest while water flows. Allocates
 /// nothing.
 /// @pre it has holds, and a surface is near

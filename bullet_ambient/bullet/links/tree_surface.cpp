@@ -78,7 +78,7 @@ void takeInflow(AmbientTree& tree) noexcept {
   std::fill(tree.step.impulses.begin(), tree.step.impulses.end(), Wrench{});
   bool has_come = false;
   forEachAtSurface(tree, [&](AmbientLink& link, int i) {
-    const Vessel* const vessel = link.ambient.vessel.get();
+    const VesselState* const vessel = link.ambient.vessel.get();
     if (!vessel || vessel->change_B.isZero(0)) return;
     tree.step.impulses[i] = impulseOf(link, vessel->change_B);
     has_come = true;

@@ -31,7 +31,7 @@ struct AmbientState {
   WaveMemory waves;
   std::optional<SurfacePlane> met_B;  ///< lastPlane()
   Wake wake;
-  bool has_met_water = false;    ///< Vessel::is_known
+  bool has_met_water = false;    ///< VesselState::is_known
   std::vector<HoldState> holds;  ///< as in FluidBody::holds
   Twist left_W;
   AmbientCounters counters;
