@@ -199,6 +199,24 @@ TEST(Vessel, EnergyNeverGrowsInCalmWater) {
   }
 }
 
+// A closed barge takes in its own mass of water in one step: it keeps its momentum.
+TEST(Vessel, WaterThatComesInWasAtRest) {
+  Sea sea;
+  Start start;
+  start.twist.linear = {0.1, 0, 0};
+  btRigidBody& body = sea.add({}, start, {false, {}});
+  const Immersed barge = sea.scene.of(body);
+  sea.scene.step(1 / 60.0);
+  const auto momentum = [&] {
+    return barge.inertia()(3, 3) * static_cast<double>(body.getLinearVelocity().x());
+  };
+  const double before = momentum();
+  barge.pump(0, 0.2 * 60);
+  sea.scene.step(1 / 60.0);
+  EXPECT_NEAR(sea.water(body), 0.2, 1e-12);
+  EXPECT_NEAR(momentum(), before, 0.01 * before);
+}
+
 // Waves wash over the rim of a barge that is held and rolls, in and out.
 TEST(Vessel, WavesNeitherMakeNorLoseWater) {
   const std::vector<WaveComponent> waves{{0.3, 4, {1, 0.3, 0}, 0}, {0.2, 2.9, {0.2, 1, 0}, 1}};
