@@ -66,10 +66,9 @@ void fillCoveredHolds(const HoldShapes& holds, const SurfacePlane& plane_F,
                       HoldState* states) noexcept;
 
 /// Lets water pass through the openings, one after the other, and the pumps run, for a duration
-/// [s]; docs/theory.md eq. (138) to (140). No level passes that of the sea.
-/// @param are_open false: nothing passes through the openings
-/// @return the inertia in F of the water that has come from outside, per unit density; it was at
-/// rest there
+/// [s]; docs/theory.md eq. (138) to (140). No level passes that of the sea. Where the holds are not
+/// open nothing passes through the openings. Returns the inertia in F of the water that has come
+/// from outside, per unit density; it was at rest there.
 Matrix6 exchangeWater(const HoldShapes& holds, const SurfacePlane& plane_F, bool are_open,
                       double duration, HoldState* states) noexcept;
 
