@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "bullet_ambient/attach_world.h"
 #include "bullet_ambient/bullet/connection/fitted_solvers.h"
@@ -88,6 +89,17 @@ class Immersed {
   /// Returns the wet part at the present pose. Cost: functions of the region, and a sum over the
   /// triangles of the shape.
   WetState wet() const;
+
+  /// Returns the water in the holds at the present pose, FluidBody::holds; away from a surface of
+  /// water, what they will have there. Cost: some clips of the surface of each hold.
+  std::vector<HoldWater> holds() const;
+  /// Fills or empties a hold [m^3]; the velocity stays. Wakes the body.
+  /// @throws std::invalid_argument if there is no such hold, or if the water does not fit.
+  void setWater(int hold, double volume) const;
+  /// Pumps water from the sea into a hold, or out of it (negative), in each step at a surface until
+  /// another rate is set [m^3/s]. Wakes the body. @throws std::invalid_argument if there is no such
+  /// hold, or if the rate is not finite.
+  void pump(int hold, double rate) const;
 
   /// Changes the velocity by an impulse at the centre of mass, world axes: torque part [N m s],
   /// force part [N s]. Uses the inverse of the total inertia, as contacts and joints do; for a

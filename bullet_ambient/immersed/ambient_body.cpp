@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/fluid_body/fluid_body.h"
 #include "bullet_ambient/spatial/rotation.h"
 
 namespace ambient {
@@ -98,6 +99,22 @@ void setModels(AmbientBody& ambient, std::shared_ptr<const FluidModels> models) 
   } else if (!ambient.wake) {
     ambient.wake = std::make_unique<Wake>();
   }
+}
+
+void takeHolds(AmbientBody& ambient) {
+  const AttachDef& def = *ambient.def;
+  const std::vector<Hold>& holds = def.fluid_body->holds;
+  if (holds.empty()) {
+    ambient.vessel = nullptr;
+    return;
+  }
+  if (ambient.vessel && ambient.vessel->shape == def.fluid_body) return;
+  ambient.vessel = std::make_unique<VesselState>();
+  ambient.vessel->shape = def.fluid_body;
+  ambient.vessel->holds.resize(holds.size());
+  ambient.vessel->is_known = !def.holds.water.empty();
+  for (std::size_t i = 0; i < def.holds.water.size(); ++i)
+    ambient.vessel->holds[i].volume = def.holds.water[i];
 }
 
 void rebuildModels(AmbientBody& ambient, const InverseMass& mass) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "bullet_ambient/immersed/attach_def.h"
@@ -133,6 +134,15 @@ struct FloatingState {
   }
 };
 
+/// Water in the holds of one body, from step to step.
+struct VesselState {
+  std::shared_ptr<const FluidBody> shape;
+  bool is_known = false;         ///< false: the body has met no surface yet, and no water was given
+  std::vector<HoldState> holds;  ///< as in FluidBody::holds
+  /// Change of the velocity in B by the water that has come in at the start of this step.
+  Vector6 change_B = Vector6::Zero();
+};
+
 /// Everything that the library keeps of one body or link in a fluid. Members lie in the order in
 /// which a step uses them, so that a flight touches few lines of the cache; those that few steps or
 /// few bodies use are last, or behind a pointer.
@@ -164,7 +174,8 @@ struct AmbientBody {
                                ///< load on the body depends on it
   /// In this step; null: no region makes the fluid differ along the body.
   std::unique_ptr<FlowAlongBody> flow_along;
-  int slot = -1;  ///< in MemberSlots; -1: not yet there
+  std::unique_ptr<VesselState> vessel;  ///< null: the body has no holds
+  int slot = -1;                        ///< in MemberSlots; -1: not yet there
   int gaping =
       0;  ///< number of steps in a row in which a joint of the body was open by much of its size
 
@@ -181,6 +192,14 @@ struct AmbientBody {
   /// Model whose inertia K defines the norm sqrt(x.K x) of velocity changes.
   const BodyModel& metric() const { return surface() ? surface()->below : model(); }
 };
+
+/// Returns the states of the holds of a body; null: it has none.
+inline const HoldState* waterOf(const AmbientBody& ambient) noexcept {
+  return ambient.vessel ? ambient.vessel->holds.data() : nullptr;
+}
+/// Gives a body the holds of its definition, and the water from the start; it keeps what it has if
+/// they are the same.
+void takeHolds(AmbientBody& ambient);
 
 /// Surface loads of the fluid around a body; at a water surface those of the fluid below. Null:
 /// there are none.

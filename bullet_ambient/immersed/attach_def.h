@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "bullet_ambient/force/law/flow_settings.h"
 #include "bullet_ambient/force/medium/medium.h"
@@ -11,6 +12,14 @@
 namespace ambient {
 
 struct FluidBody;
+
+/// Holds of a vessel, FluidBody::holds, at a surface of water.
+struct HoldSettings {
+  bool are_open = true;  ///< false: no water passes through their openings
+  /// Water in each of them from the start [m^3]. Empty: a hold is empty, or full if all its
+  /// openings are below the surface when the body first meets it.
+  std::vector<double> water = {};
+};
 
 /// Definition of a body or link in a fluid.
 struct AttachDef {
@@ -25,6 +34,7 @@ struct AttachDef {
   double wave_damping = 1;
   FlowSettings flow = {};
   FlightSettings flight = {};
+  HoldSettings holds = {};
   FrameOffset fluid_frame = {};  ///< F in the btRigidBody's frame (centre of mass)
   /// Name in reports and errors. Empty: the name from Fluid::setNaming(), else that of the fluid
   /// body.
@@ -52,6 +62,8 @@ struct AmbientCounters {
       0;  ///< tests of the body against the bounds of one region or of several
   long long medium_changes = 0;  ///< changes by regions to another density or viscosity
   long long too_long = 0;  ///< bodies whose errors add up: steps are too long for their motion
+  double flooded = 0;      ///< water that has come into holds from outside [m^3]
+  double drained = 0;      ///< water that has left holds to there [m^3]
 
   AmbientCounters& operator+=(const AmbientCounters& other);
 };
@@ -70,6 +82,8 @@ inline AmbientCounters& AmbientCounters::operator+=(const AmbientCounters& other
   regions_asked += other.regions_asked;
   medium_changes += other.medium_changes;
   too_long += other.too_long;
+  flooded += other.flooded;
+  drained += other.drained;
   return *this;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/pi.h"
@@ -67,7 +68,8 @@ void completeAll(AmbientBody* const* bodies, int count) {
     FloatingState& floating = *bodies[i]->floating;
     if (floating.is_valid) continue;
     const SurfaceModel& model = *bodies[i]->surface();
-    static_cast<SurfacePlace&>(floating.stand) = placeAt(model, floating.stand.plane);
+    static_cast<SurfacePlace&>(floating.stand) =
+        placeAt(model, floating.stand.plane, waterOf(*bodies[i]));
     floating.is_valid = true;
     models[made] = &model;
     stands[made++] = &floating.stand;
@@ -99,6 +101,20 @@ SurfacePlane planeNear(const Vector3& position, const RegionSample& sample,
   return {normal, normal.dot(above), sample.below.density - sample.above.density, felt.norm()};
 }
 
+namespace {
+
+// Above and below a surface, holds are full of the fluid there. Returns where a body is as it is
+// filled.
+SurfaceSide withWater(const AmbientBody& ambient, const SurfaceModel& model, SurfaceSide side) {
+  const HoldState* const water = waterOf(ambient);
+  if (!water || side == SurfaceSide::kAt) return side;
+  const bool is_as_around =
+      side == SurfaceSide::kAbove ? areEmpty(*model.holds, water) : areFull(*model.holds, water);
+  return is_as_around ? side : SurfaceSide::kAt;
+}
+
+}  // namespace
+
 NearSurface nearSurface(const AmbientBody& ambient, const MotionView& now, const SurfaceKind& kind,
                         const SampleAt& at, double duration) noexcept {
   const RegionSample& sample = at.sample;
@@ -114,7 +130,16 @@ NearSurface nearSurface(const AmbientBody& ambient, const MotionView& now, const
       duration * (speed + model.radius * state.twist.angular.norm() + duration * gravity.norm());
   const SurfacePlane plane_B =
       seenFrom(plane_W, state.orientation.toRotationMatrix(), state.position);
-  return {sideOf(model, plane_B, travel), media, plane_W};
+  return {withWater(ambient, model, sideOf(model, plane_B, travel)), media, plane_W};
+}
+
+void meetHolds(AmbientBody& ambient, const MotionView& now, const NearSurface& near) noexcept {
+  if (near.media < 0 || std::exchange(ambient.vessel->is_known, true)) return;
+  if (!ambient.def->holds.are_open) return;
+  const SurfaceModel& model = ambient.models->surfaces[static_cast<std::size_t>(near.media)].model;
+  const SurfacePlane plane_B = seenFrom(near.plane_W, now.rotation(), now.state.position);
+  fillCoveredHolds(*model.holds, seenFrom(plane_B, model.fluid_frame),
+                   ambient.vessel->holds.data());
 }
 
 SurfaceSide enterSurface(AmbientBody& ambient, const NearSurface& near, const RegionSample& sample,
@@ -143,7 +168,8 @@ void standAt(AmbientBody* const* bodies, const RigidState* states, int count,
 BodyModel modelNow(const AmbientBody& ambient, const MotionView& now) {
   const SurfaceModel* surface = ambient.surface();
   if (!surface) return ambient.model();
-  const SurfaceStand stand = standAtSurface(*surface, planeAt(ambient, now.state));
+  const SurfaceStand stand =
+      standAtSurface(*surface, planeAt(ambient, now.state), waterOf(ambient));
   BodyModel model = frozenAt(*surface, stand);
   if (surface->loads_below.loads) {
     model.loads =
@@ -158,6 +184,44 @@ const SurfaceStand& standNow(AmbientBody& ambient, const MotionView& now) noexce
   AmbientBody* const body = &ambient;
   standAt(&body, &now.state, 1, now.rounding);
   return ambient.stand();
+}
+
+namespace {
+
+// Returns the twist in B relative to the water.
+Vector6 twistInWater(const AmbientBody& ambient, const RigidState& state) {
+  Twist relative = state.twist;
+  relative.linear -= state.orientation.toRotationMatrix().transpose() * ambient.medium.velocity;
+  return relative.vector();
+}
+
+}  // namespace
+
+void exchangeWater(AmbientBody& ambient, const MotionView& now, double duration) noexcept {
+  constexpr double kStill = 1e-9;  // of a hold
+  VesselState& vessel = *ambient.vessel;
+  const SurfaceModel& model = *ambient.surface();
+  const SurfaceStand& stand = standNow(ambient, now);
+  const Vector6 x = twistInWater(ambient, now.state);
+  const double twice_before = x.dot(stand.inertia.full() * x);
+  const Matrix6 come = exchangeWater(*model.holds, stand.immersion_F.plane,
+                                     ambient.def->holds.are_open, duration, vessel.holds.data());
+  vessel.change_B.setZero();
+  bool has_changed = false;
+  for (std::size_t i = 0; i < vessel.holds.size(); ++i) {
+    const HoldState& hold = vessel.holds[i];
+    has_changed = has_changed || hold.change != 0;
+    (hold.inflow > 0 ? ambient.counters.flooded : ambient.counters.drained) +=
+        std::abs(hold.inflow);
+    if (std::abs(hold.change) > kStill * vessel.shape->holds[i].volume) ambient.may_rest = false;
+  }
+  if (!has_changed) return;
+  ambient.floating->is_valid = false;
+  AmbientBody* const body = &ambient;
+  completeAll(&body, 1);
+  const Matrix6 come_B = model.excess_density * model.fluid_frame.inertiaToB(come);
+  const Vector6 end = x - stand.inverse.full() * (come_B * x);
+  vessel.change_B = scaledWithin(end, end.dot(stand.inertia.full() * end), twice_before).twist - x;
 }
 
 StepModel::StepModel(const AmbientBody& ambient, double duration) noexcept {
@@ -204,9 +268,7 @@ Vector6 kickByWavesAndWind(AmbientBody& ambient, const RigidState& now, double d
   const SurfaceModel& model = *ambient.surface();
   const SurfaceStand& stand = ambient.stand();
   const Matrix3 R = now.orientation.toRotationMatrix();
-  Twist relative = now.twist;
-  relative.linear -= R.transpose() * ambient.medium.velocity;
-  const Vector6 x = relative.vector();
+  const Vector6 x = twistInWater(ambient, now);
   ambient.floating->twist_before_rows = x;
   ambient.floating->plane_before_rows = planeAt(ambient, now);
   WaveMemory& waves = ambient.floating->waves_with_rows;
@@ -318,10 +380,15 @@ BoundedTwist passedFrom(const Departure& before, const AmbientBody& ambient, Axe
   const SurfaceStand& after = ambient.stand();
   if (axes == Axes::kLocked)
     return scaledWithin(x, x.dot(after.inertia.full() * x), x.dot(before.place.inertia.full() * x));
+  SurfacePlace place = before.place;
   const Matrix6 inverse = after.inverse.full();
   const BoundedTwist moved = withinPotential(
       {before.fall, fallOf(ambient), inverse, ambient.floating->twist_before_rows, duration}, x);
-  BoundedTwist end = passSurface({model, before.place, after, duration}, moved.twist);
+  const Vector6 shifted =
+      ambient.vessel ? shiftWater({model, place.inside_F, after.inside_F, after.plane.normal},
+                                  moved.twist, place.inertia)
+                     : moved.twist;
+  BoundedTwist end = passSurface({model, place, after, duration}, shifted);
   end.energy_removed += moved.energy_removed;
   return end;
 }
@@ -332,7 +399,7 @@ Vector6 StepModel::floatAt(const AmbientBody& ambient, const FrameOffset& pose,
                            double time) noexcept {
   const SurfaceModel& model = *ambient.surface();
   const SurfacePlane plane_B = seenFrom(movedPlane(ambient, time), pose);
-  const WetVolume wet = wetVolumeAt(model, plane_B);
+  const WetVolume wet = wetVolumeAt(model, plane_B, waterOf(ambient));
   displace(model, wet, at_surface_->model);
   return fallAt(model, plane_B, wet).wrench;
 }
@@ -360,11 +427,11 @@ double hydrostaticEnergyAt(const AmbientBody& ambient, const FrameOffset& pose,
                            double duration) noexcept {
   const SurfaceModel& model = *ambient.surface();
   const SurfacePlane plane_B = seenFrom(movedPlane(ambient, duration), pose);
-  return hydrostaticEnergy(wetVolumeAt(model, plane_B), plane_B);
+  return hydrostaticEnergy(wetVolumeAt(model, plane_B, waterOf(ambient)), plane_B);
 }
 
 bool mayRestAtSurface(AmbientBody& ambient, const MotionView& now) noexcept {
-  return isStable(standNow(ambient, now));
+  return isStable(*ambient.surface(), standNow(ambient, now));
 }
 
 }  // namespace ambient

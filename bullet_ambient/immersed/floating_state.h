@@ -41,6 +41,10 @@ struct NearSurface {
 NearSurface nearSurface(const AmbientBody& ambient, const MotionView& now, const SurfaceKind& kind,
                         const SampleAt& at, double duration) noexcept;
 
+/// Decides which holds of a body that first meets a surface are full. Allocates nothing. @pre it
+/// has holds
+void meetHolds(AmbientBody& ambient, const MotionView& now, const NearSurface& near) noexcept;
+
 /// Fills AmbientBody::floating if the surface matters to the body; where sides of its pool cut
 /// it and it is not dry, it does at any depth. Allocates nothing.
 SurfaceSide enterSurface(AmbientBody& ambient, const NearSurface& near, const RegionSample& sample,
@@ -60,6 +64,13 @@ BodyModel modelNow(const AmbientBody& ambient, const MotionView& now);
 /// Finds the stand of one body at its present pose. Allocates nothing. @pre the body is at a
 /// surface
 const SurfaceStand& standNow(AmbientBody& ambient, const MotionView& now) noexcept;
+
+/// Lets water pass through the openings of a body at a surface at the start of a step of `duration`
+/// [s]. Water that comes in was at rest in the water around: sets VesselState::change_B, which the
+/// motion of the step adds. Counts, and keeps the body from rest while water flows. Allocates
+/// nothing.
+/// @pre it has holds, and a surface is near
+void exchangeWater(AmbientBody& ambient, const MotionView& now, double duration) noexcept;
 
 /// Loads on the wet part of a body at one moment.
 class LoadsAtSurface final : public SurfaceLoads {

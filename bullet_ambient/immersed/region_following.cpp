@@ -176,6 +176,7 @@ SurfaceSide findWaterSide(AmbientBody& ambient, const FlowStep& step, bool is_al
   const FluidRegion& region = step.entry->region;
   const SampleAt at{sample, pointIn(region, step.now->centre())};
   const NearSurface near = nearSurface(ambient, *step.now, SurfaceKind(region), at, step.duration);
+  if (ambient.vessel) meetHolds(ambient, *step.now, near);
   const bool has_sides = !is_alone && near.side != SurfaceSide::kAbove;
   return enterSurface(
       ambient, near, sample,
@@ -269,6 +270,7 @@ void refreshModels(AmbientBody& ambient, const InverseMass& mass, const FluidReg
   forgetSurface(ambient);
   forgetFlight(ambient);
   setModels(ambient, std::move(models));
+  takeHolds(ambient);
   ambient.in_medium = {ambient.models, &ambient.models->media.front()};
   takeStations(ambient, regions);
 }

@@ -200,13 +200,14 @@ double displacedFluid(const AmbientBody& ambient) {
   const SurfaceModel* surface = ambient.surface();
   if (!surface) return ambient.model().displaced_mass;
   return surface->above.displaced_mass +
-         surface->excess_density * wetVolume(*surface, ambient.stand()).volume;
+         surface->excess_density * ambient.stand().immersion_F.wet.volume;
 }
 
 // Returns the wrench in B by which fluid that is spun up takes a body along, eq. (88).
 Wrench pushBySpinUp(AmbientBody& ambient, const MotionView& now) {
-  const Matrix6 inertia =
-      ambient.surface() ? standNow(ambient, now).inertia.full() : ambient.model().inertia;
+  const SurfaceModel* const surface = ambient.surface();
+  Matrix6 inertia = surface ? standNow(ambient, now).inertia.full() : ambient.model().inertia;
+  if (surface && ambient.vessel) inertia -= inertiaInside(*surface, ambient.stand().inside_F);
   const Vector3& rate = ambient.flow_along->spin_up_B;
   Wrench push = Wrench::fromVector(inertia.leftCols<3>() * rate);
   push.torque -= ambient.models->inverse_mass.moments().cwiseProduct(rate);

@@ -141,6 +141,50 @@ WetState inRegion(const AmbientBody& ambient, const MotionView& now, const Regio
 
 }  // namespace
 
+namespace {
+
+HoldWater waterIn(const Hold& hold, const HoldState& state, const Vector3& up_F) {
+  const HoldFill fill =
+      fillHold(HoldShape(hold), up_F, state.volume, std::numeric_limits<double>::quiet_NaN());
+  const WetVolume& wet = fill.water;
+  HoldWater water{state.volume, hold.volume, state.inflow, wet.waterplane.area};
+  water.freeboard = std::numeric_limits<double>::infinity();
+  for (const HoldOpening& opening : hold.openings)
+    for (std::size_t i = 0; i < opening.outline.size(); i += 3) {
+      const Vector3 corner(opening.outline[i], opening.outline[i + 1], opening.outline[i + 2]);
+      water.freeboard = std::min(water.freeboard, up_F.dot(corner) - fill.height);
+    }
+  water.centre = wet.volume > 0 ? Vector3(wet.moment / wet.volume) : hold.centre;
+  water.level = wet.waterplane.area > 0
+                    ? wet.waterplane.centroid
+                    : Vector3(hold.centre + (fill.height - up_F.dot(hold.centre)) * up_F);
+  return water;
+}
+
+}  // namespace
+
+std::vector<HoldWater> holdsOf(const AmbientBody& ambient, const MotionView& now) {
+  std::vector<HoldWater> all;
+  if (!ambient.vessel) return all;
+  const FrameOffset& frame = ambient.def->fluid_frame;
+  const Matrix3 R = now.rotation() * frame.rotation;
+  const Vector3 origin_W = now.centre() + now.rotation() * frame.translation;
+  Vector3 up(0, 0, 1);
+  if (ambient.surface()) {
+    up = ambient.floating->plane_W.normal;
+  } else if (!now.gravity.isZero(0)) {
+    up = -now.gravity.normalized();
+  }
+  for (std::size_t i = 0; i < ambient.vessel->holds.size(); ++i) {
+    HoldWater& water = all.emplace_back(
+        waterIn(ambient.def->fluid_body->holds[i], ambient.vessel->holds[i], R.transpose() * up));
+    water.centre = origin_W + R * water.centre;
+    water.level = origin_W + R * water.level;
+    water.normal = up;
+  }
+  return all;
+}
+
 WetState wetStateOf(const AmbientBody& ambient, const MotionView& now,
                     const FluidRegions& regions) {
   long long asked = 0;

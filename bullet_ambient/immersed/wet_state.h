@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "bullet_ambient/immersed/region_id.h"
 #include "bullet_ambient/spatial/vector_types.h"
 
@@ -21,6 +23,22 @@ struct WetState {
   Vector3 centre_of_buoyancy{0, 0, 0};
   RegionId region = RegionId::kNone;
 };
+
+/// Water in one hold of a body or link.
+struct HoldWater {
+  double volume = 0;    ///< [m^3]
+  double capacity = 0;  ///< of the hold [m^3]
+  double inflow = 0;    ///< from outside in the last step; negative: out [m^3]
+  double area = 0;      ///< of its level [m^2]; 0: empty or full
+  /// Height of the lowest corner of its openings above the level [m]; infinite: it has none.
+  double freeboard = 0;
+  Vector3 centre{0, 0, 0};  ///< of the water in W [m]; of an empty hold, that of the hold
+  Vector3 level{0, 0, 0};   ///< a point of the level in W [m]
+  Vector3 normal{0, 0, 1};  ///< of the level in W, out of the water; unit
+};
+
+/// Computes the water in the holds at the present pose.
+std::vector<HoldWater> holdsOf(const AmbientBody& ambient, const MotionView& now);
 
 /// Computes the wet part at the present pose, from the region there.
 WetState wetStateOf(const AmbientBody& ambient, const MotionView& now, const FluidRegions& regions);

@@ -51,16 +51,20 @@ class FloatingRun {
   FlightCount count;
   Vector3 velocity_above = Vector3::Zero();
   FlightSettings settings;
+  std::vector<HoldState> water;  ///< in the holds of the body
 
   const SurfaceModel& model() const { return model_; }
   Surroundings& surroundings() { return surroundings_; }
   double mass() const { return mass_; }
 
   void step(double duration) {
-    SurfaceStand stand = standAtSurface(model_, plane_B());
+    SurfaceStand stand = this->stand();
     FlightResult body{state, memory, {}};
     SurfaceFlight flight{
-        {model_, kStill, surroundings_, velocity_above, settings, duration}, body, waves, stand};
+        {model_, kStill, surroundings_, velocity_above, settings, duration, states()},
+        body,
+        waves,
+        stand};
     SurfaceFlight* const flights[] = {&flight};
     flyAtSurface(flights, 1);
     state = body.state;
@@ -78,7 +82,8 @@ class FloatingRun {
     const SurfacePlane plane{{0, 0, 1}, 0, model_.excess_density, -gravity_.z()};
     return seenFrom(plane, R, state.position);
   }
-  Matrix6 inertia() const { return standAtSurface(model_, plane_B()).inertia.full(); }
+  SurfaceStand stand() const { return standAtSurface(model_, plane_B(), states()); }
+  Matrix6 inertia() const { return stand().inertia.full(); }
   Vector3 velocity_W() const { return state.orientation * state.twist.linear; }
   Vector3 momentum_W() const {
     const Vector6 p = inertia() * state.twist.vector();
@@ -86,13 +91,15 @@ class FloatingRun {
   }
   /// Energy of body, water and waves; docs/theory.md eq. (64).
   double energy() const {
-    const Immersion at = immersion();
+    const SurfaceStand at = stand();
     const Vector6 x = state.twist.vector();
-    return 0.5 * x.dot(inertia() * x) - mass_ * gravity_.dot(state.position) +
-           hydrostaticEnergy(at.wet, at.plane) + waves.energy();
+    return 0.5 * x.dot(at.inertia.full() * x) - mass_ * gravity_.dot(state.position) +
+           hydrostaticEnergy(wetVolume(model_, at), at.plane) + waves.energy();
   }
 
  private:
+  const HoldState* states() const { return water.empty() ? nullptr : water.data(); }
+
   Vector3 gravity_;
   double mass_ = 0;
   SurfaceModel model_;

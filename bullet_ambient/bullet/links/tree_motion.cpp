@@ -212,6 +212,7 @@ bool begin(AmbientTree& tree, const TreeTask& task) {
   if (!step.was_awake) return prepareWoken(tree);
   if (tree.tree.size() == 1 || wasMovedByOthers(tree, step.start)) forgetLoads(tree);
   if (isAtSurface(tree)) {
+    takeInflow(tree);
     step.surface.start = step.start;
     kickAtSurface(tree, task);
     keepEnergy(tree);

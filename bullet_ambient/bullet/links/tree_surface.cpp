@@ -74,6 +74,18 @@ bool isAtSurface(const AmbientTree& tree) noexcept {
   return is_at;
 }
 
+void takeInflow(AmbientTree& tree) noexcept {
+  std::fill(tree.step.impulses.begin(), tree.step.impulses.end(), Wrench{});
+  bool has_come = false;
+  forEachAtSurface(tree, [&](AmbientLink& link, int i) {
+    const VesselState* const vessel = link.ambient.vessel.get();
+    if (!vessel || vessel->change_B.isZero(0)) return;
+    tree.step.impulses[i] = impulseOf(link, vessel->change_B);
+    has_come = true;
+  });
+  if (has_come) addResponse(tree, tree.step.start);
+}
+
 void kickAtSurface(AmbientTree& tree, const TreeTask& task) noexcept {
   TreeStep& step = tree.step;
   step.surface.time = task.duration;

@@ -26,6 +26,10 @@ void forEachAtSurface(const AmbientTree& tree, const Visit& visit) {
 //
 // It has no more energy than the links would have alone, the sum of y_l.K_l y_l / 2.
 
+/// Call before a step. Changes `step.start` by the water that has come into holds of links. @pre
+/// prepareLinks()
+void takeInflow(AmbientTree& tree) noexcept;
+
 /// Call before a step, or before each part of a step that is flown in parts. Changes `step.start`
 /// by the waves that links make and by the wind. @pre prepareLinks()
 void kickAtSurface(AmbientTree& tree, const TreeTask& task) noexcept;

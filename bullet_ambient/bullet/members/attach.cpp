@@ -18,6 +18,7 @@
 #include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
+#include "bullet_ambient/fluid_body/fluid_body.h"
 #include "bullet_ambient/immersed/region_following.h"
 
 AMBIENT_BEGIN
@@ -53,10 +54,29 @@ void checkChoice(const std::string& who, const char* what, Choice choice, const 
                               std::to_string(names.size() - 1));
 }
 
+void checkHolds(const std::string& who, const AttachDef& def) {
+  const std::vector<double>& water = def.holds.water;
+  const std::vector<Hold>& holds = def.fluid_body->holds;
+  if (water.empty()) return;
+  if (water.size() != holds.size())
+    throw std::invalid_argument(who + " has water for " + std::to_string(water.size()) +
+                                " holds, but its fluid body has " + std::to_string(holds.size()));
+  for (std::size_t i = 0; i < water.size(); ++i)
+    checkWater(who, static_cast<int>(i), water[i], holds[i].volume);
+}
+
 }  // namespace
+
+void checkWater(const std::string& who, int hold, double volume, double capacity) {
+  if (volume >= 0 && volume <= capacity) return;
+  throw std::invalid_argument(who + " has " + std::to_string(volume) + " m^3 of water in hold " +
+                              std::to_string(hold) + ", which must be zero to " +
+                              std::to_string(capacity));
+}
 
 void checkDef(const std::string& who, const AttachDef& def) {
   checkFlight(who, def.flight);
+  checkHolds(who, def);
   checkChoice(who, "the pressure law", def.flow.law, kPressureLawNames);
   checkChoice(who, "the load precision", def.flow.precision, kLoadPrecisionNames);
 }

@@ -31,6 +31,10 @@ void refresh(AmbientBody& ambient, const InverseMass& mass, const MotionView& no
 /// @throws std::invalid_argument that begins with `who`.
 void checkDef(const std::string& who, const AttachDef& def);
 
+/// Checks the water in a hold [m^3].
+/// @throws std::invalid_argument that begins with `who`.
+void checkWater(const std::string& who, int hold, double volume, double capacity);
+
 /// Implements Fluid::add() for a body, except the warning about light bodies.
 /// @throws std::invalid_argument as Fluid::add().
 AmbientBody& attachBody(AmbientBodies& bodies, btRigidBody& body, AttachDef def);

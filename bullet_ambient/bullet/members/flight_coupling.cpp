@@ -85,6 +85,7 @@ bool prepareFluid(AmbientBody& ambient, const StepStart& start, AmbientBodies& b
     return false;
   }
   followWake(ambient, start.twist_W, time_step);
+  if (ambient.vessel && ambient.surface()) exchangeWater(ambient, *start.now, time_step);
   if (may_be_in_region) findPushes(ambient, *start.now, time_step);
   return true;
 }

@@ -43,13 +43,15 @@ bool wasMovedByOthers(const AmbientBody& ambient, const Twist& left, const Rigid
 SurfaceFlight surfaceFlight(AmbientBody& ambient, Flight& flight) {
   FloatingState& floating = *ambient.floating;
   const FlightTask& task = flight.task;
-  const RigidState& start = flight.body.state;
+  RigidState& start = flight.body.state;
   AmbientBody* const body = &ambient;
   standAt(&body, &start, 1, kBulletRounding);
   const SurfaceModel* model = ambient.surface();
   AMBIENT_ASSERT(model);
+  if (ambient.vessel)
+    start.twist = Twist::fromVector(start.twist.vector() + ambient.vessel->change_B);
   return {{*model, floating.plane_W, task.surroundings, floating.velocity_above, task.settings,
-           task.duration},
+           task.duration, waterOf(ambient)},
           flight.body,
           floating.waves,
           ambient.floating->stand};

@@ -77,7 +77,13 @@ void standAll(AmbientBody* const* bodies, const RigidState* states, int count, d
 void complete(AmbientBody& ambient, const RigidState& start, double time_step,
               Complaints& complaints, RowVelocity& row) {
   if (ambient.surface()) {
-    const Vector6 by_surface = kickByWavesAndWind(ambient, readState(*ambient.body), time_step);
+    RigidState now = readState(*ambient.body);
+    Vector6 by_surface = Vector6::Zero();
+    if (ambient.vessel && axisFactors(*ambient.body).areFree()) {
+      by_surface = ambient.vessel->change_B;
+      now.twist = Twist::fromVector(now.twist.vector() + by_surface);
+    }
+    by_surface += kickByWavesAndWind(ambient, now, time_step);
     const Twist kick_W = turned(start.orientation, Twist::fromVector(by_surface));
     row.change_W.angular += kick_W.angular;
     row.change_W.linear += kick_W.linear;

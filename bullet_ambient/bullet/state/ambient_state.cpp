@@ -43,11 +43,22 @@ std::unique_ptr<AmbientLink> makeLink(const LinkFluidState& saved, const MultiBo
 AmbientState saveAmbient(const AmbientBody& ambient, const InverseMass& mass) {
   const auto* last = std::get_if<LastFlight>(&ambient.outcome.motion);
   const LastFlight flight = last ? *last : LastFlight{};
-  AmbientState state{*ambient.def,       ambient.medium,
-                     ambient.place,      ambient.flow,
-                     flight.memory,      ambient.floating ? ambient.floating->waves : WaveMemory{},
-                     lastPlane(ambient), ambient.wake ? *ambient.wake : Wake{},
-                     flight.left_W,      ambient.counters};
+  AmbientState state{*ambient.def,
+                     ambient.medium,
+                     ambient.place,
+                     ambient.flow,
+                     flight.memory,
+                     ambient.floating ? ambient.floating->waves : WaveMemory{},
+                     lastPlane(ambient),
+                     ambient.wake ? *ambient.wake : Wake{},
+                     false,
+                     {},
+                     flight.left_W,
+                     ambient.counters};
+  if (ambient.vessel) {
+    state.has_met_water = ambient.vessel->is_known;
+    state.holds = ambient.vessel->holds;
+  }
   if (isModelStale(ambient, mass)) state.memory = {};  // as the next step will do
   return state;
 }
@@ -65,6 +76,26 @@ void saveFluids(const AmbientTree& tree, MultiBodyState& state) {
   state.turn_reserve = tree.step.reserve;
 }
 
+namespace {
+
+// Gives a body the water in its holds.
+void fillHolds(const AmbientState& saved, AmbientBody& ambient) {
+  const std::vector<Hold>& holds = ambient.def->fluid_body->holds;
+  bool fits = saved.holds.size() == holds.size();
+  for (std::size_t i = 0; i < holds.size() && fits; ++i)
+    fits = saved.holds[i].volume <= holds[i].volume;
+  if (!fits)
+    throw std::invalid_argument(
+        "restoreState: the state has more water, or more holds, than "
+        "fluid body '" +
+        ambient.def->fluid_body->name + "' has room for");
+  if (!ambient.vessel) return;
+  ambient.vessel->is_known = saved.has_met_water;
+  ambient.vessel->holds = saved.holds;
+}
+
+}  // namespace
+
 AmbientBody makeAmbient(const AmbientState& saved, const InverseMass& mass,
                         AmbientBodies& registered) {
   if (!saved.def.fluid_body)
@@ -73,6 +104,7 @@ AmbientBody makeAmbient(const AmbientState& saved, const InverseMass& mass,
   AmbientBody ambient;
   ambient.def = shareDef(saved.def, registered.load_tables);
   refreshModels(ambient, mass, registered.regions, registered.load_tables);
+  fillHolds(saved, ambient);
   // A region that does not exist here is left to the next step.
   enterMedium(ambient, saved.place, saved.medium);
   ambient.flow = saved.flow;

@@ -15,7 +15,7 @@ AMBIENT_BEGIN
 // All stored fields, listed once for all operations: write, read, check, copy from Bullet and back
 // to Bullet. Their order is that of the bytes. To add a field, add it to the structure and here,
 // and raise the version.
-constexpr std::uint32_t kStateVersion = 15;
+constexpr std::uint32_t kStateVersion = 16;
 
 /// Condition that each number of a field must meet, and the words of the message if one does not.
 /// The message begins with the name of the object; the value follows if the words end with a blank.
@@ -87,7 +87,7 @@ void fields(V& v, AttachDef& s) {
   v.choice(s.flow.precision, kLoadPrecisionNames);
   each(v, kAny, s.flow.maximum_load_error);
   each(v, kAny, s.flight.tolerance, s.flight.max_substeps, s.fluid_frame.rotation,
-       s.fluid_frame.translation);
+       s.fluid_frame.translation, s.holds.are_open);
 }
 
 template <class V>
@@ -124,7 +124,13 @@ template <class V>
 void fields(V& v, AmbientCounters& s) {
   each(v, kAny, s.substeps, s.load_evaluations, s.faces, s.guarded, s.coarse, s.halted,
        s.energy_removed, s.rows, s.joint_rows, s.rejected, s.regions_asked, s.medium_changes,
-       s.too_long);
+       s.too_long, s.flooded, s.drained);
+}
+
+template <class V>
+void fields(V& v, HoldState& s) {
+  v(s.volume, finiteNotNegative("hold has a volume of water that is negative or not finite: "));
+  v(s.pump, finite("hold has a pump whose rate is not finite: "));
 }
 
 template <class V>
@@ -145,6 +151,8 @@ void fields(V& v, AmbientState& s) {
        s.memory.growth.rotation, s.memory.growth.translation);
   v(s.memory.substep, finiteNotNegative("flight has a substep that is negative or not finite: "));
   each(v, kAny, s.wake.velocity_W.angular, s.wake.velocity_W.linear, s.wake.has_begun);
+  v(s.has_met_water, kAny);
+  v.list(s.holds, kNoName);
   each(v, kAny, s.left_W.angular, s.left_W.linear);
   // Flights take energies of both.
   v.check("flight has a load or velocity that is not finite, or its square is not", [&s] {

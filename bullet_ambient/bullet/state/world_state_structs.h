@@ -15,6 +15,7 @@
 #include "bullet_ambient/motion/body/wake.h"
 #include "bullet_ambient/motion/flight/flight_task.h"
 #include "bullet_ambient/motion/lanes/surface_lanes.h"
+#include "bullet_ambient/motion/surface/hold_water.h"
 
 AMBIENT_BEGIN
 
@@ -30,6 +31,8 @@ struct AmbientState {
   WaveMemory waves;
   std::optional<SurfacePlane> met_B;  ///< lastPlane()
   Wake wake;
+  bool has_met_water = false;    ///< VesselState::is_known
+  std::vector<HoldState> holds;  ///< as in FluidBody::holds
   Twist left_W;
   AmbientCounters counters;
 };

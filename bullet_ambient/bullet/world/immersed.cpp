@@ -1,9 +1,11 @@
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/bullet/core/body_motion.h"
@@ -83,7 +85,18 @@ void changeFluidBody(const Member& member, std::shared_ptr<const FluidBody> flui
   AttachDef def = *member.ambient->def;
   def.fluid_body = std::move(fluid_body);
   def.fluid_frame = fluid_frame;
+  def.holds.water.clear();  // of other holds
   replaceDef(member, std::move(def), bodies);
+}
+
+// Returns the state of a hold, after a check that there is such a one.
+HoldState& holdOf(const char* function, const AmbientBody& ambient, int hold) {
+  const std::size_t count = ambient.vessel ? ambient.vessel->holds.size() : 0;
+  if (hold < 0 || static_cast<std::size_t>(hold) >= count)
+    throw std::invalid_argument(std::string(function) + ": " + nameOf(*ambient.def) + " has " +
+                                std::to_string(count) + " holds, and none has the number " +
+                                std::to_string(hold));
+  return ambient.vessel->holds[static_cast<std::size_t>(hold)];
 }
 
 void wakeUp(const Member& member) {
@@ -182,6 +195,35 @@ FluidWrench Immersed::wrench() const {
 WetState Immersed::wet() const {
   const Held held = require("wet");
   return wetStateOf(*held.member.ambient, presentMotion(held.member), held.bodies->regions);
+}
+
+std::vector<HoldWater> Immersed::holds() const {
+  const Held held = require("holds");
+  return holdsOf(*held.member.ambient, presentMotion(held.member));
+}
+
+void Immersed::setWater(int hold, double volume) const {
+  const Held held = require("setWater");
+  held.bodies->requireChangeable("setWater");
+  AmbientBody& ambient = *held.member.ambient;
+  HoldState& state = holdOf("setWater", ambient, hold);
+  checkWater("setWater: " + nameOf(*ambient.def), hold, volume,
+             ambient.vessel->shape->holds[static_cast<std::size_t>(hold)].volume);
+  state.volume = volume;
+  ambient.vessel->is_known = true;
+  if (ambient.floating) ambient.floating->is_valid = false;
+  wakeUp(held.member);
+}
+
+void Immersed::pump(int hold, double rate) const {
+  const Held held = require("pump");
+  held.bodies->requireChangeable("pump");
+  HoldState& state = holdOf("pump", *held.member.ambient, hold);
+  if (!std::isfinite(rate))
+    throw std::invalid_argument("pump: the rate [m^3/s] is " + std::to_string(rate) +
+                                ", must be finite");
+  state.pump = rate;
+  wakeUp(held.member);
 }
 
 void Immersed::applyImpulse(const Wrench& impulse) const {

@@ -4,14 +4,15 @@
 #include <cmath>
 
 #include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/spatial/inertia.h"
 
 namespace ambient {
 
 HoldFill fillHold(const HoldShape& shape, const Vector3& normal, double volume,
                   double guess) noexcept {
-  constexpr double kEmpty = 1e-9, kAccuracy = 1e-12;  // of the hold
-  constexpr int kMostClips = 60;                      // bisections alone need fewer
+  constexpr double kEmpty = 1e-12, kAccuracy = 1e-12;  // of the hold
+  constexpr int kMostClips = 60;                       // bisections alone need fewer
   const double capacity = shape.capacity();
   AMBIENT_ASSERT(isUnit(normal) && capacity > 0);
   auto [low, high] = computeExtent(shape.hull(), normal);
@@ -36,7 +37,16 @@ HoldFill fillHold(const HoldShape& shape, const Vector3& normal, double volume,
     next = area > 0 ? next - error / area : low;
     if (!(low < next && next < high)) next = (low + high) / 2;
   }
+  if (fill.water.volume > 0) fill.water.moment *= volume / fill.water.volume;
+  fill.water.volume = volume;
   return fill;
+}
+
+Matrix6 carriedInertia(const HoldShape& shape, const WetVolume& water) noexcept {
+  if (!(water.volume > 0)) return Matrix6::Zero();
+  const double share = water.volume / shape.capacity(), root = portable::cbrt(share);
+  const Matrix3 turning = share * root * root * shape.turningInertia();
+  return shiftOrigin(rigidBodyInertia(water.volume, turning), -water.moment / water.volume);
 }
 
 WetVolume withWaterInside(WetVolume wet, const SurfacePlane& plane, const HoldFill& fill) noexcept {

@@ -8,20 +8,24 @@ namespace ambient {
 /// A hold for hydrostatics, in frame F.
 class HoldShape {
  public:
-  explicit HoldShape(const Hold& hold) : hull_(hold.surface), capacity_(hold.volume) {}
+  explicit HoldShape(const Hold& hold)
+      : hull_(hold.surface), capacity_(hold.volume), turning_inertia_(hold.turning_inertia) {}
 
   const PackedHull& hull() const { return hull_; }
   double capacity() const { return capacity_; }  ///< [m^3]
+  /// Hold::turning_inertia [m^5].
+  const Matrix3& turningInertia() const { return turning_inertia_; }
 
  private:
   PackedHull hull_;
   double capacity_;
+  Matrix3 turning_inertia_;
 };
 
 /// Water in a hold, level along a normal.
 struct HoldFill {
   double height = 0;  ///< of its level along the normal [m]
-  /// Full or empty: without a waterplane.
+  /// Full or empty: without a waterplane. Else its volume is the one given.
   WetVolume water;
   int clips = 0;  ///< how often the hold was clipped
 };
@@ -31,10 +35,15 @@ struct HoldFill {
 /// good guess; allocates nothing.
 /// @param shape the hold, in the frame of the normal
 /// @param normal unit, out of the water
-/// @param volume [m^3]; up to 1e-9 of the hold it is empty, from 1 - 1e-9 on full
-/// @param guess height to begin with, such as the last one [m]
+/// @param volume [m^3]; up to 1e-12 of the hold it is empty, from 1 - 1e-12 on full
+/// @param guess height to begin with, such as the last one [m]; NaN: the share of the hold's height
 HoldFill fillHold(const HoldShape& shape, const Vector3& normal, double volume,
                   double guess) noexcept;
+
+/// Inertia of the water in a hold as it moves with the body, per unit density, about F's origin.
+/// That against turning is Hold::turning_inertia times the volume's share to the power of 5/3, as
+/// of a hold of the same shape; docs/theory.md eq. (141).
+Matrix6 carriedInertia(const HoldShape& shape, const WetVolume& water) noexcept;
 
 /// Takes what stands in a hold off the wet part of a closed vessel, docs/theory.md eq. (135).
 /// Volume, moment and depth integral become those of both; the waterplane remains that outside.

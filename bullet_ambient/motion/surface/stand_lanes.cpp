@@ -23,16 +23,15 @@ void setWetVolume(StandLanes& lanes, int body, const WetVolume& wet) {
   setLane(lanes.moment, body, wet.moment);
 }
 
-void getMatrix(const FlightLane (&from)[kSymmetricEntries], int body, SymmetricMatrix& m) {
-  for (int entry = 0; entry < kSymmetricEntries; ++entry) m.entries[entry] = from[entry][body];
-}
-
 /// Added mass along the normal per unit density, times c of docs/theory.md eq. (69) [m^3].
 double heaveInertia(const SurfaceModel& model, const SurfacePlace& place) {
   if (!(model.excess_density > 0)) return 0;
   const Vector3& s = place.plane.normal;
   const Matrix3 fluid = place.inertia.bottomRight() - model.above.inertia.bottomRightCorner<3, 3>();
-  return std::max(0.0, model.heave_factor / model.excess_density * s.dot(fluid * s));
+  const double heave = model.heave_factor / model.excess_density * s.dot(fluid * s);
+  // The volume outside counts, and the factor is that of the added mass alone.
+  const double inside = -place.inside_F.below.volume;
+  return std::max(0.0, inside > 0 ? heave + (1 - model.heave_factor) * inside : heave);
 }
 
 }  // namespace
@@ -61,7 +60,7 @@ void setStand(StandLanes& lanes, int body, const SurfaceModel& model,
 }
 
 void readStand(const StandLanes& lanes, int body, SurfaceStand& stand) noexcept {
-  getMatrix(lanes.inverse, body, stand.inverse);
+  stand.inverse = symmetricOf(lanes.inverse, body);
   forEachNumber(stand.modes, lanes.modes,
                 [&](double& to, const FlightLane& from) { to = from[body]; });
   stand.swing = lanes.swing[body];
@@ -104,9 +103,10 @@ void completeStands(const SurfaceModel* const* models, SurfaceStand* const* stan
   }
 }
 
-SurfaceStand standAtSurface(const SurfaceModel& model, const SurfacePlane& plane_B) noexcept {
+SurfaceStand standAtSurface(const SurfaceModel& model, const SurfacePlane& plane_B,
+                            const HoldState* water) noexcept {
   SurfaceStand stand;
-  static_cast<SurfacePlace&>(stand) = placeAt(model, plane_B);
+  static_cast<SurfacePlace&>(stand) = placeAt(model, plane_B, water);
   const SurfaceModel* const models = &model;
   SurfaceStand* const stands = &stand;
   completeStands(&models, &stands, 1);

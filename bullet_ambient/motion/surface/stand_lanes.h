@@ -10,15 +10,23 @@ namespace ambient {
 /// SurfacePlaces, side by side. The bits of a stand do not depend on the others.
 void completeStands(const SurfaceModel* const* models, SurfaceStand* const* stands,
                     int count) noexcept;
-/// Computes the stand of a body for a plane in B, whose density and gravity count. Cost: 1 us for a
-/// hull of some hundred triangles.
-SurfaceStand standAtSurface(const SurfaceModel& model, const SurfacePlane& plane_B) noexcept;
+/// Computes the stand of a body for a plane in B, whose density and gravity count. `water`: states
+/// of its holds; null: without water. Cost: 1 us for a hull of some hundred triangles.
+SurfaceStand standAtSurface(const SurfaceModel& model, const SurfacePlane& plane_B,
+                            const HoldState* water = nullptr) noexcept;
 
 extern const Kernels<const SurfaceKernel*> kSurfaceKernels;
 
 inline void setLane(FlightLane (&to)[kSymmetricEntries], int body,
                     const SymmetricMatrix& m) noexcept {
   for (int entry = 0; entry < kSymmetricEntries; ++entry) to[entry][body] = m.entries[entry];
+}
+
+/// Reads lane `body`.
+inline SymmetricMatrix symmetricOf(const FlightLane (&from)[kSymmetricEntries], int body) noexcept {
+  SymmetricMatrix m;
+  for (int entry = 0; entry < kSymmetricEntries; ++entry) m.entries[entry] = from[entry][body];
+  return m;
 }
 
 /// Writes a place into lane `body`, as input of computeStands().

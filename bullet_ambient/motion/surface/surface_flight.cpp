@@ -218,14 +218,26 @@ class SurfaceFlights {
 
   void meetError(int i, double error) { progress_[i].error = std::max(progress_[i].error, error); }
 
+  /// The water in the holds has moved to another level, before the surface is passed.
+  void moveWater(int i, const WaterShift& shift) {
+    if (!shift.before.is_any && !shift.after.is_any) return;
+    SymmetricMatrix inertia = symmetricOf(lanes_.flight.inertia, i);
+    const Vector6 x = twistOf(lanes_.flight.twist_B, i).vector();
+    setLane(lanes_.flight.twist_B, i, Twist::fromVector(shiftWater(shift, x, inertia)));
+    setLane(lanes_.flight.inertia, i, inertia);
+  }
+
   void findPlace(int i) {
     Progress& p = progress_[i];
     const SurfacePlane& plane = p.place->plane;
     const SurfacePlane plane_B{vectorOf(lanes_.stand.normal, i), lanes_.stand.height[i],
                                plane.density, plane.gravity, plane.sides_F};
     const Immersion before = p.place->immersion_F;
-    p.later = placeAt(p.model(), plane_B);
+    const HoldState* const water = p.flight->task.water;
+    const WaterInside inside_before = water ? p.place->inside_F : WaterInside{};
+    p.later = placeAt(p.model(), plane_B, water);
     p.place = &p.later;
+    if (water) moveWater(i, {p.model(), inside_before, p.later.inside_F, plane_B.normal});
     setPlace(lanes_.stand, i, p.model(), p.later);
     setLane(lanes_.centre_of_buoyancy, i, centreOfBuoyancy(p.model(), p.later));
     const MeanDepths depths = meanDepths(before, p.later.immersion_F);

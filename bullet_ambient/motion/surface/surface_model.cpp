@@ -73,6 +73,7 @@ SurfaceModel makeSurfaceModel(const SurfaceModelDef& def) {
   model.excess_density = def.below.density - def.above.density;
   model.shape = def.shape;
   if (!(def.shape->sphere_radius > 0)) model.hull = LoadTables(def.shape).hull();
+  if (!def.shape->holds.empty()) model.holds = std::make_shared<HoldShapes>(def.shape->holds);
   model.wetted = makeWettedInertia(def.shape);
   model.loads_below = partLoads(def, def.below);
   if (isFeltAbove(def)) model.loads_above = partLoads(def, def.above);
@@ -119,10 +120,13 @@ Immersion immersionOf(const SurfaceModel& model, const SurfacePlane& plane_B) no
   return immersion;
 }
 
-WetVolume wetVolumeAt(const SurfaceModel& model, const SurfacePlane& plane_B) noexcept {
+WetVolume wetVolumeAt(const SurfaceModel& model, const SurfacePlane& plane_B,
+                      const HoldState* water) noexcept {
   const FrameOffset& frame = model.fluid_frame;
-  if (frame.isIdentity()) return wetVolumeInF(model, plane_B);
-  return wetVolumeInF(model, seenFrom(plane_B, frame)).inB(frame);
+  if (frame.isIdentity() && !water) return wetVolumeInF(model, plane_B);
+  const SurfacePlane plane_F = seenFrom(plane_B, frame);
+  const WetVolume wet = wetVolumeInF(model, plane_F);
+  return (water ? waterInside(*model.holds, water, plane_F).with(wet) : wet).inB(frame);
 }
 
 Matrix6 inertiaAt(const SurfaceModel& model, const Immersion& immersion) noexcept {

@@ -5,6 +5,7 @@
 #include "bullet_ambient/force/law/flow_settings.h"
 #include "bullet_ambient/force/surface/wetted_inertia.h"
 #include "bullet_ambient/motion/body/body_model.h"
+#include "bullet_ambient/motion/surface/hold_water.h"
 
 namespace ambient {
 
@@ -28,12 +29,13 @@ struct PartLoads {
 /// Parameters of the motion of one body near a water surface; constant between changes of body or
 /// media. Frame: body frame B, unless the name says otherwise.
 struct SurfaceModel {
-  /// Models of the whole body in one of the fluids; its holds are full of that above, and stay dry.
+  /// Models of the whole body in one of the fluids; its holds are full of that above.
   BodyModel above, below;
   FrameOffset fluid_frame;
   double excess_density = 0;  ///< density of the fluid below minus that of the fluid above [kg/m^3]
   std::shared_ptr<const FluidBody> shape;
-  std::shared_ptr<const PackedHull> hull;  ///< null for a sphere
+  std::shared_ptr<const PackedHull> hull;   ///< null for a sphere
+  std::shared_ptr<const HoldShapes> holds;  ///< null: none
   std::shared_ptr<const WettedInertia> wetted;
   PartLoads loads_above, loads_below;
   double radius = 0;  ///< radius of a sphere about the centre of mass that contains the body [m]
@@ -59,8 +61,10 @@ SurfaceSide sideOf(const SurfaceModel& model, const SurfacePlane& plane_B, doubl
 
 /// Computes the immersion in F, for a plane in B.
 Immersion immersionOf(const SurfaceModel& model, const SurfacePlane& plane_B) noexcept;
-/// Computes the wet volume in B for a plane in B.
-WetVolume wetVolumeAt(const SurfaceModel& model, const SurfacePlane& plane_B) noexcept;
+/// Computes the wet volume in B for a plane in B, less the water in its holds, docs/theory.md eq.
+/// (135). `water`: states of the holds; null: without water.
+WetVolume wetVolumeAt(const SurfaceModel& model, const SurfacePlane& plane_B,
+                      const HoldState* water) noexcept;
 
 /// Computes the total inertia K of body and fluids in B at an immersion; docs/theory.md eq. (63).
 /// Errors of the wetted part may make it smaller than that in the fluid above, see

@@ -1,6 +1,7 @@
 #include "bullet_ambient/motion/surface/surface_stand.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
@@ -8,23 +9,60 @@
 #include "bullet_ambient/motion/lanes/body_kernel.h"
 #include "bullet_ambient/motion/lanes/passage_kernel.h"
 #include "bullet_ambient/motion/lanes/wave_kernel.h"
+#include "bullet_ambient/spatial/cholesky.h"
 #include "bullet_ambient/spatial/inertia.h"
 
 namespace ambient {
-SurfacePlace placeAt(const SurfaceModel& model, const SurfacePlane& plane_B) noexcept {
+SurfacePlace placeAt(const SurfaceModel& model, const SurfacePlane& plane_B,
+                     const HoldState* water) noexcept {
   SurfacePlace place;
   place.plane = plane_B;
   place.immersion_F = immersionOf(model, plane_B);
-  place.inertia = SymmetricMatrix(inertiaAt(model, place.immersion_F));
+  const Matrix6 inertia = inertiaAt(model, place.immersion_F);
+  if (water) place.inside_F = waterInside(*model.holds, water, place.immersion_F.plane);
+  place.inertia = SymmetricMatrix(
+      place.inside_F.is_any ? Matrix6(inertia + inertiaInside(model, place.inside_F)) : inertia);
   return place;
 }
 
-bool isStable(const SurfaceStand& stand) noexcept {
+Matrix6 inertiaInside(const SurfaceModel& model, const WaterInside& inside_F) noexcept {
+  if (!inside_F.is_any) return Matrix6::Zero();
+  return model.excess_density * model.fluid_frame.inertiaToB(inside_F.inertia.full());
+}
+
+Vector6 shiftWater(const WaterShift& shift, const Vector6& x, SymmetricMatrix& inertia) noexcept {
+  const SurfaceModel& model = shift.model;
+  const Matrix6 before = inertia.full(), after = before - inertiaInside(model, shift.before) +
+                                                 inertiaInside(model, shift.after);
+  const Cholesky<6> factors(after);
+  if (!factors.isPositive()) return x;
+  inertia = SymmetricMatrix(after);
+  const Vector6 momentum = before * x;
+  const double twice_before = x.dot(momentum);
+  Vector6 end = factors.solve(momentum);
+  // A torque along the tilt: the part of the spin across the normal.
+  const Vector3 tilt = end.head<3>() - shift.normal.dot(end.head<3>()) * shift.normal;
+  const Vector6 response = factors.solve(stack(tilt, Vector3::Zero()));
+  const double a = response.head<3>().dot(tilt), b = tilt.squaredNorm();
+  const double excess = end.dot(momentum) - twice_before, square = b * b - a * excess;
+  if (a > 0 && square > 0) end -= excess / (b + std::sqrt(square)) * response;
+  return scaledWithin(end, end.dot(after * end), twice_before).twist;
+}
+
+bool isStable(const SurfaceModel& model, const SurfaceStand& stand) noexcept {
   constexpr double kNeutral = 0.005;  // the flat sides of a barrel's mesh make 0.0022
   const double pull = stand.plane.density * stand.plane.gravity;
   const FloatingModes& modes = stand.modes;
   const auto isTiltStable = [&](int i) {
-    return modes.stiffness[i + 1] >= -kNeutral * pull * modes.second_moment[i];
+    double stiffness = modes.stiffness[i + 1], of_plane = pull * modes.second_moment[i];
+    if (stand.inside_F.is_any) {
+      const Vector3 across_F =
+          model.fluid_frame.rotation.transpose() * stand.plane.normal.cross(asEigen(modes.tilt[i]));
+      const double of_levels = pull * across_F.dot(stand.inside_F.spread * across_F);
+      stiffness -= of_levels;
+      of_plane = std::max(0.0, of_plane - of_levels);
+    }
+    return stiffness >= -kNeutral * of_plane;
   };
   return modes.stiffness[0] >= 0 && isTiltStable(0) && isTiltStable(1);
 }
@@ -55,7 +93,7 @@ BodyModel frozenAt(const SurfaceModel& model, const SurfaceStand& stand) noexcep
 void displace(const SurfaceModel& model, const WetVolume& wet, BodyModel& frozen) noexcept {
   const double water = model.excess_density * wet.volume;
   frozen.displaced_mass = model.above.displaced_mass + water;
-  if (frozen.displaced_mass > 0) {
+  if (frozen.displaced_mass != 0) {
     frozen.centre_of_volume = (model.above.displaced_mass * model.above.centre_of_volume +
                                model.excess_density * wet.moment) /
                               frozen.displaced_mass;
@@ -72,7 +110,7 @@ Wrench gradientAt(const SurfaceModel& model, const SurfacePlace& place, const Tw
 }
 
 Vector3 centreOfBuoyancy(const SurfaceModel& model, const SurfacePlace& place) noexcept {
-  const WetVolume wet = wetVolume(model, place);
+  const WetVolume wet = wetOutside(model, place);
   return wet.volume > 0 ? Vector3(wet.moment / wet.volume) : model.above.centre_of_volume;
 }
 

@@ -11,12 +11,29 @@ namespace ambient {
 /// otherwise.
 struct SurfacePlace {
   SurfacePlane plane;
-  Immersion immersion_F;
-  SymmetricMatrix inertia;  ///< K of body and fluids, docs/theory.md eq. (63)
+  Immersion immersion_F;    ///< of the closed vessel
+  SymmetricMatrix inertia;  ///< K of body, fluids and water inside, docs/theory.md eq. (63)
+  WaterInside inside_F;     ///< in its holds
 };
 
-/// Computes the place for a plane in B, whose density and gravity count.
-SurfacePlace placeAt(const SurfaceModel& model, const SurfacePlane& plane_B) noexcept;
+/// Computes the place for a plane in B, whose density and gravity count. `water`: states of the
+/// holds; null: without water.
+SurfacePlace placeAt(const SurfaceModel& model, const SurfacePlane& plane_B,
+                     const HoldState* water = nullptr) noexcept;
+
+/// Returns the part of K that is water in the holds, in B.
+Matrix6 inertiaInside(const SurfaceModel& model, const WaterInside& inside_F) noexcept;
+
+/// Water in the holds, before and after it has moved to another level.
+struct WaterShift {
+  const SurfaceModel& model;
+  const WaterInside &before, &after;
+  Vector3 normal;  ///< of the surface, in B
+};
+/// Replaces the water before in an inertia K by that after, and returns the twist thereafter,
+/// docs/theory.md eq. (142): the momentum stays but for a torque along the tilt, by which the
+/// energy does, too, and it never grows. In B.
+Vector6 shiftWater(const WaterShift& shift, const Vector6& x, SymmetricMatrix& inertia) noexcept;
 
 /// A place, and quantities that follow from it: inverse inertia, stiffness, waves.
 struct SurfaceStand : SurfacePlace {
@@ -25,10 +42,15 @@ struct SurfaceStand : SurfacePlace {
   double swing = 0;  ///< largest natural frequency of the body on its buoyancy [1/s]
 };
 
-/// Returns the wet volume in B.
-inline WetVolume wetVolume(const SurfaceModel& model, const SurfacePlace& place) noexcept {
+/// Returns the wet volume of the closed vessel in B.
+inline WetVolume wetOutside(const SurfaceModel& model, const SurfacePlace& place) noexcept {
   const WetVolume& wet_F = place.immersion_F.wet;
   return model.fluid_frame.isIdentity() ? wet_F : wet_F.inB(model.fluid_frame);
+}
+/// Returns the same less the water in the holds, docs/theory.md eq. (135).
+inline WetVolume wetVolume(const SurfaceModel& model, const SurfacePlace& place) noexcept {
+  if (!place.inside_F.is_any) return wetOutside(model, place);
+  return place.inside_F.with(place.immersion_F.wet).inB(model.fluid_frame);
 }
 
 /// Returns the energy of the buoyancy at a plane in B less that at a place that is near, where
@@ -36,13 +58,18 @@ inline WetVolume wetVolume(const SurfaceModel& model, const SurfacePlace& place)
 inline double energyOfRounding(const SurfaceModel& model, const SurfacePlace& place,
                                const SurfacePlane& plane_B) noexcept {
   const Immersion& at = place.immersion_F;
-  return hydrostaticEnergyChange(at.wet, at.plane, seenFrom(plane_B, model.fluid_frame));
+  const SurfacePlane near = seenFrom(plane_B, model.fluid_frame);
+  if (!place.inside_F.is_any) return hydrostaticEnergyChange(at.wet, at.plane, near);
+  WetVolume wet = place.inside_F.with(at.wet);
+  wet.waterplane.spread -= place.inside_F.spread;
+  return hydrostaticEnergyChange(wet, at.plane, near);
 }
 
 /// True if no small displacement grows, up and down or about an axis of the waterplane. A balance
 /// is neutral, and does not count as growth, if the stiffness of a tilt is within half a per cent
-/// of the waterplane's part of it.
-bool isStable(const SurfaceStand& stand) noexcept;
+/// of the waterplane's part of it. Counts what the levels in the holds take off, docs/theory.md eq.
+/// (137).
+bool isStable(const SurfaceModel& model, const SurfaceStand& stand) noexcept;
 
 /// Longest step that needs no stiffInertia(), times the largest natural frequency [1].
 constexpr double kLongestSwing = 0.5;
@@ -66,7 +93,8 @@ void displace(const SurfaceModel& model, const WetVolume& wet, BodyModel& frozen
 /// Computes F_K of docs/theory.md eq. (66) for a twist x in B relative to the water.
 Wrench gradientAt(const SurfaceModel& model, const SurfacePlace& place, const Twist& x) noexcept;
 
-/// Returns the centre of the wet volume in B [m]; of a dry body, the centre of its volume.
+/// Returns the centre of the wet volume of the closed vessel in B [m]; of a dry body, the centre of
+/// its volume.
 Vector3 centreOfBuoyancy(const SurfaceModel& model, const SurfacePlace& place) noexcept;
 
 /// Depths of a body's lowest and highest point on a way, the means of those at its two ends [m]. A

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <vector>
+
+#include "bullet_ambient/force/surface/hold_flow.h"
+#include "bullet_ambient/force/surface/hold_shape.h"
+#include "bullet_ambient/motion/surface/symmetric_matrix.h"
+
+namespace ambient {
+
+/// Holds of a body and the openings through which water comes into them, in F. Immutable; shared by
+/// equal bodies.
+struct HoldShapes {
+  struct Opening {
+    OpeningShape shape;
+    int from;  ///< the hold
+    int to;    ///< the hold that it leads to; -1: the fluid outside
+  };
+
+  explicit HoldShapes(const std::vector<Hold>& holds);
+
+  std::vector<HoldShape> shapes;
+  std::vector<Opening> openings;
+};
+
+/// Water in one hold of a body, from step to step.
+struct HoldState {
+  double volume = 0;  ///< [m^3]
+  double change = 0;  ///< of the volume in the last step [m^3]
+  double inflow = 0;  ///< the part of it from outside; negative: out [m^3]
+  double pump = 0;    ///< from outside by a pump; negative: out [m^3/s]
+};
+
+/// Water in all holds of a body at one pose, in F: what it adds to the closed vessel.
+struct WaterInside {
+  bool is_any = false;
+  /// What docs/theory.md eq. (135) adds to V, S and W: volume and moment are negative.
+  WetVolume below;
+  Matrix3 spread = Matrix3::Zero();  ///< sum of Waterplane::spread of its levels [m^4]
+  SymmetricMatrix inertia;           ///< of the water, per unit density, about F's origin
+
+  /// Returns the wet part of the closed vessel less the water; the waterplane is that outside.
+  WetVolume with(WetVolume vessel) const noexcept {
+    vessel.volume += below.volume;
+    vessel.moment += below.moment;
+    vessel.depth_integral += below.depth_integral;
+    return vessel;
+  }
+};
+
+/// Finds the levels of the water in the holds and sums over it. Cost: four to six clips of each
+/// hold with water.
+/// @param holds of the body
+/// @param states one of each hold
+/// @param plane_F of the water outside
+WaterInside waterInside(const HoldShapes& holds, const HoldState* states,
+                        const SurfacePlane& plane_F) noexcept;
+
+/// Tells if all holds are full of water.
+bool areFull(const HoldShapes& holds, const HoldState* states) noexcept;
+/// Tells if all holds are empty.
+bool areEmpty(const HoldShapes& holds, const HoldState* states) noexcept;
+
+/// Fills the holds whose openings are all below a plane, and empties the others.
+void fillCoveredHolds(const HoldShapes& holds, const SurfacePlane& plane_F,
+                      HoldState* states) noexcept;
+
+/// Lets water pass through the openings, one after the other, and the pumps run, for a duration
+/// [s]; docs/theory.md eq. (138) to (140). No level passes that of the sea. Where the holds are not
+/// open nothing passes through the openings. Returns the inertia in F of the water that has come
+/// from outside, per unit density; it was at rest there.
+Matrix6 exchangeWater(const HoldShapes& holds, const SurfacePlane& plane_F, bool are_open,
+                      double duration, HoldState* states) noexcept;
+
+}  // namespace ambient

@@ -1,0 +1,349 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/bullet/members/ambient_bodies.h"
+#include "bullet_ambient/force/medium/waves.h"
+#include "bullet_ambient/motion/surface/stand_lanes.h"
+#include "bullet_ambient/saved_state.h"
+#include "bullet_ambient/spatial/rotation.h"
+#include "tests/bullet_ambient/bullet/fluid_world.h"
+#include "tests/support/bodies/random_bodies.h"
+#include "tests/support/bodies/vessel_bodies.h"
+#include "tests/support/refusal_of.h"
+
+// A barge of 2 x 1 x 0.5 m with walls of 2 cm and 200 kg afloat in water of 1000 kg/m^3.
+namespace ambient::test {
+namespace {
+
+constexpr double kBarge = 200, kCapacity = 1.96 * 0.96 * 0.48;
+const Vector3 kBargeMoments = kBarge * Vector3(0.13, 0.42, 0.5);
+
+struct Start {
+  Vector3 position{0, 0, 0.15};  ///< of the middle of the closed box [m]
+  Quaternion orientation = Quaternion::Identity();
+  Twist twist{};             ///< world axes
+  double above_keel = 0.13;  ///< of the centre of mass [m]
+};
+
+struct Sea {
+  explicit Sea(std::shared_ptr<const WaterSurface> surface =
+                   std::make_shared<StillWater>(0.0, Vector3(0, 0, 1))) {
+    scene.world.getDispatchInfo().m_deterministicOverlappingPairs = true;
+    scene.world.setGravity({0, 0, bt(-kGravity)});
+    FluidRegion sea;
+    sea.below = {1000, 1e-3, {0, 0, 0}, {0, 0, 0}};
+    sea.above = Medium{};
+    sea.surface = std::move(surface);
+    scene.fluid.addRegion(sea);
+  }
+  btRigidBody& add(const OpenBarge& barge, const Start& start, const HoldSettings& holds = {}) {
+    const Vector3 centre(0, 0, start.above_keel - 0.25);
+    BodyDef def{kBarge, kBargeMoments, {}, nullptr};
+    def.start.position = start.position + start.orientation * centre;
+    def.start.orientation = start.orientation;
+    def.start.twist = start.twist;
+    btRigidBody& body = scene.add(def);
+    AttachDef attach;
+    attach.fluid_body = std::make_shared<FluidBody>(openBarge(barge));
+    attach.fluid_frame.translation = -centre;
+    attach.holds = holds;
+    scene.fluid.add(body, attach);
+    return body;
+  }
+  const AmbientBody& of(const btRigidBody& body) const {
+    return *membersOf(scene.fluid).find(&body);
+  }
+  double water(const btRigidBody& body) const { return of(body).vessel->holds[0].volume; }
+  /// Energy of the body, the water around and that in its holds, docs/theory.md eq. (64) [J].
+  double energy(const btRigidBody& body) const {
+    const AmbientBody& ambient = of(body);
+    const SurfaceModel& model = ambient.models->surfaces.at(0).model;
+    const RigidState state = readState(body);
+    const SurfacePlane still{{0, 0, 1}, 0, 1000, kGravity};
+    const SurfaceStand stand =
+        standAtSurface(model, seenFrom(still, state.orientation.toRotationMatrix(), state.position),
+                       waterOf(ambient));
+    const Vector6 x = state.twist.vector();
+    return x.dot(stand.inertia.full() * x) / 2 + kBarge * kGravity * state.position.z() +
+           hydrostaticEnergy(wetVolume(model, stand), stand.plane) +
+           ambient.floating->waves.energy();
+  }
+
+  FluidWorld scene;
+};
+
+/// Height of the middle of the box [m].
+double middleOf(const btRigidBody& body, double above_keel = 0.13) {
+  return static_cast<double>(body.getWorldTransform().getOrigin().z()) + 0.25 - above_keel;
+}
+
+/// A joint that lets a body move up and down, and roll, within limits [m, rad].
+struct Rail {
+  Rail(Sea& sea, btRigidBody& body, double lift, double roll)
+      : world(sea.scene.world), joint(body, btTransform(btQuaternion::getIdentity()), false) {
+    joint.setLinearLowerLimit({0, 0, bt(-lift)});
+    joint.setLinearUpperLimit({0, 0, bt(lift)});
+    joint.setAngularLowerLimit({bt(-roll), 0, 0});
+    joint.setAngularUpperLimit({bt(roll), 0, 0});
+    world.addConstraint(&joint, true);
+  }
+  ~Rail() { world.removeConstraint(&joint); }
+
+  btDynamicsWorld& world;
+  btGeneric6DofConstraint joint;
+};
+
+double heelOf(const btRigidBody& body) {
+  return std::acos(std::min(1.0, static_cast<double>(body.getWorldTransform().getBasis()[2].z())));
+}
+
+/// Steps a barge with a hole of 0.01 m^2 in its floor until its rim dips. Returns the time [s].
+double timeToDip(Sea& sea, const btRigidBody& body, double hertz) {
+  double time = 0;
+  while (middleOf(body) > -0.25 && time < 200) {
+    sea.scene.step(1 / hertz);
+    time += 1 / hertz;
+  }
+  return time;
+}
+
+/// Head D = D0 - c V, c = 1/A_i - 1/A_o: 2 (sqrt D0 - sqrt(D0 - c V)) / (C a sqrt(2g) c), V 0.8
+/// m^3.
+double exactTimeToDip() {
+  const double c = 1 / (1.96 * 0.96) - 1 / 2.0, D0 = 0.08;
+  return 2 * (std::sqrt(D0) - std::sqrt(D0 - c * 0.8)) / (0.6 * 0.01 * std::sqrt(2 * kGravity) * c);
+}
+
+TEST(Vessel, BargeWithAHoleSinksInItsTime) {
+  Sea sea;
+  OpenBarge barge;
+  barge.hole = 0.01;
+  btRigidBody& body = sea.add(barge, {});
+  EXPECT_EQ(sea.water(body), 0);
+  const double exact = exactTimeToDip();
+  EXPECT_NEAR(exact, 116.447, 1e-3);
+  EXPECT_NEAR(timeToDip(sea, body, 60), exact, 0.003 * exact);
+  EXPECT_NEAR(sea.water(body), 0.8, 0.01);
+  EXPECT_LT(heelOf(body), 0.01);
+  sea.scene.step(1 / 60.0, 300);
+  EXPECT_DOUBLE_EQ(sea.water(body), kCapacity);
+  EXPECT_LT(middleOf(body), -1);
+  const AmbientCounters counters = sea.scene.fluid.counters();
+  EXPECT_NEAR(counters.flooded - counters.drained, kCapacity, 1e-9);
+  // Far below it is a body of walls in one fluid.
+  sea.scene.step(1 / 60.0, 300);
+  EXPECT_EQ(sea.of(body).surface(), nullptr);
+}
+
+// Rows move it.
+TEST(Vessel, BargeOnARailSinksInTheSameTime) {
+  Sea sea;
+  OpenBarge barge;
+  barge.hole = 0.01;
+  btRigidBody& body = sea.add(barge, {});
+  Rail rail(sea, body, 5, 0);
+  const double exact = exactTimeToDip();
+  EXPECT_NEAR(timeToDip(sea, body, 60), exact, 0.003 * exact);
+}
+
+TEST(Vessel, TopHeavyBargeWithWaterLolls) {
+  Sea sea;
+  Start start;
+  start.above_keel = 0.2385;
+  start.position = {0, 0, 0.05};
+  start.orientation = rotationFromVector(Vector3(0.11, 0, 0));
+  btRigidBody& body = sea.add({}, start, {true, {0.2}});
+  sea.scene.step(1 / 60.0, 60 * 300);
+  double mean = 0;
+  constexpr int kSteps = 60 * 500;  // some five periods
+  for (int i = 0; i < kSteps; ++i) {
+    sea.scene.step(1 / 60.0);
+    mean += heelOf(body) * 180 / kPi / kSteps;
+  }
+  EXPECT_NEAR(mean, 7.05, 0.1);
+}
+
+TEST(Vessel, EnergyNeverGrowsInCalmWater) {
+  Arbitrary arbitrary(11);
+  for (int i = 0; i < 16; ++i) {
+    const double hertz = std::array{30.0, 60.0, 120.0, 240.0}[static_cast<std::size_t>(i) % 4];
+    Sea sea;
+    Start start;
+    start.position.z() = arbitrary.between(-0.3, 0.3);
+    start.orientation = rotationFromVector(0.5 * arbitrary.vector().normalized());
+    start.twist = {arbitrary.vector().normalized(), arbitrary.vector().normalized()};
+    OpenBarge barge;
+    barge.holds = 1 + i % 2;
+    barge.door = 0.01;
+    barge.hole = i % 3 == 0 ? 0.01 : 0;
+    const double room = kCapacity / barge.holds * 0.95;
+    std::vector<double> water;
+    for (int hold = 0; hold < barge.holds; ++hold)
+      water.push_back(room * arbitrary.between(0.02, 0.98));
+    btRigidBody& body = sea.add(barge, start, {i >= 4, water});
+    sea.scene.step(1 / hertz);
+    double energy = sea.energy(body);
+    for (int k = 0; k < 400; ++k) {
+      sea.scene.step(1 / hertz);
+      const double next = sea.energy(body);
+      EXPECT_LT(next - energy, byPrecision(1e-9, 3e-6) * kBarge * kGravity) << i << ' ' << k;
+      energy = next;
+    }
+  }
+}
+
+// A closed barge takes in its own mass of water in one step: it keeps its momentum.
+TEST(Vessel, WaterThatComesInWasAtRest) {
+  Sea sea;
+  Start start;
+  start.twist.linear = {0.1, 0, 0};
+  btRigidBody& body = sea.add({}, start, {false, {}});
+  const Immersed barge = sea.scene.of(body);
+  sea.scene.step(1 / 60.0);
+  const auto momentum = [&] {
+    return barge.inertia()(3, 3) * static_cast<double>(body.getLinearVelocity().x());
+  };
+  const double before = momentum();
+  barge.pump(0, 0.2 * 60);
+  sea.scene.step(1 / 60.0);
+  EXPECT_NEAR(sea.water(body), 0.2, 1e-12);
+  EXPECT_NEAR(momentum(), before, 0.01 * before);
+}
+
+// Waves wash over the rim of a barge that is held and rolls, in and out.
+TEST(Vessel, WavesNeitherMakeNorLoseWater) {
+  const std::vector<WaveComponent> waves{{0.3, 4, {1, 0.3, 0}, 0}, {0.2, 2.9, {0.2, 1, 0}, 1}};
+  Sea sea(std::make_shared<AiryWaves>(CalmSea{}, waves));
+  Start start;
+  start.position.z() = -0.1;
+  btRigidBody& body = sea.add({}, start, {true, {0.3}});
+  Rail rail(sea, body, 0, 0.3);
+  double sum = 0.3, come = 0, gone = 0;
+  for (int i = 0; i < 100000; ++i) {
+    sea.scene.step(1 / 60.0);
+    const double inflow = sea.of(body).vessel->holds[0].inflow;
+    sum += inflow;
+    (inflow > 0 ? come : gone) += std::abs(inflow);
+  }
+  EXPECT_NEAR(sea.water(body), sum, 1e-12 * kCapacity);
+  EXPECT_GT(come, 30);
+  EXPECT_GT(gone, 30);
+  EXPECT_NEAR(sea.scene.fluid.counters().flooded, come, 1e-9);
+  EXPECT_NEAR(sea.scene.fluid.counters().drained, gone, 1e-9);
+}
+
+TEST(Vessel, StateGoesOnBitForBit) {
+  const auto start = [](Sea& sea) -> btRigidBody& {
+    OpenBarge barge;
+    barge.hole = 0.002;
+    Start at;
+    at.orientation = rotationFromVector(Vector3(0.1, 0.05, 0));
+    return sea.add(barge, at, {true, {0.05}});
+  };
+  Sea sea;
+  btRigidBody& body = start(sea);
+  sea.scene.of(body).pump(0, -1e-4);
+  sea.scene.step(1 / 60.0, 100);
+  const WorldState state = sea.scene.fluid.save();
+  const double before = sea.water(body);
+  const auto run = [](Sea& world, btRigidBody& of) {
+    world.scene.step(1 / 60.0, 200);
+    return std::pair(of.getWorldTransform(), world.water(of));
+  };
+  const auto first = run(sea, body);
+  EXPECT_GT(first.second, before + 0.001);
+  sea.scene.fluid.restore(state);
+  EXPECT_EQ(sea.water(body), before);
+  EXPECT_TRUE(run(sea, body) == first);
+  const std::shared_ptr<const FluidBody> shape = sea.scene.of(body).fluidBody();
+  const WorldState read =
+      decodeState(encodeState(state), "state", [&](const std::string&) { return shape; });
+  Sea other;
+  btRigidBody& same = start(other);
+  other.scene.fluid.restore(read);
+  EXPECT_TRUE(run(other, same) == first);
+}
+
+TEST(Vessel, DryBargeSleepsAndALeakingOneDoesNot) {
+  for (const double hole : {0.0, 1e-4}) {
+    Sea sea;
+    OpenBarge barge;
+    barge.hole = hole;
+    btRigidBody& body = sea.add(barge, {});
+    body.forceActivationState(ACTIVE_TAG);
+    sea.scene.step(1 / 60.0, 60 * 60);
+    EXPECT_EQ(body.isActive(), hole > 0);
+    if (hole > 0) continue;
+    sea.scene.of(body).setWater(0, 0.1);
+    EXPECT_TRUE(body.isActive());
+  }
+}
+
+TEST(Vessel, WreckStartsFloodedAndASealedOneRises) {
+  for (const bool are_open : {true, false}) {
+    Sea sea;
+    Start start;
+    start.position.z() = -30;
+    btRigidBody& body = sea.add({}, start, {are_open, {}});
+    EXPECT_EQ(sea.scene.of(body).holds().at(0).volume, are_open ? kCapacity : 0);
+    sea.scene.step(1 / 60.0, 120);
+    EXPECT_EQ(middleOf(body) < -30, are_open);
+    EXPECT_EQ(sea.water(body), are_open ? kCapacity : 0);
+  }
+}
+
+TEST(Vessel, WaterIsSetPumpedAndRead) {
+  Sea sea;
+  btRigidBody& body = sea.add({}, {});
+  const Immersed barge = sea.scene.of(body);
+  sea.scene.step(1 / 60.0, 600);
+  barge.setWater(0, 0.2);
+  const HoldWater set = barge.holds().at(0);
+  EXPECT_EQ(set.volume, 0.2);
+  EXPECT_DOUBLE_EQ(set.capacity, kCapacity);
+  EXPECT_NEAR(set.area, 1.96 * 0.96, byPrecision(1e-9, 1e-4));
+  EXPECT_NEAR(set.freeboard, 0.48 - 0.2 / (1.96 * 0.96), byPrecision(1e-6, 1e-3));
+  EXPECT_NEAR(set.centre.z(), middleOf(body) - 0.23 + 0.1 / (1.96 * 0.96), 1e-3);
+  EXPECT_NEAR(set.level.z(), middleOf(body) + 0.25 - set.freeboard, 1e-3);
+  sea.scene.step(1 / 60.0, 1800);
+  EXPECT_NEAR(middleOf(body), 0.25 - 0.2, 2e-3) << "draught 0.2 m";
+  barge.pump(0, -0.01);
+  sea.scene.step(1 / 60.0, 600);
+  EXPECT_NEAR(sea.water(body), 0.1, byPrecision(1e-12, 1e-8)) << "of the step";
+  EXPECT_NEAR(barge.holds()[0].inflow, -0.01 / 60, byPrecision(1e-15, 1e-9));
+  sea.scene.step(1 / 60.0, 1800);
+  EXPECT_EQ(sea.water(body), 0);
+  EXPECT_NEAR(middleOf(body), 0.25 - 0.1, 2e-3);
+}
+
+TEST(Vessel, WhatDoesNotFitIsRefusedInOneLine) {
+  Sea sea;
+  const auto refusal = [](const auto& action) { return refusalOf<std::invalid_argument>(action); };
+  EXPECT_EQ(refusal([&] {
+              sea.add({}, {}, {true, {1}});
+            }),
+            "add: body with fluid body 'barge' has 1.000000 m^3 of water in hold 0, which must be "
+            "zero to 0.903168");
+  EXPECT_EQ(refusal([&] {
+              sea.add({}, {}, {true, {0.1, 0.1}});
+            }),
+            "add: body with fluid body 'barge' has water for 2 holds, but its fluid body has 1");
+  const Immersed barge = sea.scene.of(sea.add({}, {}));
+  EXPECT_EQ(refusal([&] { barge.setWater(1, 0); }),
+            "setWater: body with fluid body 'barge' has 1 holds, and none has the number 1");
+  EXPECT_EQ(refusal([&] { barge.setWater(0, -1); }),
+            "setWater: body with fluid body 'barge' has -1.000000 m^3 of water in hold 0, which "
+            "must be zero to 0.903168");
+  EXPECT_EQ(refusal([&] { barge.pump(0, INFINITY); }),
+            "pump: the rate [m^3/s] is inf, must be finite");
+}
+
+}  // namespace
+}  // namespace ambient::test
