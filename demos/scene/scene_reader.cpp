@@ -178,7 +178,6 @@ BodyDef toBody(const json& from, const Scene& scene, const std::filesystem::path
   flow.roughness = from.value("roughness", flow.roughness);
   flow.stall_lag = from.value("stall_lag", flow.stall_lag);
   flow.skin_friction = from.value("skin_friction", true);
-  flow.precision = valueOf(kLoadPrecisionNames, from.value("load_precision", "single")).value();
   flow.maximum_load_error = from.value("maximum_load_error", flow.maximum_load_error);
   body.attach.medium = scene.medium;
   body.attach.medium.density = from.value("fluid_density", scene.medium.density);

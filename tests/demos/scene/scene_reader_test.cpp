@@ -39,7 +39,6 @@ TEST(SceneReader, TakesEveryValueOver) {
   body["separation_angle"] = 2.0;
   body["skin_friction"] = false;
   body["maximum_load_error"] = 0.02;
-  body["load_precision"] = "double";
   body["fluid_density"] = 998;
   body["wave_damping"] = 0.5;
   text["integrator"] = {{"method", "rk4"}, {"tolerance", 1e-4}, {"max_substeps", 7}};
@@ -71,7 +70,6 @@ TEST(SceneReader, TakesEveryValueOver) {
   EXPECT_EQ(ball.attach.flow.separation_angle, 2.0);
   EXPECT_FALSE(ball.attach.flow.skin_friction);
   EXPECT_EQ(ball.attach.flow.maximum_load_error, 0.02);
-  EXPECT_EQ(ball.attach.flow.precision, LoadPrecision::kDouble);
   EXPECT_EQ(ball.attach.medium.density, 998);
 }
 
@@ -86,7 +84,6 @@ TEST(SceneReader, FillsInWhatMayBeLeftOut) {
   EXPECT_EQ(scene.bodies[0].attach.flow.separation_angle, std::acos(-1.0) / 2);
   EXPECT_TRUE(scene.bodies[0].attach.flow.skin_friction);
   EXPECT_EQ(scene.bodies[0].attach.flow.maximum_load_error, FlowSettings{}.maximum_load_error);
-  EXPECT_EQ(scene.bodies[0].attach.flow.precision, LoadPrecision::kSingle);
   EXPECT_FALSE(scene.bodies[0].inertia);
 }
 

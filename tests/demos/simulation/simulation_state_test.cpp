@@ -25,6 +25,21 @@ json stillBall() {
   return scene;
 }
 
+TEST(SimulationForces, ActForOneStepAtTheirPoint) {
+  json text = stillBall();
+  text["model"] = "vacuum";
+  text["bodies"][0]["inertia"] = {0.2, 0.3, 0.4, 0, 0, 0};
+  const Scene scene = sceneFrom(text);
+  Simulation simulation(scene, prepare(scene));
+  simulation.applyForce(0, Vector3(1, 0, 0), Vector3(0, 0.3, 1));  // the ball is at 0, 0, 1
+  simulation.applyTorque(0, Vector3(0.2, 0, 0));
+  for (int i = 0; i < 3; ++i) simulation.step();
+  // F h / m, and (r x F) h / I; spin turns by less than 1e-4 in three steps.
+  const Twist twist = simulation.sample()[0].twist;
+  EXPECT_NEAR((twist.linear - Vector3(0.01 / 0.43, 0, 0)).norm(), 0, 1e-15);
+  EXPECT_NEAR((twist.angular - Vector3(0.01, 0, -0.0075)).norm(), 0, 1e-5);
+}
+
 TEST(SimulationJoints, OfABodyThatIsNotThereAreRefused) {
   Scene scene = sceneFrom(stillBall());
   scene.joints.push_back({{"nobody"}, Vector3(0, 0, 1), std::nullopt});
@@ -82,6 +97,16 @@ TEST(SimulationRobots, MayBeTheOnlyBodies) {
   Simulation simulation(scene, {}, true);
   simulation.step();
   EXPECT_TRUE(simulation.sample().empty());
+}
+
+TEST(SimulationState, OfAnotherSceneIsRefused) {
+  const Scene one = sceneFrom(stillBall()), plate = readNamedScene("plate_9cm");
+  Simulation simulation(one, prepare(one));
+  const std::string state = simulation.saveState();
+  EXPECT_THROW(simulation.restoreState(""), std::runtime_error);
+  EXPECT_THROW(simulation.restoreState(state.substr(0, state.size() - 1)), std::runtime_error);
+  EXPECT_THROW(simulation.restoreState(Simulation(plate, prepare(plate)).saveState()),
+               std::runtime_error);
 }
 
 ShapeDescription ball(double radius) {
