@@ -1,5 +1,10 @@
 #include "preprocess/base/surface_form.h"
 
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+
+#include "bullet_ambient/base/ambient_assert.h"
 #include "preprocess/base/surface_triangles.h"
 
 namespace ambient {
@@ -36,6 +41,201 @@ void makeSurfaceForm(FluidBody& body) {
   const FaceTable faces = formLawFaces(body, body.form.shape);
   body.form.faces = faces;  // a copy has no room to spare
   body.form.hull = hullOf(body.surface);
+}
+
+namespace {
+
+struct Node {
+  double place, weight;  // abscissa in [0, 1], and weight; weights add up to 1
+};
+
+/// Gauss-Legendre rules of 4 and of 3 points.
+constexpr std::array<Node, 4> kFourNodes{{{0.06943184420297371, 0.17392742256872693},
+                                          {0.33000947820757187, 0.32607257743127307},
+                                          {0.6699905217924281, 0.32607257743127307},
+                                          {0.9305681557970263, 0.17392742256872693}}};
+constexpr std::array<Node, 3> kThreeNodes{{{0.1127016653792583, 0.2777777777777778},
+                                           {0.5, 0.4444444444444444},
+                                           {0.8872983346207417, 0.2777777777777778}}};
+constexpr std::size_t kPointsPerQuadrilateral = 4 * 4, kPointsPerTriangle = 3 * 3 * 3;
+
+using Corners = std::array<Vector3, 3>;  // of a triangle
+
+/// One integration point on a flat side: a face of the form law.
+struct Point {
+  Vector3 place;
+  double area;
+};
+
+/// Adds the points of a plane quadrilateral.
+template <std::size_t N>
+void addPoints(const std::array<Vector3, 4>& corners, const std::array<Node, N>& rule,
+               std::vector<Point>& points) {
+  const auto& [a, b, c, d] = corners;
+  for (const Node& u : rule)
+    for (const Node& v : rule) {
+      const Vector3 low = a + u.place * (b - a), high = d + u.place * (c - d);
+      const Vector3 along = (1 - v.place) * (b - a) + v.place * (c - d);
+      points.push_back(
+          {low + v.place * (high - low), u.weight * v.weight * along.cross(high - low).norm()});
+    }
+}
+
+/// Adds the points of a triangle, as three quadrilaterals that meet in its middle.
+void addPoints(const Corners& corners, std::vector<Point>& points) {
+  const Vector3 middle = (corners[0] + corners[1] + corners[2]) / 3;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vector3 &here = corners[k], &next = corners[(k + 1) % 3], &last = corners[(k + 2) % 3];
+    addPoints({middle, (last + here) / 2, here, (here + next) / 2}, kThreeNodes, points);
+  }
+}
+
+/// Points of a flat side with these corners.
+std::vector<Point> pointsOf(const std::vector<Vector3>& corners) {
+  std::vector<Point> points;
+  for (std::size_t i = 1; i + 1 < corners.size(); i += 2)
+    if (i + 2 < corners.size())
+      addPoints({corners[0], corners[i], corners[i + 1], corners[i + 2]}, kFourNodes, points);
+    else
+      addPoints({corners[0], corners[i], corners[i + 1]}, points);
+  return points;
+}
+
+/// Returns true if all faces of a side have sharpness 1.
+bool isSharp(const FlatSide& side, const FaceTable& faces) {
+  for (const int t : side.triangles)
+    if (faces.sharpness[static_cast<std::size_t>(t)] != 1) return false;
+  return true;
+}
+
+Corners cornersOf(const SurfaceTriangles& mesh, int triangle) {
+  return {mesh.place(mesh.vertex(triangle, 0)), mesh.place(mesh.vertex(triangle, 1)),
+          mesh.place(mesh.vertex(triangle, 2))};
+}
+
+/// Longest edge of a triangle that is sampled at one point: a fifth of twice the distance that the
+/// surface reaches from the centre of volume [m].
+double longestEdgeOf(const FluidBody& body, const SurfaceTriangles& mesh) {
+  constexpr double kLongest = 0.2;
+  double reach = 0;
+  for (int v = 0; v < mesh.vertexCount(); ++v)
+    reach = std::max(reach, (mesh.place(v) - body.centre_of_volume).norm());
+  return 2 * kLongest * reach;
+}
+
+bool isLong(const Corners& corners, double longest) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if ((corners[(k + 1) % 3] - corners[k]).norm() > longest) return true;
+  return false;
+}
+
+/// Returns true if points replace the triangles of a side: it has more triangles than points, at
+/// least kLarge of the surface's area, or edges around it and a triangle too long for one point.
+bool deservesPoints(const FlatSide& side, const SurfaceTriangles& mesh, const FluidBody& body,
+                    double longest) {
+  constexpr double kLarge = 0.02;
+  const std::size_t corners = side.corners.size();
+  const std::size_t points =
+      (corners - 2) / 2 * kPointsPerQuadrilateral + corners % 2 * kPointsPerTriangle;
+  double area = 0;
+  bool has_long = false;
+  for (const int t : side.triangles) {
+    area += body.faces.area[static_cast<std::size_t>(t)];
+    has_long = has_long || (side.has_sharp_rim && isLong(cornersOf(mesh, t), longest));
+  }
+  return points < side.triangles.size() || area >= kLarge * body.area || has_long;
+}
+
+/// Sets the sharpness of the faces of a side; a sheet of as many `triangles` has them on its back,
+/// too.
+void setSharpness(const FlatSide& side, double sharpness, int triangles, FaceTable& faces) {
+  for (const int t : side.triangles)
+    for (auto face = static_cast<std::size_t>(t); face < faces.size();
+         face += static_cast<std::size_t>(triangles))
+      faces.sharpness[face] = sharpness;
+}
+
+/// Collects faces with their sharpness.
+class FaceCollector {
+ public:
+  explicit FaceCollector(const FaceTable& faces) : faces_(faces) {}
+
+  void copy(std::size_t face) {
+    add(faces_.normal(face), faces_.centroid(face), faces_.area[face], faces_.sharpness[face]);
+  }
+  /// Adds points of a face of these corners in its place.
+  void addPointsOf(std::size_t face, const Corners& corners) {
+    std::vector<Point> points;
+    addPoints(corners, points);
+    for (const Point& point : points)
+      add(faces_.normal(face), point.place, point.area, faces_.sharpness[face]);
+  }
+  void add(const Vector3& normal, const Vector3& place, double area, double sharpness) {
+    result.add(normal, place, area);
+    result.sharpness.push_back(sharpness);
+  }
+
+  FaceTable result;
+
+ private:
+  const FaceTable& faces_;
+};
+
+FaceTable facesWithPoints(const FluidBody& body) {
+  FaceTable faces = body.faces;
+  if (faces.sharpness.empty()) faces.sharpness = computeSharpness(body);
+  AMBIENT_ASSERT(faces.sharpness.size() == faces.size());
+  if (body.surface.triangles.empty()) return faces;
+  const SurfaceTriangles mesh(body);
+  const double longest = longestEdgeOf(body, mesh);
+  FaceCollector collector(faces);
+  std::vector<bool> is_replaced(static_cast<std::size_t>(mesh.size()));
+  for (const FlatSide& side : findFlatSides(mesh)) {
+    if (!isSharp(side, faces)) continue;
+    const std::vector<Vector3> corners = mesh.places(side.corners);
+    const double sharpness = sharpnessOfSide(corners);
+    if (!deservesPoints(side, mesh, body, longest)) {
+      if (side.has_sharp_rim) setSharpness(side, sharpness, mesh.size(), faces);
+      continue;
+    }
+    for (const Point& point : pointsOf(corners)) {
+      collector.add(side.normal, point.place, point.area, sharpness);
+      if (mesh.isSheet()) collector.add(-side.normal, point.place, point.area, sharpness);
+    }
+    for (const int t : side.triangles) is_replaced[static_cast<std::size_t>(t)] = true;
+  }
+  for (std::size_t face = 0; face < faces.size(); ++face) {
+    const std::size_t t = face % is_replaced.size();
+    if (is_replaced[t]) continue;
+    const Corners corners = cornersOf(mesh, static_cast<int>(t));
+    if (isLong(corners, longest))
+      collector.addPointsOf(face, corners);
+    else
+      collector.copy(face);
+  }
+  return std::move(collector.result);
+}
+
+}  // namespace
+
+double sharpnessOfSide(const std::vector<Vector3>& corners) {
+  constexpr double kEndless = 1.98 / 1.17 - 1;  // gain of an endless strip: C_D over the square's
+  constexpr double kHalf = 40;                  // y of eq. (45) at half of that gain
+  double outline = 0, twice_area = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vector3& next = corners[(i + 1) % corners.size()];
+    outline += (next - corners[i]).norm();
+    twice_area += (corners[i] - corners[0]).cross(next - corners[0]).norm();
+  }
+  const double length = std::max(outline * outline / (2 * twice_area) - 4, 0.0);
+  return static_cast<double>(static_cast<float>(1 + kEndless * length / (length + kHalf)));
+}
+
+FaceTable formLawFaces(const FluidBody& body, const FormShape& shape) {
+  FaceTable faces = facesWithPoints(body);
+  for (double& sharpness : faces.sharpness)
+    if (sharpness < 1) sharpness += shape.wing * (1 - sharpness);
+  return faces;
 }
 
 }  // namespace ambient

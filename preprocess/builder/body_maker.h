@@ -6,6 +6,7 @@
 #include <future>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <unordered_map>
@@ -95,5 +96,14 @@ class BodyMaker {
   Counts counts_;
   Clock::time_point end_, next_line_;  // of the last work; of the next line about it
 };
+
+/// Reads a fluid body if a build would give the same: the file can be read and has the name,
+/// source, settings, program, version and solver revision given by `name` and `provenance`. Else
+/// none.
+std::optional<FluidBody> readIfSame(const std::filesystem::path& file, const std::string& name,
+                                    const Provenance& provenance);
+
+/// Name of the .ambient file for a cache: a hash of all that readIfSame() compares.
+std::string keptFileName(const std::string& name, const Provenance& provenance);
 
 }  // namespace ambient

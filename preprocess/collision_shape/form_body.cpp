@@ -11,7 +11,7 @@
 #include "bullet_ambient/base/fnv1a.h"
 #include "bullet_ambient/spatial/vector_types.h"
 #include "preprocess/added_mass_tables/known_added_mass.h"
-#include "preprocess/base/positive_part.h"
+#include "preprocess/base/matrices.h"
 #include "preprocess/collision_shape/solids.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mass_properties.h"

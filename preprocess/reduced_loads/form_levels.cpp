@@ -1,6 +1,5 @@
 #include "preprocess/reduced_loads/form_levels.h"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -12,12 +11,10 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/fluid_body/fluid_body.h"
 #include "bullet_ambient/fluid_body/packed/packed_faces.h"
 #include "bullet_ambient/force/law/form_law.h"
 #include "bullet_ambient/force/loads/face_loads.h"
-#include "bullet_ambient/spatial/vector_types.h"
-#include "preprocess/base/large_products.h"
+#include "preprocess/base/matrices.h"
 #include "preprocess/base/surface_form.h"
 
 namespace ambient {
@@ -155,15 +152,9 @@ Features featuresOf(const FaceTable& faces) {
   return features;
 }
 
-std::size_t largestFace(const FaceTable& faces) {
-  std::size_t largest = 0;
-  for (std::size_t i = 1; i < faces.size(); ++i)
-    if (faces.area[i] > faces.area[largest]) largest = i;
-  return largest;
-}
-
 Features farthestFirst(const FaceTable& faces, const Features& features, int count) {
-  Features seeds{features[largestFace(faces)]};
+  const auto largest = std::max_element(faces.area.begin(), faces.area.end());
+  Features seeds{features[static_cast<std::size_t>(largest - faces.area.begin())]};
   std::vector<double> distance(features.size(), std::numeric_limits<double>::infinity());
   while (static_cast<int>(seeds.size()) < count) {
     std::size_t farthest = 0;

@@ -10,7 +10,7 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/spatial/inertia.h"
-#include "preprocess/base/large_products.h"
+#include "preprocess/base/matrices.h"
 #include "preprocess/mesh/triangle_mesh.h"
 #include "preprocess/potential_flow/operators/far_moments.h"
 #include "preprocess/potential_flow/operators/near_moments.h"

@@ -16,7 +16,8 @@
 #include "bullet_ambient/force/surface/wetted_parts.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "preprocess/base/parallel_for.h"
-#include "preprocess/mesh/wrap/mesh_coarsening.h"
+#include "preprocess/mesh/editable_mesh.h"
+#include "preprocess/mesh/holds/vessel.h"
 #include "preprocess/potential_flow/results/potential_flow.h"
 #include "preprocess/potential_flow/surface/flat_merging.h"
 #include "preprocess/potential_flow/surface/shape_symmetry.h"
@@ -30,20 +31,9 @@ using Eigen::Matrix3d;
 // Chosen on a cube, a box, a cylinder, an ellipsoid and a hull; the first ones for wedges.
 const std::vector<double> kImmersions = {0.05, 0.1, 0.17, 0.28, 0.4, 0.55, 0.85, 1, 1.3, 2.2};
 
-TriangleMesh surfaceOf(const FluidBody& body) {
-  TriangleMesh mesh;
-  const std::vector<double>& vertices = body.surface.vertices;
-  const std::vector<std::int32_t>& triangles = body.surface.triangles;
-  mesh.vertices = Eigen::Map<const Eigen::Matrix3Xd>(
-      vertices.data(), 3, static_cast<Eigen::Index>(vertices.size() / 3));
-  mesh.triangles = Eigen::Map<const Eigen::Matrix3Xi>(
-      triangles.data(), 3, static_cast<Eigen::Index>(triangles.size() / 3));
-  return mesh;
-}
-
 /// Makes the coarse surface that panels are cut from.
 TriangleMesh coarseSurfaceOf(const FluidBody& body, int panels) {
-  const TriangleMesh merged = mergeFlatTriangles(surfaceOf(body), false, kMostDensePanels);
+  const TriangleMesh merged = mergeFlatTriangles(meshOf(body.surface), false, kMostDensePanels);
   return merged.triangleCount() > panels ? coarsened(merged, {0, panels, 0}) : merged;
 }
 
@@ -208,7 +198,7 @@ Matrix6 solveImageFlow(const TriangleMesh& body, const SurfacePlane& plane, int 
 WaterlineTable makeWaterlineTable(const FluidBody& body, const WaterlineSettings& settings) {
   const OctahedralLattice lattice(settings.subdivisions);
   const WaterlineSolver solver(body, settings.panels);
-  const std::vector<Matrix3d> symmetries = findSymmetries(surfaceOf(body), Vector3::Zero());
+  const std::vector<Matrix3d> symmetries = findSymmetries(meshOf(body.surface), Vector3::Zero());
   const std::vector<Origin> origins = findOrigins(lattice, symmetries);
   const std::size_t count = kImmersions.size();
   AttitudeCount solved(origins, settings);

@@ -95,9 +95,9 @@ struct DoubleLoads final : SummedLoads<FaceTable, sumInDouble> {
 /// Loads whose parts a derived class computes at once.
 class ViscousLoads : public SurfaceLoads {
  public:
-  Wrench load(const Twist& x) const noexcept override { return total(x, nullptr); }
+  Wrench load(const Twist& x) const noexcept override { return partsOn(x, nullptr).total(); }
   Wrench wetLoad(const Twist& x, const WetPart& wet) const noexcept override {
-    return total(x, &wet);
+    return partsOn(x, &wet).total();
   }
   FaceLoads parts(const Twist& x) const noexcept override { return partsOn(x, nullptr); }
   FaceLoads wetParts(const Twist& x, const WetPart& wet) const noexcept override {
@@ -130,9 +130,6 @@ class ViscousLoads : public SurfaceLoads {
   std::optional<Resistance> resistance_;  ///< none: no friction
 
  private:
-  Wrench total(const Twist& x, const WetPart* wet) const noexcept {
-    return partsOn(x, wet).total();
-  }
   FaceLoads partsOn(const Twist& x, const WetPart* wet) const noexcept {
     const Parts parts = compute(x, wet);
     if (!resistance_) return {parts.pressure, {}};
@@ -358,9 +355,8 @@ void checkFaces(const FluidBody& body) {
       reject(body, "number of entries in a column of its faces",
              static_cast<double>(column->size()), "the same in all columns");
     }
-    for (const double entry : *column) {
+    for (const double entry : *column)
       if (!std::isfinite(entry)) reject(body, "an entry of its faces", entry, "finite");
-    }
   }
 }
 
@@ -371,19 +367,16 @@ void checkFlow(const FluidBody& body, const FlowSettings& flow) {
     reject(body, "separation angle [rad]", flow.separation_angle, "between pi/2 and pi");
   }
   constexpr double kLongestLag = 1e6;  // keeps its products with the motion finite
-  if (!(flow.stall_lag >= 0) || !(flow.stall_lag <= kLongestLag)) {
+  if (!(flow.stall_lag >= 0) || !(flow.stall_lag <= kLongestLag))
     reject(body, "stall lag [lengths over speed]", flow.stall_lag, "from 0 to 1e6");
-  }
-  const bool is_rough = !(flow.roughness <= 0);
   const double roughest = std::sqrt(body.area);
-  if (flow.roughness < 0 || (is_rough && !(flow.roughness <= roughest))) {
+  if (!(flow.roughness >= 0) || (flow.roughness > 0 && !(flow.roughness <= roughest))) {
     std::ostringstream limit;
     limit << "from 0 to " << roughest << ", the root of its area";
     reject(body, "roughness [m]", flow.roughness, limit.str().c_str());
   }
-  if (!(flow.maximum_load_error >= 0)) {
+  if (!(flow.maximum_load_error >= 0))
     reject(body, "largest error of its loads", flow.maximum_load_error, "zero or positive");
-  }
 }
 
 using Body = std::shared_ptr<const FluidBody>;
@@ -399,8 +392,7 @@ LoadTables::Faces chooseFormFaces(const Body& body, const ShapeFactors& shape,
         (!best || level.faces.size() < best->faces.size()))
       best = &level;
   }
-  if (best) return {body, &best->faces};
-  return {body, &body->form.faces};
+  return {body, best ? &best->faces : &body->form.faces};
 }
 
 std::shared_ptr<const SurfaceLoads> loadsOn(const Body& body, const LoadTables::Faces& faces,
@@ -432,21 +424,17 @@ std::shared_ptr<const SurfaceLoads> waterlineLoadsOnFaces(const Body& body, Load
   auto on_faces = loadsOnFaces(body, settings, flow);
   if (settings.separation_cosine != -1) return on_faces;
   settings.skin_friction = false;
-  auto slip = loadsOnFaces(body, settings, flow);
-  auto whole = slip;
-  return std::make_shared<AttachedLoads>(std::move(on_faces), std::move(slip), std::move(whole));
+  const auto slip = loadsOnFaces(body, settings, flow);
+  return std::make_shared<AttachedLoads>(std::move(on_faces), slip, slip);
 }
 
 /// Form law on a ball, which a surface may cut or not.
 std::shared_ptr<const SurfaceLoads> loadsOnBall(const Body& ball, const LoadSettings& settings,
                                                 const FlowSettings& flow, bool is_cut) {
-  std::shared_ptr<const SurfaceLoads> on_unit;
-  if (is_cut) {
-    LoadSettings ideal = settings;
-    ideal.viscosity = 0;
-    on_unit = loadsOnFaces(unitSphere(), ideal, flow);
-  }
-  return std::make_shared<BallLoads>(std::move(on_unit), *ball, settings);
+  LoadSettings ideal = settings;
+  ideal.viscosity = 0;
+  return std::make_shared<BallLoads>(is_cut ? loadsOnFaces(unitSphere(), ideal, flow) : nullptr,
+                                     *ball, settings);
 }
 
 /// Published law on the faces of unitSphere().
@@ -465,22 +453,19 @@ std::shared_ptr<const SurfaceLoads> lawOf(const Body& body, const LoadSettings& 
   if (flow.own_law && !is_cut) return flow.own_law(body, settings);
   FlowSettings chosen = flow;
   if (is_cut) chosen.maximum_load_error = 0;
-  if (!(body->sphere_radius > 0))
-    return is_cut ? waterlineLoadsOnFaces(body, settings, chosen)
-                  : loadsOnFaces(body, settings, chosen);
-  return settings.law == PressureLaw::kForm ? loadsOnBall(body, settings, chosen, is_cut)
-                                            : loadsOnSphere(body, settings, chosen);
+  if (body->sphere_radius > 0)
+    return settings.law == PressureLaw::kForm ? loadsOnBall(body, settings, chosen, is_cut)
+                                              : loadsOnSphere(body, settings, chosen);
+  return (is_cut ? waterlineLoadsOnFaces : loadsOnFaces)(body, settings, chosen);
 }
-
-// False for a medium without loads, and for one that later checks reject.
-bool isFluid(const Medium& medium) { return medium.density > 0 && medium.viscosity >= 0; }
 
 std::shared_ptr<const SurfaceLoads> makeLoads(const Body& body, const Medium& medium,
                                               const FlowSettings& flow, LoadPlace place) {
   const LoadSettings settings = loadSettings(medium, flow);
   const auto make = [&] { return lawOf(body, settings, flow, place); };
   checkFlow(*body, flow);
-  const bool is_shared = isFluid(medium) && !flow.own_law;
+  // Not for a medium without loads, nor for one that later checks reject.
+  const bool is_shared = medium.density > 0 && medium.viscosity >= 0 && !flow.own_law;
   return is_shared ? LoadTables(body).loads(medium, flow, place, make) : make();
 }
 

@@ -1,10 +1,16 @@
-#include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <iostream>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "bullet_ambient/base/plain_text.h"
+#include "preprocess/base/fluid_body_writer.h"
+#include "preprocess/builder/body_maker.h"
 #include "preprocess/builder/elapsed_display.h"
-#include "preprocess/bullet_world/world_builder.h"
+#include "preprocess/bullet_world/world_file.h"
+#include "preprocess/collision_shape/collision_shape_body.h"
 #include "preprocess/command_line/commands/build_arguments.h"
 #include "preprocess/command_line/fluid_body_report.h"
 #include "preprocess/command_line/option_values.h"
@@ -15,7 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
-using Status = WorldShapeResult::Status;
 
 void requireWorldOptions(const BuildArguments& arguments) {
   const auto refuse = [](const char* option) {
@@ -42,49 +47,70 @@ void requireFolder(const fs::path& output) {
   }
 }
 
-const char* wordFor(Status status) {
-  if (status == Status::kFailed) return "failed";
-  return status == Status::kKept ? "kept" : "built";
+CollisionShapeSettings shapeSettingsOf(const BuildArguments& arguments) {
+  CollisionShapeSettings settings;
+  settings.flow.max_panels = arguments.panels;
+  settings.flow.threads = arguments.threads;
+  settings.tables = !arguments.no_tables;
+  settings.holds = holdsOf(arguments.options).is_wanted;
+  settings.strict = arguments.options.strict;
+  return settings;
 }
 
-ordered_json shapeJson(const WorldShapeResult& shape) {
-  ordered_json report{{"name", shape.name},
-                      {"file", shape.file.string()},
-                      {"status", wordFor(shape.status)},
-                      {"bodies", shape.bodies},
-                      {"seconds", shape.seconds}};
-  if (shape.status == Status::kFailed) {
-    report["message"] = shape.message;
+/// Makes folder/<name>.ambient of a shape, or keeps it if it is still right. Prints warnings and
+/// failures to standard error, one line each that begins with the input; a shape that fails leaves
+/// its file as it was.
+ordered_json buildShapeFile(const WorldShape& shape, CollisionShapeSettings settings,
+                            const BuildArguments& arguments) {
+  const auto start = std::chrono::steady_clock::now();
+  const fs::path file = fs::path(arguments.output) / (shape.name + ".ambient");
+  std::optional<FluidBody> kept, body;
+  std::string failure;
+  std::vector<std::string> warnings;
+  settings.name = shape.name;
+  settings.report = [&](const std::string& text) { warnings.push_back(text); };
+  try {
+    const ElapsedDisplay display("building " + shape.name);
+    const Provenance provenance = describeCollisionShape(*shape.shape, settings);
+    if (!arguments.rebuild) kept = readIfSame(file, shape.name, provenance);
+    body = kept ? kept : makeFluidBody(*shape.shape, settings);
+    if (!kept) writeFluidBody(*body, file);
+  } catch (const std::exception& error) {
+    failure = error.what();
+  }
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  const std::string input = plainLine(arguments.input) + ": ";
+  for (const std::string& warning : warnings)
+    std::cerr << "warning: " << input << plainLine(warning) << "\n";
+  if (!failure.empty()) std::cerr << input << plainLine(failure) << "\n";
+  ordered_json facts{{"name", shape.name},
+                     {"file", file.string()},
+                     {"status", !failure.empty() ? "failed"
+                                : kept           ? "kept"
+                                                 : "built"},
+                     {"bodies", shape.bodies},
+                     {"seconds", seconds.count()}};
+  if (!failure.empty()) {
+    facts["message"] = failure;
   } else {
-    report["faces"] = shape.faces;
-    report["size"] = vectorJson(shape.extents);
-    report["volume"] = shape.volume;
+    facts["faces"] = body->faces.size();
+    facts["size"] = vectorJson(extentsOf(*body));
+    facts["volume"] = body->volume;
   }
-  return report;
+  return facts;
 }
 
-int countFailed(const WorldBuild& built) {
-  const auto has_failed = [](const WorldShapeResult& s) { return s.status == Status::kFailed; };
-  return static_cast<int>(std::count_if(built.shapes.begin(), built.shapes.end(), has_failed));
-}
-
-/// Prints warnings and failures to standard error, one line each that begins with `input`.
-void printTroubles(const WorldBuild& built, const std::string& input) {
-  for (const WorldShapeResult& shape : built.shapes) {
-    for (const std::string& warning : shape.warnings)
-      std::cerr << "warning: " << input << ": " << plainLine(warning) << "\n";
-    if (shape.status == Status::kFailed)
-      std::cerr << input << ": " << plainLine(shape.message) << "\n";
-  }
-  if (built.lost_bodies > 0) {
-    std::cerr << input << ": " << built.lost_bodies
+/// Prints what a world has besides shapes to standard error.
+void printLost(const WorldFile& world, const std::string& input) {
+  if (world.lostBodies() > 0) {
+    std::cerr << input << ": " << world.lostBodies()
               << " bodies were left out: Bullet's importer does not know their shape\n";
   }
-  if (built.multibodies > 0) {
+  if (world.multibodies() > 0) {
     std::cerr
-        << input << ": " << built.multibodies
+        << input << ": " << world.multibodies()
         << " multibodies were left out: makeFluidBody makes the fluid bodies of their links\n";
-  } else if (built.shapes.empty()) {
+  } else if (world.dynamicShapes().empty()) {
     std::cerr << "warning: " << input << ": no body has mass\n";
   }
 }
@@ -93,33 +119,27 @@ void printTroubles(const WorldBuild& built, const std::string& input) {
 
 int buildWorldFile(const BuildArguments& arguments) {
   requireWorldOptions(arguments);
-  WorldBuildSettings settings;
-  settings.flow.max_panels = arguments.panels;
-  settings.flow.threads = arguments.threads;
-  settings.tables = !arguments.no_tables;
-  settings.holds = holdsOf(arguments.options).is_wanted;
-  settings.strict = arguments.options.strict;
-  settings.reuse = !arguments.rebuild;
+  const CollisionShapeSettings settings = shapeSettingsOf(arguments);
   requireRegularFile(arguments.input, ".bullet");
   requireFolder(arguments.output);
-  WorldBuild built;
-  {
-    std::unique_ptr<ElapsedDisplay> display;
-    built = buildWorld(arguments.input, arguments.output, settings, [&](const std::string& shape) {
-      display.reset();
-      display = std::make_unique<ElapsedDisplay>("building " + shape);
-    });
-  }
-  printTroubles(built, plainLine(arguments.input));
-  const int failed = countFailed(built);
+  const WorldFile world(arguments.input);
+  std::error_code no_folder;
+  fs::create_directories(arguments.output, no_folder);
+  if (no_folder)
+    raiseInputError(arguments.output, "the folder cannot be made: ", no_folder.message());
   ordered_json shapes = ordered_json::array();
-  for (const WorldShapeResult& shape : built.shapes) shapes.push_back(shapeJson(shape));
+  int failed = 0;
+  for (const WorldShape& shape : world.dynamicShapes()) {
+    shapes.push_back(buildShapeFile(shape, settings, arguments));
+    failed += shapes.back()["status"] == "failed" ? 1 : 0;
+  }
+  printLost(world, plainLine(arguments.input));
   std::cout << factsText({{"shapes", shapes},
                           {"failed", failed},
-                          {"lost_bodies", built.lost_bodies},
-                          {"lost_multibodies", built.multibodies}},
+                          {"lost_bodies", world.lostBodies()},
+                          {"lost_multibodies", world.multibodies()}},
                          arguments.json);
-  return failed > 0 || built.lost_bodies > 0 || built.multibodies > 0 ? 1 : 0;
+  return failed > 0 || world.lostBodies() > 0 || world.multibodies() > 0 ? 1 : 0;
 }
 
 }  // namespace ambient

@@ -1,19 +1,263 @@
 #include "preprocess/mesh/holds/hold_search.h"
 
 #include <algorithm>
+#include <iterator>
+#include <set>
 #include <string>
 #include <utility>
 
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
+#include "preprocess/mesh/defects/surface_crossing.h"
+#include "preprocess/mesh/geometry.h"
 #include "preprocess/mesh/holds/hold_labels.h"
-#include "preprocess/mesh/holds/hold_lids.h"
 #include "preprocess/mesh/holds/pools.h"
+#include "preprocess/mesh/input_error.h"
+#include "preprocess/mesh/mass_properties.h"
 
 namespace ambient {
 namespace {
 
 using Eigen::Vector3d;
+using Triangles = std::vector<Eigen::Vector3i>;
+
+constexpr double kLidRounding = 1e-9;
+
+Eigen::Vector3i turned(const Eigen::Vector3i& t) { return {t[0], t[2], t[1]}; }
+
+/// A closed line along the border of the triangles of one label, and the lid across it.
+struct Loop {
+  std::vector<int> vertices;  // in the direction of the triangles' sides
+  int beyond = 0;             // the label on the other side
+  Triangles lid;
+};
+
+/// Sides of triangles along a border, and the label across each.
+struct Border {
+  std::vector<int> vertices, beyond;
+};
+
+class LidSpanner {
+ public:
+  LidSpanner(const TriangleMesh& mesh, const TriangleNeighbours& neighbours,
+             const std::vector<int>& labels)
+      : mesh_(mesh), neighbours_(neighbours), labels_(labels) {}
+
+  /// Finds the openings of a hold. Where two holds meet above a bulkhead, their rims go straight
+  /// across and a door hangs below.
+  std::vector<Loop> loopsOf(int label) const {
+    std::vector<Loop> loops;
+    std::set<std::pair<int, int>> done;
+    for (int t = 0; t < static_cast<int>(labels_.size()); ++t) {
+      for (int k = 0; k < 3; ++k) {
+        if (labels_[t] != label || !isBorder(t, k) || done.count({t, k}) > 0) continue;
+        for (Loop& loop : divided(borderFrom({t, k}, done))) loops.push_back(spanned(loop));
+      }
+    }
+    return loops;
+  }
+
+  /// Whether the mesh passes through a lid, away from its outline.
+  bool isCrossed(const Loop& loop) const {
+    const std::set<int> outline(loop.vertices.begin(), loop.vertices.end());
+    TriangleMesh lid{mesh_.vertices, {}};
+    lid.triangles.resize(3, static_cast<Eigen::Index>(loop.lid.size()));
+    Eigen::AlignedBox3d bounds;
+    for (const int v : loop.vertices) bounds.extend(Vector3d(mesh_.vertices.col(v)));
+    for (std::size_t i = 0; i < loop.lid.size(); ++i)
+      lid.triangles.col(static_cast<int>(i)) = loop.lid[i];
+    for (Eigen::Index t = 0; t < mesh_.triangleCount(); ++t) {
+      const auto corners = mesh_.triangles.col(t);
+      if (std::any_of(corners.begin(), corners.end(),
+                      [&](int v) { return outline.count(v) > 0; }) ||
+          !bounds.intersects(boundsOf(mesh_, t)))
+        continue;
+      for (Eigen::Index l = 0; l < lid.triangleCount(); ++l)
+        if (passes(mesh_, t, lid, l) || passes(lid, l, mesh_, t)) return true;
+    }
+    return false;
+  }
+
+ private:
+  bool isBorder(int t, int side) const {
+    return labels_[neighbours_.across(t, side).triangle] != labels_[t];
+  }
+
+  /// Follows a border; round a vertex it goes along the hold's own triangles.
+  Border borderFrom(TriangleNeighbours::Side at, std::set<std::pair<int, int>>& done) const {
+    Border border;
+    const int label = labels_[at.triangle];
+    while (done.insert({at.triangle, at.side}).second) {
+      border.vertices.push_back(mesh_.triangles(at.side, at.triangle));
+      border.beyond.push_back(labels_[neighbours_.across(at.triangle, at.side).triangle]);
+      at.side = (at.side + 1) % 3;
+      for (;;) {
+        const TriangleNeighbours::Side other = neighbours_.across(at.triangle, at.side);
+        if (labels_[other.triangle] != label) break;
+        at = {other.triangle, (other.side + 1) % 3};
+      }
+    }
+    return border;
+  }
+
+  static std::vector<Loop> divided(Border border) {
+    const std::size_t count = border.vertices.size();
+    std::size_t first = 0;  // a side that begins a run of one label
+    while (first < count && border.beyond[first] == border.beyond[(first + count - 1) % count])
+      ++first;
+    if (first == count) return {{border.vertices, border.beyond[0], {}}};
+    std::vector<Loop> loops(1);
+    for (std::size_t begin = first; begin < first + count;) {
+      Loop run{{}, border.beyond[begin % count], {}};
+      while (begin < first + count && border.beyond[begin % count] == run.beyond)
+        run.vertices.push_back(border.vertices[begin++ % count]);
+      const bool is_door = run.beyond > 0 && run.vertices.size() > 1;
+      const std::size_t kept = is_door ? 1 : run.vertices.size();
+      std::copy_n(run.vertices.begin(), kept, std::back_inserter(loops[0].vertices));
+      run.vertices.push_back(border.vertices[begin % count]);
+      if (is_door) loops.push_back(run);
+    }
+    return loops;
+  }
+
+  Loop spanned(Loop loop) const {
+    if (loop.vertices.size() < 3) return loop;
+    std::vector<Vector3d> corners;
+    for (const int v : loop.vertices) corners.emplace_back(mesh_.vertices.col(v));
+    for (const Eigen::Vector3i& t : dividePolygon(corners))
+      loop.lid.push_back({loop.vertices[t[0]], loop.vertices[t[1]], loop.vertices[t[2]]});
+    return loop;
+  }
+
+  /// Whether a side of a triangle passes through another triangle, from its plane or below to above
+  /// by more than rounding.
+  bool passes(const TriangleMesh& a, Eigen::Index s, const TriangleMesh& b, Eigen::Index t) const {
+    const Vector3d normal = b.twiceArea(t).stableNormalized();
+    const double least = kLidRounding * size_;
+    for (int k = 0; k < 3; ++k) {
+      const Vector3d p = a.corner(s, k), q = a.corner(s, (k + 1) % 3);
+      const double from = normal.dot(p - b.corner(t, 0)), to = normal.dot(q - b.corner(t, 0));
+      if ((from > least) != (to > least) && crossesTriangle(p, q, b, t)) return true;
+    }
+    return false;
+  }
+
+  const TriangleMesh& mesh_;
+  const TriangleNeighbours& neighbours_;
+  const std::vector<int>& labels_;
+  const double size_ = mesh_.extents().maxCoeff();
+};
+
+HoldOpening openingOf(const TriangleMesh& mesh, const Loop& loop) {
+  HoldOpening opening;
+  std::vector<int> place_of(static_cast<std::size_t>(mesh.vertexCount()), 0);
+  for (std::size_t i = 0; i < loop.vertices.size(); ++i) {
+    place_of[loop.vertices[i]] = static_cast<int>(i);
+    for (const double x : mesh.vertices.col(loop.vertices[i])) opening.outline.push_back(x);
+  }
+  for (const Eigen::Vector3i& t : loop.lid)
+    for (const int v : t) opening.lid.push_back(place_of[v]);
+  return opening;
+}
+
+/// A hold while it is put together.
+struct Draft {
+  Triangles triangles;  // walls, turned round, and lids
+  std::vector<HoldOpening> openings;
+  const char* fault = nullptr;
+};
+
+/// The walls and lids of all holds, and what the outside sees.
+struct Drafts {
+  Triangles outside;
+  std::vector<Draft> holds;  // by label, the first one empty
+};
+
+Drafts draftsOf(const TriangleMesh& mesh, const TriangleNeighbours& neighbours,
+                const std::vector<int>& labels) {
+  const int count = *std::max_element(labels.begin(), labels.end());
+  Drafts drafts;
+  drafts.holds.resize(static_cast<std::size_t>(count) + 1);
+  for (std::size_t t = 0; t < labels.size(); ++t) {
+    const Eigen::Vector3i corners = mesh.triangles.col(static_cast<Eigen::Index>(t));
+    if (labels[t] == 0) drafts.outside.push_back(corners);
+    if (labels[t] > 0) drafts.holds[labels[t]].triangles.push_back(turned(corners));
+  }
+  const LidSpanner spanner(mesh, neighbours, labels);
+  for (int k = 1; k <= count; ++k) {
+    Draft& draft = drafts.holds[k];
+    for (const Loop& loop : spanner.loopsOf(k)) {
+      if (loop.lid.empty() || (loop.beyond > 0 && loop.beyond < k)) continue;  // that hold's door
+      if (spanner.isCrossed(loop)) draft.fault = "the mesh passes through its lid";
+      draft.triangles.insert(draft.triangles.end(), loop.lid.begin(), loop.lid.end());
+      draft.openings.push_back(openingOf(mesh, loop));
+      draft.openings.back().to = loop.beyond - 1;
+      for (const Eigen::Vector3i& t : loop.lid) {
+        if (loop.beyond == 0)
+          drafts.outside.push_back(t);
+        else
+          drafts.holds[loop.beyond].triangles.push_back(turned(t));
+      }
+    }
+  }
+  return drafts;
+}
+
+Hold holdOf(const TriangleMesh& mesh, Draft& draft) {
+  Hold hold;
+  const TriangleMesh own = withUsedVertices(mesh.vertices, draft.triangles);
+  hold.surface = surfaceOf(own);
+  hold.openings = std::move(draft.openings);
+  const bool is_closed = isClosed(computeMeshEdges(own));
+  if (is_closed) hold.volume = tetrahedraVolume(own, own.bounds().center());
+  if (!(hold.volume > 0)) {
+    draft.fault = "its walls and lids do not close";
+    return hold;
+  }
+  const MassDistribution mass = computeMassProperties(own).uniform;
+  hold.centre = mass.centre;
+  hold.turning_inertia = hold.volume * turningInertia(mass.inertia);
+  return hold;
+}
+
+/// Spans lids across the borders of labelled triangles: the closed mesh and the holds.
+/// @param labels of the triangles, as labelTriangles() makes them
+/// @param name begins lines about holds that are left out since their lids or walls do not close
+Vessel spanLids(const TriangleMesh& mesh, const TriangleNeighbours& neighbours,
+                std::vector<int> labels, const std::string& name) {
+  Vessel vessel;
+  for (;;) {
+    Drafts drafts = draftsOf(mesh, neighbours, labels);
+    std::vector<Hold> holds;
+    int faulty = 0;
+    for (int k = 1; k < static_cast<int>(drafts.holds.size()) && faulty == 0; ++k) {
+      Draft& draft = drafts.holds[k];
+      if (!draft.triangles.empty()) holds.push_back(holdOf(mesh, draft));
+      if (draft.fault == nullptr) continue;
+      faulty = k;
+      const Vector3d place = withUsedVertices(mesh.vertices, draft.triangles).bounds().center();
+      vessel.lines.push_back(inputMessage(name, "the hold around (", place.x(), ", ", place.y(),
+                                          ", ", place.z(), ") is left out: ", draft.fault));
+    }
+    if (faulty > 0) {
+      for (int& label : labels) {
+        if (label == faulty) label = 0;
+        if (label > faulty) --label;
+      }
+      continue;
+    }
+    if (holds.empty()) return vessel;
+    vessel.closed = withUsedVertices(mesh.vertices, drafts.outside);
+    if (!isClosed(computeMeshEdges(vessel.closed))) {
+      vessel.lines.push_back(
+          inputMessage(name, "its holds are left out: lids and walls share edges"));
+      vessel.closed = {};
+      return vessel;
+    }
+    vessel.holds = std::move(holds);
+    return vessel;
+  }
+}
 
 double volumeOf(const std::vector<Pool>& pools) {
   double volume = 0;

@@ -13,6 +13,7 @@
 #include "bullet_ambient/base/pi.h"
 #include "preprocess/mesh/defects/surface_crossing.h"
 #include "preprocess/mesh/defects/topology_defects.h"
+#include "preprocess/mesh/editable_mesh.h"
 #include "preprocess/mesh/geometry.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mass_properties.h"
@@ -20,7 +21,6 @@
 #include "preprocess/mesh/shapes/convex_hull.h"
 #include "preprocess/mesh/triangle_mesh.h"
 #include "preprocess/mesh/wrap/grid_surface.h"
-#include "preprocess/mesh/wrap/mesh_coarsening.h"
 
 namespace ambient {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "preprocess/mesh/check/mesh_checks.h"
+#include "preprocess/mesh/editable_mesh.h"
 #include "preprocess/mesh/triangle_mesh.h"
-#include "preprocess/mesh/wrap/mesh_coarsening.h"
 
 namespace ambient {
 

@@ -95,27 +95,15 @@ TEST(Features, ADetachedBodyFliesOnAsInAVacuum) {
 
 // Bullet has already moved the body by the mean velocity of its flight, set by the solver.
 TEST(Features, ABodyDetachedBetweenSolverAndActionKeepsTheMeanVelocityOfItsFlight) {
-  struct Detach : btActionInterface {
-    Fluid* fluid = nullptr;
-    btRigidBody* body = nullptr;
-    void updateAction(btCollisionWorld*, btScalar) override {
-      if (const auto found = fluid->find(*body)) found->remove();
-    }
-    void debugDraw(btIDebugDraw*) override {}
-  };
   const double dt = 1.0 / 64;
   FluidWorld scene, attached;
   BodyDef def;
   def.start.twist.linear = {1, 2, 3};
   btRigidBody& body = scene.add(def, facelessEllipsoid(kUnequalAxes), idealFluid(1000));
   const btRigidBody& twin = attached.add(def, facelessEllipsoid(kUnequalAxes), idealFluid(1000));
-  Detach detach;
-  detach.fluid = &scene.fluid;
-  detach.body = &body;
-  scene.removeAction();
-  scene.world.addAction(&detach);
-  scene.addAction();
-
+  const OtherAction detach(scene, [&] {
+    if (const auto found = scene.fluid.find(body)) found->remove();
+  });
   scene.step(dt);
   attached.step(dt);
   EXPECT_EQ(scene.fluid.size(), 0u);
@@ -126,7 +114,6 @@ TEST(Features, ABodyDetachedBetweenSolverAndActionKeepsTheMeanVelocityOfItsFligh
   EXPECT_GT((velocity - toVector3(twin.getLinearVelocity())).norm(), 0.01) << "of the flight's end";
   scene.step(dt, 2);
   EXPECT_EQ(toVector3(body.getLinearVelocity()), velocity);
-  scene.world.removeAction(&detach);
 }
 
 TEST(Features, ABodyMadeKinematicIsLeftToBullet) {
@@ -186,25 +173,18 @@ BodyDef spinning(double rate) {
 }
 
 TEST(Features, AnotherActionsImpulseSurvives) {
-  struct Kick : btActionInterface {
-    btRigidBody* body = nullptr;
-    void updateAction(btCollisionWorld*, btScalar) override {
-      if (body) body->setLinearVelocity(body->getLinearVelocity() + btVector3(0, 0, 1));
-      body = nullptr;
-    }
-    void debugDraw(btIDebugDraw*) override {}
-  };
   for (const bool after : {false, true}) {
     FluidWorld scene;
-    Kick kick;
-    if (!after) scene.removeAction();
-    scene.world.addAction(&kick);
-    if (!after) scene.addAction();
     btRigidBody& body = scene.add({}, facelessEllipsoid(kUnequalAxes), air());
-    kick.body = &body;
+    int calls = 0;
+    const OtherAction kick(
+        scene,
+        [&] {
+          if (calls++ == 0) body.setLinearVelocity(body.getLinearVelocity() + btVector3(0, 0, 1));
+        },
+        !after);
     scene.step(1.0 / 60, 2);
     EXPECT_NEAR(static_cast<double>(body.getLinearVelocity().z()), 1, 1e-6);
-    scene.world.removeAction(&kick);
   }
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bullet_ambient/bullet/core/body_motion.h"
@@ -109,6 +111,26 @@ struct FluidWorld : WholeWorld<ActionWorld> {
 
  private:
   btEmptyShape no_shape_;
+};
+
+/// Another action of the world, before the fluid's or after it, while it lives.
+class OtherAction : public btActionInterface {
+ public:
+  OtherAction(FluidWorld& scene, std::function<void()> act, bool is_first = true)
+      : scene_(scene), act_(std::move(act)) {
+    if (is_first) scene_.removeAction();
+    scene_.world.addAction(this);
+    if (is_first) scene_.addAction();
+  }
+  ~OtherAction() { scene_.world.removeAction(this); }
+  OtherAction(const OtherAction&) = delete;
+  OtherAction& operator=(const OtherAction&) = delete;
+  void updateAction(btCollisionWorld*, btScalar) override { act_(); }
+  void debugDraw(btIDebugDraw*) override {}
+
+ private:
+  FluidWorld& scene_;
+  std::function<void()> act_;
 };
 
 }  // namespace ambient::test

@@ -190,14 +190,12 @@ TEST(TinyVelocity, BuoyancyBesideTheCentreOfMassByATraceTurnsNothing) {
 TEST(TinyVelocity, ATorqueOfATraceDoesNotTurnABodyWithRows) {
   FluidWorld scene;
   btRigidBody& body = scene.add(ballOf(5, kBallRadius), ball(kBallRadius), water());
-  btPoint2PointConstraint joint(body, btVector3(0, 0, 0));
-  scene.world.addConstraint(&joint);
+  scene.contents.take(std::make_unique<btPoint2PointConstraint>(body, btVector3(0, 0, 0)));
   for (int i = 0; i < 10; ++i) {
     body.applyTorque({bt(kTiny * 1e-6), 0, 0});
     scene.step(kTinyStep);
     EXPECT_FALSE(moves(body.getAngularVelocity())) << i;
   }
-  scene.world.removeConstraint(&joint);
 }
 
 TEST(TinyVelocity, NewtonsCradleHasNone) {

@@ -61,19 +61,9 @@ TEST(Sleeping, IsNotMistakenForAMissingSolver) {
   ASSERT_FALSE(body.isActive());
   EXPECT_TRUE(scene.said.empty());
   // Another action wakes the body between solver and action: the solver has skipped it.
-  struct Wake : btActionInterface {
-    btRigidBody* body = nullptr;
-    void updateAction(btCollisionWorld*, btScalar) override { body->activate(); }
-    void debugDraw(btIDebugDraw*) override {}
-  };
-  scene.removeAction();
-  Wake wake;
-  wake.body = &body;
-  scene.world.addAction(&wake);
-  scene.addAction();
+  const OtherAction wake(scene, [&body] { body.activate(); });
   scene.step(1.0 / 60, 3);
   EXPECT_TRUE(scene.said.empty()) << scene.said[0];
-  scene.world.removeAction(&wake);
 }
 
 TEST(Sleeping, EndsWhenABodyIsAttached) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
@@ -8,7 +9,7 @@
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/support/bodies/ellipsoid_body.h"
 #include "tests/support/bodies/part_bodies.h"
-#include "tests/support/thread_pool.h"
+#include "tests/support/threads.h"
 
 namespace ambient::test {
 namespace {
@@ -207,13 +208,12 @@ Poses flyBodies(TaskRunner* runner) {
     def.start.twist = {Vector3(0.1 * i, 2, 1), Vector3(1, 0.2 * i, 0)};
     bodies.push_back(&scene.add(def, shape, i % 2 ? air() : water()));
   }
-  btPoint2PointConstraint joint(*bodies[3], btVector3(0, 0, btScalar(0.5)));
-  scene.world.addConstraint(&joint);
+  scene.contents.take(
+      std::make_unique<btPoint2PointConstraint>(*bodies[3], btVector3(0, 0, btScalar(0.5))));
   scene.step(1.0 / 60, 90);
   Poses end;
   for (const btRigidBody* body : bodies) end.poses.push_back(body->getWorldTransform());
   end.counters = scene.fluid.counters();
-  scene.world.removeConstraint(&joint);
   return end;
 }
 
@@ -227,8 +227,8 @@ TEST(ParallelFlight, EndsWithTheSameBitsOnAnyNumberOfThreads) {
   const Poses alone = flyBodies(nullptr);
   EXPECT_GT(alone.counters.rows, 0);
   for (const int threads : {1, 2, 4}) {
-    ThreadPool pool(threads);
-    expectSame(alone, flyBodies(&pool));
+    Threads runner(threads);
+    expectSame(alone, flyBodies(&runner));
   }
 }
 

@@ -3,9 +3,12 @@
 #include <cmath>
 
 #include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/motion/body/wake.h"
 #include "tests/reference/kirchhoff_motion.h"
+#include "tests/reference/sphere_fall.h"
 #include "tests/support/bodies/ellipsoid_body.h"
 #include "tests/support/bodies/free_body.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace ambient {
 namespace {
@@ -165,6 +168,155 @@ TEST(Leapfrog, IsStableAboveTheLeastSpinOnly) {
   // e^(sigma t) below; sigma = sqrt(n_c^2 - n^2) I3 / (2 I1) = 0.25 / s.
   EXPECT_LT(largestDeviation(1.03 * least), 5e-6);
   EXPECT_GT(largestDeviation(0.97 * least), 3e-5);
+}
+
+using reference::SphereFall;
+using test::FreeBody;
+
+constexpr double kGravity = 9.81;
+
+FreeBody sphereOf(const SphereFall& fall) {
+  FlowSettings flow;
+  flow.precision = LoadPrecision::kDouble;  // convergence down to 1e-9
+  FreeBody sphere(
+      {test::gaussSphere(fall.radius),
+       {fall.mass, test::ellipsoidMoments(Vector3::Constant(fall.radius), fall.mass).asDiagonal()},
+       {fall.density, 0, Vector3::Zero(), Vector3::Zero()},
+       flow});
+  sphere.setGravity({0, 0, -kGravity});
+  return sphere;
+}
+
+constexpr SphereFall kBasketball{0.62, 0.12, 1.204, kGravity};  // in air
+constexpr SphereFall kCork{0.05, 0.05, 998, kGravity};          // in water
+
+TEST(SphereFall, HasTheReferenceNumbers) {
+  // Reference numbers "sphere vertical fall closed form", uncertainty 1e-9.
+  EXPECT_NEAR(kBasketball.terminalSpeed(), 20.985388032787, 1e-9);
+  EXPECT_NEAR(kBasketball.settlingTime(), 2.184929401933346, 1e-9);
+  EXPECT_NEAR(kBasketball.distance(7.540285264082085), 126.5, 1e-8);
+}
+
+// Largest velocity error over the terminal speed, within the settling time.
+double largestError(const SphereFall& fall, const FlightSettings& settings, int steps) {
+  FreeBody sphere = sphereOf(fall);
+  sphere.settings = settings;
+  const double step = fall.settlingTime() / steps;
+  double largest = 0;
+  for (int i = 1; i <= steps; ++i) {
+    sphere.advance(step);
+    const double error = -sphere.state.twist.linear.z() - fall.velocity(i * step);
+    largest = std::max(largest, std::abs(error) / fall.terminalSpeed());
+  }
+  return largest;
+}
+
+TEST(Leapfrog, FallsAndRisesLikeTheClosedFormToSecondOrder) {
+  const FlightSettings one_substep{1e-3, 1};
+  for (const SphereFall& fall : {kBasketball, kCork}) {
+    const double coarse = largestError(fall, one_substep, 25);
+    const double fine = largestError(fall, one_substep, 100);
+    EXPECT_LT(coarse, 2e-4);
+    EXPECT_NEAR(std::log2(coarse / fine) / 2, 2, 0.1);
+  }
+}
+
+TEST(Leapfrog, StartsWithTheAccelerationOfBodyAndAddedMass) {
+  for (const SphereFall& fall : {kBasketball, kCork}) {
+    FreeBody sphere = sphereOf(fall);
+    constexpr double kStep = 1e-6;
+    sphere.advance(kStep);
+    EXPECT_NEAR(-sphere.state.twist.linear.z() / kStep, fall.firstAcceleration(),
+                1e-9 * std::abs(fall.firstAcceleration()));
+  }
+}
+
+TEST(Leapfrog, HasATerminalSpeedWithStepsOfAnyLength) {
+  // Decay 1/v_2 - 1/v_1 = h / (V_t tau) between two halves of gravity's kick. Fixed point: v^2 =
+  // V_t^2 + (g_eff h / 2)^2.
+  for (const double ratio : {0.01, 0.1, 1.0, 5.0}) {
+    FreeBody ball = sphereOf(kBasketball);
+    ball.settings.max_substeps = 1;
+    ball.advance(ratio * kBasketball.settlingTime(), 60);
+    const double expected = kBasketball.terminalSpeed() * std::hypot(1, ratio / 2);
+    const double reached = ratio * 60 > 20 ? 1 : std::tanh(ratio * 60);
+    EXPECT_NEAR(-ball.state.twist.linear.z() / expected, reached, 1e-4) << ratio;
+  }
+}
+
+constexpr double kDiameter = 0.3, kArea = kPi * kDiameter * kDiameter;
+constexpr double kVolume = kArea * kDiameter / 6;
+
+Twist along(double speed) { return {Vector3::Zero(), {0, 0, speed}}; }
+
+/// Share at each way in diameters, from rest at a constant speed.
+double shareAfter(double diameters, double speed, int steps) {
+  Wake wake;
+  developWake({along(0), kArea, kVolume, 1}, wake);
+  const double duration = diameters * kDiameter / speed / steps;
+  for (int i = 0; i < steps; ++i) developWake({along(speed), kArea, kVolume, duration}, wake);
+  return developWake({along(speed), kArea, kVolume, duration}, wake);
+}
+
+TEST(Wake, DevelopsOverAWayWhateverSpeedAndStep) {
+  for (const double diameters : {0.1, 1.0, 3.0}) {
+    const double expected = std::min(1.0, std::pow((1 - std::exp(-diameters / 1.5)) / 0.7, 2));
+    EXPECT_NEAR(shareAfter(diameters, 0.01, 1), expected, 1e-12) << diameters;
+    EXPECT_NEAR(shareAfter(diameters, 100, 50), expected, 1e-12) << diameters;
+  }
+  EXPECT_EQ(shareAfter(1.9, 1, 7), 1);
+}
+
+TEST(Wake, IsThatOfTheMotionInWhichABodyIsAdded) {
+  Wake wake;
+  EXPECT_EQ(developWake({along(3), kArea, kVolume, 0.1}, wake), 1);
+  EXPECT_EQ(developWake({along(3), kArea, kVolume, 0.1}, wake), 1);
+  EXPECT_EQ(developWake({along(2.5), kArea, kVolume, 0.1}, wake),
+            1);  // slower: goes on in its wake
+}
+
+TEST(Wake, IsNoneAfterAReversal) {
+  Wake wake;
+  developWake({along(1), kArea, kVolume, 1}, wake);
+  EXPECT_EQ(developWake({along(-1), kArea, kVolume, 0.001}, wake), 0);
+}
+
+TEST(Wake, OfASmallSwingIsNearlyNone) {
+  // Amplitude of a tenth of the diameter, a period of 1 s; mean over the work against a drag.
+  Wake wake;
+  developWake({along(0), kArea, kVolume, 1}, wake);
+  double work = 0, of_developed = 0;
+  for (int i = 0; i < 2400; ++i) {
+    const double speed = 0.1 * kDiameter * 2 * kPi * std::sin(2 * kPi * i / 240.0);
+    const double share = developWake({along(speed), kArea, kVolume, 1 / 240.0}, wake);
+    work += share * std::pow(std::abs(speed), 3);
+    of_developed += std::pow(std::abs(speed), 3);
+  }
+  EXPECT_LT(work, 0.1 * of_developed);
+  EXPECT_GT(work, 0);
+}
+
+TEST(Wake, ShareIsBetweenNoneAndAllWhateverTheMotion) {
+  test::Arbitrary arbitrary(5);
+  Wake wake;
+  for (int i = 0; i < 2000; ++i) {
+    const double speed = std::pow(10, arbitrary.between(-150, 100));
+    const double share =
+        developWake({arbitrary.twist(speed, speed), kArea, kVolume, arbitrary.between(0, 1)}, wake);
+    ASSERT_TRUE(share >= 0 && share <= 1) << i << " " << share;
+    ASSERT_TRUE(wake.velocity_W.vector().allFinite()) << i;
+  }
+}
+
+TEST(Wake, TurnsWithTheBody) {
+  // A roll has a wake of its own: it needs no way of the centre.
+  Wake wake;
+  const Twist roll{{2, 0, 0}, Vector3::Zero()};
+  developWake({along(0), kArea, kVolume, 1}, wake);
+  EXPECT_EQ(developWake({roll, kArea, kVolume, 0.1}, wake), 0);
+  const double way = 2 * 0.1 * kDiameter / 2;
+  EXPECT_NEAR(developWake({roll, kArea, kVolume, 0.1}, wake),
+              std::pow((1 - std::exp(-way / (1.5 * kDiameter))) / 0.7, 2), 1e-12);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@
 #include "demos/simulation/output/run_files.h"
 #include "tests/demos/scene/scene_text.h"
 #include "tests/demos/simulation/scenes/run_scene.h"
-#include "tests/support/thread_pool.h"
+#include "tests/support/threads.h"
 
 namespace ambient {
 namespace {

@@ -281,15 +281,6 @@ TriangleMesh hullOf(const std::vector<Vector3>& corners) {
   return makeConvexHull(points, "hull");
 }
 
-TriangleMesh sheetOfTwoTriangles() {
-  TriangleMesh mesh;
-  mesh.vertices.resize(3, 4);
-  mesh.vertices << 0, 1, 1, 0, 0, 0, 3, 3, 0, 0, 0, 0;
-  mesh.triangles.resize(3, 2);
-  mesh.triangles << 0, 0, 1, 2, 2, 3;
-  return mesh;
-}
-
 /// A plate, a tapered fin with a sharp nose, a triangular blade with a blunt spine, a fin of
 /// diamond section, and a sheet.
 std::vector<Blade> blades() {
@@ -311,7 +302,10 @@ std::vector<Blade> blades() {
                {0, 2, 0.04},
                {0, 2, -0.04}}),
        {0.02, 0.01, 1.2}},
-      {"sheet", sheetOfTwoTriangles(), {0, 0, 2}, true}};
+      {"sheet",
+       makeTriangleMesh({{0, 0, 0}, {1, 0, 0}, {1, 3, 0}, {0, 3, 0}}, {{0, 1, 2}, {0, 2, 3}}),
+       {0, 0, 2},
+       true}};
 }
 
 FluidBody bodyOf(const Blade& blade, int least_faces) {

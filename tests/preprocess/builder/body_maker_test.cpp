@@ -16,14 +16,13 @@
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "preprocess/base/fluid_body_writer.h"
 #include "preprocess/builder/elapsed_display.h"
-#include "preprocess/builder/reuse.h"
 #include "preprocess/builder/shape_builder.h"
 #include "preprocess/mesh/shapes/primitives.h"
 #include "preprocess/potential_flow/results/solver_revision.h"
 #include "preprocess/shape/shape_reader.h"
 #include "tests/preprocess/mesh/mesh_files.h"
 #include "tests/support/temporary_folder.h"
-#include "tests/support/thread_pool.h"
+#include "tests/support/threads.h"
 
 namespace ambient::test {
 namespace {

@@ -115,11 +115,8 @@ TEST(FluidBodyBuilder, FacesCloseTheSurface) {
 }
 
 TEST(FluidBodyBuilder, TwoTrianglesAreASheet) {
-  TriangleMesh square;
-  square.vertices.resize(3, 4);
-  square.vertices << 0, 1, 1, 0, 0, 0, 1, 1, 0, 0, 0, 0;
-  square.triangles.resize(3, 2);
-  square.triangles << 0, 0, 1, 2, 2, 3;
+  const TriangleMesh square =
+      makeTriangleMesh({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}});
   BuildSettings settings;
   settings.name = "square";
   settings.flow.sheet = true;

@@ -9,11 +9,11 @@
 #include <string>
 
 #include "bullet_ambient/base/pi.h"
+#include "preprocess/mesh/editable_mesh.h"
 #include "preprocess/mesh/geometry.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/shapes/primitives.h"
 #include "preprocess/mesh/triangle_mesh.h"
-#include "preprocess/mesh/wrap/mesh_coarsening.h"
 #include "preprocess/mesh/wrap/surface_wrap.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 

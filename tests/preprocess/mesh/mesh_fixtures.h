@@ -1,24 +1,18 @@
 #pragma once
 
-#include <cmath>
 #include <functional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "preprocess/mesh/triangle_mesh.h"
+#include "tests/support/refusal_of.h"
 
 namespace ambient {
 
 /// Mesh from literal vertices and triangles.
 inline TriangleMesh meshOf(const std::vector<Eigen::Vector3d>& vertices,
                            const std::vector<Eigen::Vector3i>& triangles) {
-  TriangleMesh mesh;
-  mesh.vertices.resize(3, static_cast<Eigen::Index>(vertices.size()));
-  for (std::size_t i = 0; i < vertices.size(); ++i) mesh.vertices.col(i) = vertices[i];
-  mesh.triangles.resize(3, static_cast<Eigen::Index>(triangles.size()));
-  for (std::size_t i = 0; i < triangles.size(); ++i) mesh.triangles.col(i) = triangles[i];
-  return mesh;
+  return makeTriangleMesh(vertices, triangles);
 }
 
 /// Tetrahedron with corners at the origin and at 1 on each axis; volume 1/6.
@@ -47,14 +41,8 @@ inline TriangleMesh insideOut(TriangleMesh mesh) {
   return mesh;
 }
 
-/// Joins two meshes without shared vertices.
 inline TriangleMesh joined(const TriangleMesh& a, const TriangleMesh& b) {
-  TriangleMesh both;
-  both.vertices.resize(3, a.vertexCount() + b.vertexCount());
-  both.vertices << a.vertices, b.vertices;
-  both.triangles.resize(3, a.triangleCount() + b.triangleCount());
-  both.triangles << a.triangles, (b.triangles.array() + static_cast<int>(a.vertexCount())).matrix();
-  return both;
+  return joinMeshes({a, b});
 }
 
 inline TriangleMesh withoutTriangle(const TriangleMesh& mesh, Eigen::Index triangle) {
@@ -72,12 +60,8 @@ inline Eigen::Matrix3d someRotation() {
 
 /// Returns what() of the std::runtime_error thrown by `action`.
 inline std::string messageOf(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "no error";
+  const std::string message = test::refusalOf(action);
+  return message.empty() ? "no error" : message;
 }
 
 }  // namespace ambient

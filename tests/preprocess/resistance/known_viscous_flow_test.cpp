@@ -11,9 +11,9 @@
 #include "preprocess/mesh/shapes/primitives.h"
 #include "preprocess/potential_flow/results/ellipsoid_added_mass.h"
 #include "preprocess/potential_flow/results/refined_flow.h"
+#include "preprocess/resistance/prepare.h"
 #include "preprocess/resistance/separation.h"
 #include "preprocess/resistance/stokes_resistance.h"
-#include "preprocess/resistance/surface_numbers.h"
 
 namespace ambient {
 namespace {

@@ -1,3 +1,5 @@
+#include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
+#include <BulletDynamics/Featherstone/btMultiBodyConstraint.h>
 #include <BulletDynamics/Featherstone/btMultiBodyFixedConstraint.h>
 #include <BulletDynamics/Featherstone/btMultiBodyPoint2Point.h>
 #include <BulletDynamics/Featherstone/btMultiBodySliderConstraint.h>
@@ -6,15 +8,175 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "bullet_ambient/bullet/members/tree_state.h"
-#include "tests/bullet_ambient/bullet/contact/chain_contact.h"
+#include "tests/bullet_ambient/bullet/contact/arbitrary_contacts.h"
+#include "tests/bullet_ambient/bullet/robots/link_reference.h"
+#include "tests/bullet_ambient/bullet/robots/robot_world.h"
 
 namespace ambient::test {
 namespace {
 
 // Contacts of an ambient body with a link of a dry btMultiBody. The reference has links as separate
 // bodies with joint rows.
+
+// An ambient or ordinary body that touches a dry robot of three links; calls a solver for
+// multibodies without a world. The reference has the robot's bodies, then the body.
+class ChainTask {
+ public:
+  /// Moves the body so that its surface point meets the surface point of a link, or of the base,
+  /// which is link -1.
+  ChainTask(Arbitrary& arbitrary, bool has_fixed_base, int link)
+      : body_(CoupledBody::random(arbitrary, arbitraryRatio(arbitrary))), link_(link) {
+    RobotDef def;
+    def.joints = Joints::kSmooth;
+    def.has_fixed_base = has_fixed_base;
+    robot_ = arbitraryRobot(arbitrary, def);
+    for (int i = -1; i < robot_->getNumLinks(); ++i)
+      colliders_.push_back(std::make_unique<btMultiBodyLinkCollider>(robot_.get(), i));
+    // Repeats the world's preparation before its solver call; advances no time.
+    RobotWorld::moveColliders(*robot_);
+    btAlignedObjectArray<btVector3> vectors;
+    btAlignedObjectArray<btScalar> scalars;
+    btAlignedObjectArray<btMatrix3x3> matrices;
+    robot_->computeAccelerationsArticulatedBodyAlgorithmMultiDof(0, scalars, vectors, matrices,
+                                                                 false, false, false);
+    point_ = exact(robot_->localPosToWorld(link, {0, 0, 0})) + arbitrary.vector(0.15).cast<Real>();
+    const Vector3 centre = point_.cast<double>() + arbitrary.vector(body_.size() / 2);
+    btTransform pose = body_.body().getWorldTransform();
+    pose.setOrigin(toBt(centre));
+    body_.body().setWorldTransform(pose);
+  }
+
+  const CoupledBody& body() const { return body_; }
+  btMultiBody& robot() const { return *robot_; }
+  int link() const { return link_; }
+  Vector3r point() const { return point_; }  ///< contact point, world
+
+  /// Adds a contact with the body as A, or as B; random normal along which the bodies approach.
+  void touch(Arbitrary& arbitrary, bool body_is_a) {
+    touchAlong(toBt(arbitrary.vector()).normalized(), body_is_a);
+  }
+  void touchAlong(const btVector3& normal_or_opposite, bool body_is_a) {
+    body_is_a_ = body_is_a;
+    btCollisionObject* a = &body_.body();
+    btCollisionObject* b = colliders_[static_cast<std::size_t>(link_ + 1)].get();
+    if (!body_is_a) std::swap(a, b);
+    manifold_ = std::make_unique<btPersistentManifold>(a, b, 0, btScalar(1), btScalar(1));
+    const btVector3 at = toBt(point_.cast<double>());
+    point_ = exact(at);
+    for (const btScalar sign : {btScalar(1), btScalar(-1)}) {
+      btManifoldPoint point({0, 0, 0}, {0, 0, 0}, sign * normal_or_opposite, 0);
+      point.m_positionWorldOnA = point.m_positionWorldOnB = at;
+      manifold_->clearManifold();
+      manifold_->addManifoldPoint(point);
+      if (approach() < 0) return;
+    }
+  }
+  btManifoldPoint& contact() { return manifold_->getContactPoint(0); }
+  Real approach() const {
+    const reference::DenseRow r = row(exact(manifold_->getContactPoint(0).m_normalWorldOnB));
+    return r.jacobian_a.dot(body_.velocity()) +
+           r.jacobian_b.dot(twistsOf(*robot_)[static_cast<std::size_t>(link_ + 1)]);
+  }
+
+  /// Row along a direction at the contact, with the signs of Bullet's rows.
+  reference::DenseRow row(const Vector3r& direction) const {
+    return oriented(
+        reference::pointRow(direction, point_ - exact(body_.body().getWorldTransform().getOrigin()),
+                            point_ - exact(robot_->localPosToWorld(link_, {0, 0, 0}))));
+  }
+  reference::DenseRow spinRow(const Vector3r& direction) const {
+    return oriented(reference::spinRow(direction));
+  }
+  /// Reference before a step of dt, with the rows of the robot's joints.
+  DenseRobot dense(Real dt) const {
+    static const RobotWorld nobody;  // the robot is in no fluid
+    DenseRobot dense = denseRobot(*robot_, nobody.fluid);
+    dense.bodies.push_back(body_.dense(dt));
+    return dense;
+  }
+  int denseBody() const { return robot_->getNumLinks() + 2; }    ///< number of the body in dense()
+  int denseGround() const { return robot_->getNumLinks() + 1; }  ///< number of what never moves
+
+  /// Returns false if the residual stays above the threshold of the settings.
+  bool solve(const btContactSolverInfo& info, btMultiBodyConstraint* joint = nullptr) {
+    const auto members = std::make_shared<AmbientBodies>();
+    body_.attachTo(*members);
+    MultiBody::Ambient ambient(members);
+    std::vector<btCollisionObject*> bodies = {&body_.body()};
+    for (const auto& collider : colliders_) bodies.push_back(collider.get());
+    btPersistentManifold* manifolds[] = {manifold_.get()};
+    ambient.solver.solveMultiBodyGroup(bodies.data(), static_cast<int>(bodies.size()), manifolds,
+                                       manifold_ ? 1 : 0, nullptr, 0, joint ? &joint : nullptr,
+                                       joint ? 1 : 0, info, nullptr, nullptr);
+    robot_->processDeltaVeeMultiDof2();  // the world's next call
+    return hasFinished(ambient.solver, info);
+  }
+
+ private:
+  reference::DenseRow oriented(reference::DenseRow row) const {
+    row.body_a = denseBody();
+    row.body_b = link_ + 1;
+    if (!body_is_a_) {
+      row.jacobian_a *= -1;
+      row.jacobian_b *= -1;
+    }
+    return row;
+  }
+
+  CoupledBody body_;
+  std::unique_ptr<btMultiBody> robot_;
+  std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;  // of the base first
+  int link_;
+  Vector3r point_;
+  bool body_is_a_ = true;
+  std::unique_ptr<btPersistentManifold> manifold_;
+};
+
+// Tolerance of links. Bullet's recursion in float32 loses digits: 3e-5 for one of 600 chains, 8e-6
+// with ordinary bodies instead of ambient ones.
+constexpr double kLinkTolerance = sizeof(btScalar) == 8 ? kTolerance : 5e-5;
+
+// Velocities before a step, and the larger error of body and robot after it.
+struct BeforeChain {
+  explicit BeforeChain(const ChainTask& task)
+      : body(task.body().velocity()), robot(twistsOf(task.robot())) {}
+  double error(const ChainTask& task, const reference::DenseSolution& expected) const {
+    return std::max(
+        task.body().error(expected.velocities[static_cast<std::size_t>(task.denseBody())], body),
+        twistError(task.robot(), expected.velocities, robot));
+  }
+  DenseVector6 body;
+  std::vector<DenseVector6> robot;
+};
+
+// An ambient body that touches a random movable link of a robot with a free or fixed base.
+ChainTask arbitraryChainTask(Arbitrary& arbitrary, bool has_fixed_base) {
+  const int link = static_cast<int>(arbitrary.between(has_fixed_base ? 1 : 0, 4)) - 1;
+  return {arbitrary, has_fixed_base, std::min(link, 2)};
+}
+
+// Applies random forces and torques. Returns the step for which they and the gyroscopic terms
+// change the body's velocity by 5 %.
+double pushedTime(Arbitrary& arbitrary, const ChainTask& task) {
+  const CoupledBody& body = task.body();
+  const double dt = body.gyroscopicTime(0.05);
+  const double push = 0.05 / (dt * static_cast<double>(body.body().getInvMass()));
+  body.body().applyCentralForce(toBt(arbitrary.vector(push)));
+  body.body().applyTorque(toBt(arbitrary.vector(push * body.size())));
+  return dt;
+}
+
+// convergingSettings() with 300 iterations at most: rows that need more are nearly dependent, and
+// rounding decides the split between impulses.
+btContactSolverInfo chainSettings(double dt) {
+  btContactSolverInfo info = convergingSettings(dt);
+  info.m_numIterations = 300;
+  return info;
+}
 
 // Velocity along the row by Bullet's forces of the dry body, without fluid. Bullet's restitution of
 // this contact uses it.

@@ -16,16 +16,6 @@ namespace {
 
 // Corrections by the fluid's action after rows have moved a body, and motions without any.
 
-class OtherAction : public btActionInterface {
- public:
-  explicit OtherAction(std::function<void()> act) : act_(std::move(act)) {}
-  void updateAction(btCollisionWorld*, btScalar) override { act_(); }
-  void debugDraw(btIDebugDraw*) override {}
-
- private:
-  std::function<void()> act_;
-};
-
 // A body on a ball joint, with another action before or after the fluid's.
 class Held {
  public:
@@ -40,12 +30,8 @@ class Held {
 
   /// Velocities after one step with the other action `act`.
   Vector6 after(std::function<void()> act, bool is_first) {
-    OtherAction other(std::move(act));
-    if (is_first) scene.removeAction();
-    scene.world.addAction(&other);
-    if (is_first) scene.addAction();
+    const OtherAction other(scene, std::move(act), is_first);
     scene.step(1.0 / 60);
-    scene.world.removeAction(&other);
     return stack(toVector3(body->getAngularVelocity()), toVector3(body->getLinearVelocity()));
   }
 

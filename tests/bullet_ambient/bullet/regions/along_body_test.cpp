@@ -184,10 +184,7 @@ struct FloatScene : RobotWorld {
                         {bt(apart / 2), 0, 0}, {bt(apart / 2), 0, 0});
     robot->finalizeMultiDof();
     robot->setBasePos({bt(parts == 2 ? -apart / 2 : 0), 0, 0});
-    tree = &take(std::move(robot), 0);
-    tree->setCanSleep(false);
-    tree->setLinearDamping(0);
-    tree->setAngularDamping(0);
+    tree = &takeUndamped(std::move(robot));
     for (int link = -1; link < parts - 1; ++link) fluid.add(*tree, link, def);
   }
   /// Height of the middle [m] and pitch, down at the end ahead [rad].

@@ -11,7 +11,7 @@
 #include "tests/bullet_ambient/bullet/regions/region_world.h"
 #include "tests/bullet_ambient/bullet/state/state_scene.h"
 #include "tests/support/refusal_of.h"
-#include "tests/support/thread_pool.h"
+#include "tests/support/threads.h"
 
 namespace ambient::test {
 namespace {
@@ -339,8 +339,8 @@ TEST(FluidRegions, EndWithTheSameBitsOnAnyNumberOfThreads) {
   EXPECT_GT(alone.scene.fluid.counters().medium_changes, 60);
   EXPECT_GT(alone.scene.fluid.counters().rows, 0);
   for (const int threads : {2, 3}) {
-    ThreadPool pool(threads);
-    Layers other(&pool);
+    Threads runner(threads);
+    Layers other(&runner);
     other.scene.step(kWorldStep, 150);
     EXPECT_TRUE(alone.bits() == other.bits()) << threads;
   }

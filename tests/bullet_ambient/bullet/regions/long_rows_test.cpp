@@ -35,10 +35,7 @@ struct StickScene : RobotWorld {
     } else {
       auto robot = std::make_unique<btMultiBody>(0, bt(mass), moments, false, false);
       robot->finalizeMultiDof();
-      tree = &take(std::move(robot), 0);
-      tree->setCanSleep(false);
-      tree->setLinearDamping(0);
-      tree->setAngularDamping(0);
+      tree = &takeUndamped(std::move(robot));
       contents.addCollider(*tree, -1, box_).setFriction(0);
       fluid.add(*tree, -1, def);
     }

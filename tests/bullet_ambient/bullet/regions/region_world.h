@@ -95,10 +95,7 @@ struct LongScene : RobotWorld {
       robot->setupPrismatic(0, bt(mass), moments, -1, straight, {0, 1, 0}, none, none, true);
     }
     robot->finalizeMultiDof();
-    tree = &take(std::move(robot), 0);
-    tree->setCanSleep(false);
-    tree->setLinearDamping(0);
-    tree->setAngularDamping(0);
+    tree = &takeUndamped(std::move(robot));
     fluid.add(*tree, 0, def);
   }
   /// About z [rad/s], or along y [m/s].

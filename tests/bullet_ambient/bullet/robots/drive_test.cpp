@@ -119,10 +119,7 @@ struct Rotors : RobotWorld {
     }
     robot->finalizeMultiDof();
     robot->setMaxCoordinateVelocity(1000);
-    btMultiBody& tree = take(std::move(robot), 0);
-    tree.setCanSleep(false);
-    tree.setLinearDamping(0);
-    tree.setAngularDamping(0);
+    btMultiBody& tree = takeUndamped(std::move(robot));
     tree.setJointVel(0, bt(2 * kPi * turns / kRotorStep));
     AttachDef def;
     def.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid(axes, 1));

@@ -1,5 +1,4 @@
 #include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
-#include <BulletDynamics/Featherstone/btMultiBodyPoint2Point.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -165,16 +164,6 @@ TEST(RobotFlight, MotorsHoldPlatesOfTenThousandTimesTheirMassInFluid) {
   for (int i = 0; i < body.getNumLinks(); ++i)
     EXPECT_NEAR(body.getJointPos(i), angles[i], 1e-3) << i;
   EXPECT_GT(velocityOf(body).head<6>().norm() + body.getBasePos().length(), 1e-3);
-}
-
-void holdTip(RobotWorld& world, btMultiBody& body) {
-  const int tip = body.getNumLinks() - 1;
-  const btVector3 point(bt(0.15), 0, 0);
-  auto joint = std::make_unique<btMultiBodyPoint2Point>(
-      &body, tip, static_cast<btRigidBody*>(nullptr), point,
-      body.getLink(tip).m_cachedWorldTransform * point);
-  joint->setMaxAppliedImpulse(bt(1e9));
-  world.take(std::move(joint));
 }
 
 // Energy range of a robot with its tip on a ball joint to the world.

@@ -1,5 +1,7 @@
 #include "tests/bullet_ambient/bullet/robots/robot_world.h"
 
+#include <BulletDynamics/Featherstone/btMultiBodyPoint2Point.h>
+
 #include <utility>
 
 #include "bullet_ambient/bullet/members/tree_state.h"
@@ -153,6 +155,16 @@ AttachDef coupledFluid(Arbitrary& arbitrary, const btMultiBody& body, int link, 
 void putIntoFluid(Arbitrary& arbitrary, RobotWorld& world, btMultiBody& body, double ratio) {
   for (int i = body.hasFixedBase() ? 0 : -1; i < body.getNumLinks(); ++i)
     world.fluid.add(body, i, coupledFluid(arbitrary, body, i, ratio));
+}
+
+void holdTip(RobotWorld& world, btMultiBody& body) {
+  const int tip = body.getNumLinks() - 1;
+  const btVector3 point(bt(0.15), 0, 0);
+  auto joint = std::make_unique<btMultiBodyPoint2Point>(
+      &body, tip, static_cast<btRigidBody*>(nullptr), point,
+      body.getLink(tip).m_cachedWorldTransform * point);
+  joint->setMaxAppliedImpulse(bt(1e9));
+  world.take(std::move(joint));
 }
 
 Eigen::VectorXd velocityOf(const btMultiBody& body) {

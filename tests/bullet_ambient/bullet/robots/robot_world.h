@@ -5,6 +5,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bullet_ambient/fluid.h"
@@ -42,6 +43,14 @@ struct RobotWorld : TreeWorld {
   btMultiBody& add(Arbitrary& arbitrary, const RobotDef& def);
   /// Adds a finished robot, with spheres of a radius [m] as colliders of its links; 0: without.
   btMultiBody& take(std::unique_ptr<btMultiBody> robot, double collider_radius);
+  /// The same of one that is not damped and never sleeps.
+  btMultiBody& takeUndamped(std::unique_ptr<btMultiBody> robot, double collider_radius = 0) {
+    btMultiBody& tree = take(std::move(robot), collider_radius);
+    tree.setCanSleep(false);
+    tree.setLinearDamping(0);
+    tree.setAngularDamping(0);
+    return tree;
+  }
   void take(std::unique_ptr<btMultiBodyConstraint> constraint);
   void remove(btMultiBody& body) { contents.remove(body); }
   btCollisionObject& addFixed(std::unique_ptr<btCollisionShape> shape, const btTransform& place);
@@ -61,6 +70,9 @@ AttachDef coupledFluid(Arbitrary& arbitrary, const btMultiBody& body, int link, 
 /// Puts all links and a free base of a robot into separate coupledFluid(). A fixed base stays
 /// dry.
 void putIntoFluid(Arbitrary& arbitrary, RobotWorld& world, btMultiBody& body, double ratio);
+
+/// Joins the last link to the world by a ball joint.
+void holdTip(RobotWorld& world, btMultiBody& body);
 
 Eigen::VectorXd velocityOf(const btMultiBody& body);
 /// |a - b| / |b|

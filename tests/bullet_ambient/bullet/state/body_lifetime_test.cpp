@@ -79,50 +79,27 @@ TEST_F(Lifetime, NothingTouchesABodyThatFlewWithoutTheActionAndWasDestroyed) {
 
 // Destroys a body between the solver and the fluid's action.
 TEST_F(Lifetime, NothingTouchesABodyThatAnotherActionHasDestroyed) {
-  struct Destroyer : btActionInterface {
-    void updateAction(btCollisionWorld* world, btScalar) override {
-      if (body) {
-        static_cast<btDynamicsWorld*>(world)->removeRigidBody(body);
-        storage->destroy(*body);
-      }
-      body = nullptr;
-    }
-    void debugDraw(btIDebugDraw*) override {}
-    btRigidBody* body = nullptr;
-    BodyStorage* storage = nullptr;
-  } destroyer;
   const btRigidBody& other = scene.add({}, unitBall(), water());
-  destroyer.body = &addAttached();
-  destroyer.storage = &storage;
-  scene.removeAction();
-  scene.world.addAction(&destroyer);
-  scene.addAction();
+  btRigidBody& body = addAttached();
+  const OtherAction destroy(scene, [&] {
+    scene.world.removeRigidBody(&body);
+    storage.destroy(body);
+  });
   scene.step(kTimeStep);
   EXPECT_TRUE(storage.isUntouched());
   // The removal moved the other body within the world's array; its flight was completed all the
   // same.
   EXPECT_EQ(membersOf(scene.fluid).find(&other)->outcome.kind, Outcome::kNotSolved);
-  scene.world.removeAction(&destroyer);
 }
 
 // Detaches one of three bodies that the solver has met.
 TEST_F(Lifetime, ABodyThatAnotherActionDetachesLeavesTheOthersTheirFlights) {
-  struct Detacher : btActionInterface {
-    void updateAction(btCollisionWorld*, btScalar) override { fluid->find(*body)->remove(); }
-    void debugDraw(btIDebugDraw*) override {}
-    Fluid* fluid = nullptr;
-    const btRigidBody* body = nullptr;
-  } detacher;
   for (int detached = 0; detached < 3; ++detached) {
     FluidWorld three;
     three.world.setGravity({0, 0, -1});
     const btRigidBody* bodies[3];
     for (const btRigidBody*& body : bodies) body = &three.add({}, unitBall(), water());
-    detacher.fluid = &three.fluid;
-    detacher.body = bodies[detached];
-    three.removeAction();
-    three.world.addAction(&detacher);
-    three.addAction();
+    const OtherAction detach(three, [&] { three.of(*bodies[detached]).remove(); });
     three.step(kTimeStep);
     for (int i = 0; i < 3; ++i) {
       const AmbientBody* ambient = membersOf(three.fluid).find(bodies[i]);

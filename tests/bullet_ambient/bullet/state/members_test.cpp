@@ -1,4 +1,3 @@
-#include <BulletDynamics/Dynamics/btActionInterface.h>
 #include <LinearMath/btTransformUtil.h>
 #include <btBulletDynamicsCommon.h>
 #include <gtest/gtest.h>
@@ -123,30 +122,19 @@ TEST(Attitudes, AreSettledUnlessOthersHaveTurnedTheBody) {
   EXPECT_EQ(body.getWorldTransform(), before);
 }
 
-// Stops a body in the middle of its way, as continuous collision detection does.
-struct HalfWay : btActionInterface {
-  explicit HalfWay(btRigidBody& stopped) : body(stopped), start(stopped.getWorldTransform()) {}
-  void updateAction(btCollisionWorld*, btScalar time_step) override {
-    btTransform half;
-    btTransformUtil::integrateTransform(start, body.getLinearVelocity(), body.getAngularVelocity(),
-                                        time_step / 2, half);
-    body.proceedToTransform(half);
-  }
-  void debugDraw(btIDebugDraw*) override {}
-
-  btRigidBody& body;
-  btTransform start;
-};
-
 TEST(Attitudes, OfABodyThatWasStoppedAreThoseOfItsWay) {
   FluidWorld scene;
   BodyDef def{1, ellipsoidMoments(Vector3::Constant(0.1), 1), {}, nullptr};
   def.start.twist = {Vector3(6, 0, 0), Vector3(60, 0, 0)};
   btRigidBody& body = scene.add(def, facelessEllipsoid(Vector3::Constant(0.1)), idealFluid(1));
-  HalfWay stop(body);
-  scene.removeAction();
-  scene.world.addAction(&stop);
-  scene.addAction();
+  // Stops the body in the middle of its way, as continuous collision detection does.
+  const btTransform start = body.getWorldTransform();
+  const OtherAction stop(scene, [&] {
+    btTransform half;
+    btTransformUtil::integrateTransform(start, body.getLinearVelocity(), body.getAngularVelocity(),
+                                        bt(kWorldStep / 2), half);
+    body.proceedToTransform(half);
+  });
   scene.step(kWorldStep);
   const btTransform& pose = body.getWorldTransform();
   EXPECT_NEAR(static_cast<double>(pose.getOrigin().x()), 30 * kWorldStep, byPrecision(1e-12, 1e-6));
@@ -155,7 +143,6 @@ TEST(Attitudes, OfABodyThatWasStoppedAreThoseOfItsWay) {
                 .angularDistance(Quaternion(Eigen::AngleAxisd(turned, Vector3(1, 0, 0)))),
             byPrecision(1e-7, 1e-3));
   EXPECT_NEAR(static_cast<double>(body.getAngularVelocity().x()), 6, byPrecision(1e-12, 1e-5));
-  scene.world.removeAction(&stop);
 }
 
 }  // namespace

@@ -10,7 +10,6 @@
 
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/bullet_ambient/bullet/water/water_run.h"
-#include "tests/bullet_ambient/bullet/water/water_steps.h"
 #include "tests/support/bodies/part_bodies.h"
 #include "tests/support/bodies/random_bodies.h"
 #include "tests/support/convergence.h"

@@ -1,6 +1,6 @@
 #include <cstdio>
 
-#include "tests/bullet_ambient/bullet/water/water_steps.h"
+#include "tests/bullet_ambient/bullet/water/water_atlas.h"
 
 // water_steps_study: errors of motions at the surface at 1/30 to 1/240 s against 1/7680 s. With the
 // library's substeps, then with one substep where it takes more.

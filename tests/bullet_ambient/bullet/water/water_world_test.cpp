@@ -11,7 +11,7 @@
 #include "tests/bullet_ambient/bullet/state/state_scene.h"
 #include "tests/support/bodies/part_bodies.h"
 #include "tests/support/floating_runs.h"
-#include "tests/support/thread_pool.h"
+#include "tests/support/threads.h"
 
 // Bodies at the surface of water in a Bullet world.
 namespace ambient::test {
@@ -141,8 +141,8 @@ TEST(WaterWorld, APendulumThatDipsInGainsNoEnergy) {
     RigidState start = at(0.5);
     start.position.x() = 0.9;
     btRigidBody& body = water.addBox(1.3, start);
-    btPoint2PointConstraint joint(body, btVector3(bt(-0.9), 0, 0));
-    water.scene.world.addConstraint(&joint);
+    water.scene.contents.take(
+        std::make_unique<btPoint2PointConstraint>(body, btVector3(bt(-0.9), 0, 0)));
     double highest = -1e9;
     for (int i = 0; i < static_cast<int>(10 / step); ++i) {
       water.scene.step(step);
@@ -151,7 +151,6 @@ TEST(WaterWorld, APendulumThatDipsInGainsNoEnergy) {
     EXPECT_LT(highest, 0.5 + 1e-3) << step;
     EXPECT_LT(body.getLinearVelocity().length(), bt(0.2)) << step;
     EXPECT_EQ(water.scene.fluid.counters().rejected, 0);
-    water.scene.world.removeConstraint(&joint);
   }
 }
 
@@ -172,8 +171,8 @@ TEST(WaterWorld, EndsWithTheSameBitsOnAnyNumberOfThreads) {
   alone.scene.step(1.0 / 60, 150);
   EXPECT_GT(alone.scene.fluid.counters().rows, 100);
   EXPECT_EQ(alone.scene.fluid.counters().rejected, 0);
-  ThreadPool pool(3);
-  FloatingPile other(&pool);
+  Threads runner(3);
+  FloatingPile other(&runner);
   other.scene.step(1.0 / 60, 150);
   EXPECT_TRUE(alone.bits() == other.bits());
 }

@@ -48,8 +48,7 @@ TEST(ContactFeatures, ABodyLockedToAPlaneStaysInIt) {
   FluidWorld scene;
   scene.world.setGravity({0, bt(-9.81), 0});
   btStaticPlaneShape plane({0, 1, 0}, -1);
-  btRigidBody floor(0, nullptr, &plane);
-  scene.world.addRigidBody(&floor);
+  scene.contents.add(0, plane);
   btBoxShape box({bt(0.3), bt(0.2), bt(0.1)});
   BodyDef def{30, Vector3(0.5, 1, 1.3), {}, &box};
   def.start.twist = {Vector3(0, 0, 2), Vector3(1, 0, 0)};
@@ -71,7 +70,6 @@ TEST(ContactFeatures, ABodyLockedToAPlaneStaysInIt) {
   EXPECT_GT(scene.of(body).counters().rows, 0);
   const btVector3 z = body.getWorldTransform().getBasis().getColumn(2);
   EXPECT_NEAR(static_cast<double>(z.z()), 1, byPrecision(1e-15, 1e-6));
-  scene.world.removeRigidBody(&floor);
 }
 
 // Speed of a ball that moves along y only, pushed out of an overlapping wall. The wall's normal is
@@ -81,9 +79,7 @@ double speedOfPush(double angle, bool in_fluid) {
   FluidWorld scene;
   scene.world.getSolverInfo().m_splitImpulse = 0;
   btStaticPlaneShape plane({bt(std::cos(angle)), bt(std::sin(angle)), 0}, 0);
-  btRigidBody wall(0, nullptr, &plane);
-  wall.setFriction(0);
-  scene.world.addRigidBody(&wall);
+  scene.contents.add(0, plane).setFriction(0);
   btSphereShape ball(bt(0.2));
   BodyDef def{1, Vector3::Constant(0.016), {}, &ball};
   def.start.position = (0.2 - kDepth) * Vector3(std::cos(angle), std::sin(angle), 0);
@@ -97,7 +93,6 @@ double speedOfPush(double angle, bool in_fluid) {
   body.setAngularFactor(0);
   scene.step(kWorldStep);
   EXPECT_EQ(scene.fluid.counters().rows > 0, in_fluid);
-  scene.world.removeRigidBody(&wall);
   return static_cast<double>(body.getLinearVelocity().y());
 }
 
@@ -152,10 +147,8 @@ double flyFast(unsigned seed, double speed, bool is_continuous) {
   pose.setOrigin({0, 0, 0});
   scene.body().setWorldTransform(pose);
   btBoxShape box(btVector3(bt(0.05), 50, 50));
-  btRigidBody wall(0, nullptr, &box);
-  wall.setWorldTransform(
-      btTransform(btQuaternion::getIdentity(), btVector3(bt(kWallSurface + 0.05), 0, 0)));
-  scene.scene.world.addRigidBody(&wall);
+  scene.scene.contents.add(
+      0, box, btTransform(btQuaternion::getIdentity(), btVector3(bt(kWallSurface + 0.05), 0, 0)));
   if (is_continuous) {
     scene.body().setCcdMotionThreshold(bt(kCcdThreshold));
     scene.body().setCcdSweptSphereRadius(bt(kSweptRadius));
@@ -166,7 +159,6 @@ double flyFast(unsigned seed, double speed, bool is_continuous) {
     farthest =
         std::max(farthest, static_cast<double>(scene.body().getWorldTransform().getOrigin().x()));
   }
-  scene.scene.world.removeRigidBody(&wall);
   return farthest;
 }
 

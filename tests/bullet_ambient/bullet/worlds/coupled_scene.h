@@ -41,35 +41,12 @@ class CoupledScene {
     scene.step(duration);
     scene.addAction();
   }
-  /// Step [s] so short that forces and gyroscopic terms vanish; Bullet skips steps below its
-  /// epsilon.
-  static constexpr double kInstant = byPrecision(1e-14, 1e-6);
-
   Arbitrary arbitrary;
   CoupledBody coupled;
   FluidWorld scene;
 
  private:
   btSphereShape ball_{static_cast<btScalar>(kRadius)};
-};
-
-/// A fixed wall with the outward normal `normal` in the path of the body, overlapping by a
-/// millimetre.
-class Wall {
- public:
-  Wall(CoupledScene& scene, const btVector3& normal)
-      : scene_(scene),
-        plane_(normal, normal.dot(scene.body().getWorldTransform().getOrigin()) -
-                           static_cast<btScalar>(CoupledScene::kRadius - 1e-3)) {
-    body_.setFriction(0);
-    scene_.scene.world.addRigidBody(&body_);
-  }
-  ~Wall() { scene_.scene.world.removeRigidBody(&body_); }
-
- private:
-  CoupledScene& scene_;
-  btStaticPlaneShape plane_;
-  btRigidBody body_{0, nullptr, &plane_};
 };
 
 }  // namespace ambient::test

@@ -190,10 +190,9 @@ Vector6 flight(double density) {
 Vector6 swing(double density, double step) {
   Run run(density);
   run.body.setFlags(BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT);
-  btPoint2PointConstraint joint(run.body, btVector3(0, static_cast<btScalar>(0.1), 1));
-  run.scene.world.addConstraint(&joint);
+  run.scene.contents.take(std::make_unique<btPoint2PointConstraint>(
+      run.body, btVector3(0, static_cast<btScalar>(0.1), 1)));
   run.scene.step(step, static_cast<int>(std::lround(kLimitSteps * kWorldStep / step)));
-  run.scene.world.removeConstraint(&joint);
   return run.velocity();
 }
 

@@ -316,8 +316,7 @@ TopEnergy energyOfTop(double spin, double rate, unsigned seed) {
   BodyDef def = unevenBody();
   def.start.twist = {spin * axis, spin * pivot.cross(axis)};
   btRigidBody& body = scene.add(def, unevenFluid(arbitrary, 3), idealFluid(1));
-  btPoint2PointConstraint joint(body, toBullet(pivot));
-  scene.world.addConstraint(&joint);
+  scene.contents.take(std::make_unique<btPoint2PointConstraint>(body, toBullet(pivot)));
   const double start = kineticEnergy(scene, body);
   TopEnergy top;
   for (int i = 0; i < 2 * rate; ++i) {
@@ -325,7 +324,6 @@ TopEnergy energyOfTop(double spin, double rate, unsigned seed) {
     top.end = kineticEnergy(scene, body) / start;
     top.largest = std::max(top.largest, top.end);
   }
-  scene.world.removeConstraint(&joint);
   return top;
 }
 

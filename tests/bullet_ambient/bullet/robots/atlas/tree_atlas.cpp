@@ -1,7 +1,6 @@
 #include "tests/bullet_ambient/bullet/robots/atlas/tree_atlas.h"
 
 #include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
-#include <BulletDynamics/Featherstone/btMultiBodyPoint2Point.h>
 
 #include <algorithm>
 #include <cmath>
@@ -48,17 +47,6 @@ void attachFluid(Arbitrary& arbitrary, RobotWorld& world, btMultiBody& body, Tre
                                                            : meshedEllipsoid(kLinkAxes, 1));
   for (int link = body.hasFixedBase() ? 0 : -1; link < body.getNumLinks(); ++link)
     world.fluid.add(body, link, def);
-}
-
-// Joins the last link to the world by a ball joint.
-void tie(RobotWorld& world, btMultiBody& body) {
-  const int tip = body.getNumLinks() - 1;
-  const btVector3 point(bt(0.15), 0, 0);
-  auto joint = std::make_unique<btMultiBodyPoint2Point>(
-      &body, tip, static_cast<btRigidBody*>(nullptr), point,
-      body.getLink(tip).m_cachedWorldTransform * point);
-  joint->setMaxAppliedImpulse(bt(1e9));
-  world.take(std::move(joint));
 }
 
 // Gives each revolute and prismatic joint a motor that stops it with 0.01 to 10 N m or N.
@@ -174,7 +162,8 @@ TreeResult runTree(const TreeCase& tree_case) {
   btMultiBody& body = world.add(arbitrary, def);
   const bool has_surface = setting >= TreeSetting::kThroughSurface;
   attachFluid(arbitrary, world, body, tree_case.fluid, has_surface);
-  if (setting == TreeSetting::kTethered || setting == TreeSetting::kTetheredInBox) tie(world, body);
+  if (setting == TreeSetting::kTethered || setting == TreeSetting::kTetheredInBox)
+    holdTip(world, body);
   if (setting == TreeSetting::kInBox || setting == TreeSetting::kTetheredInBox) addBox(world, body);
   if (setting == TreeSetting::kBraked) brake(arbitrary, world, body, hertz);
   if (!has_surface) return watch(world, body, hertz, nullptr);

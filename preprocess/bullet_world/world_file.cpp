@@ -1,4 +1,4 @@
-#include "preprocess/bullet_world/world_builder.h"
+#include "preprocess/bullet_world/world_file.h"
 
 #include <BulletCollision/CollisionShapes/btCollisionShape.h>
 #include <BulletFileLoader/btBulletFile.h>
@@ -8,20 +8,14 @@
 
 #include <algorithm>
 #include <cctype>
-#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
 #include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "bullet_ambient/bullet/core/precision_check.h"
-#include "preprocess/base/fluid_body_writer.h"
-#include "preprocess/builder/reuse.h"
-#include "preprocess/collision_shape/collision_shape_body.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/shape/json_schema.h"
 
@@ -183,13 +177,6 @@ void checkFileStructure(const std::string& bytes, const std::string& name) {
   for (const Chunk& chunk : chunks) checkChunk(chunk, sizes, name);
 }
 
-/// A collision shape of a world, and the dynamic bodies with this shape.
-struct WorldShape {
-  std::string name;  ///< unique in the file, fit for a file name
-  const btCollisionShape* shape = nullptr;
-  std::vector<std::string> bodies;  ///< names; "body <number>" for those without
-};
-
 std::string fileNameOf(std::string text) {
   for (char& c : text) {
     const auto byte = static_cast<unsigned char>(c);
@@ -265,8 +252,10 @@ void dropLostNames(ParsedFile& file) {
   dropLostNames<btCollisionShapeData>(file.m_collisionShapes, file, own_name);
 }
 
-struct WorldImporter : btBulletWorldImporter {
-  ~WorldImporter() override { deleteAllData(); }
+}  // namespace
+
+struct WorldFile::Importer : btBulletWorldImporter {
+  ~Importer() override { deleteAllData(); }
 
   bool convertAllObjects(bParse::btBulletFile* file) override {
     dropLostNames(static_cast<ParsedFile&>(*file));
@@ -279,114 +268,36 @@ struct WorldImporter : btBulletWorldImporter {
   }
 };
 
-/// The content of a .bullet file, as btDynamicsWorld::serialize() writes it, in either precision.
-class WorldFile {
- public:
-  /// Header, chunks and the description of structures are checked; what the structures hold is
-  /// followed without checks, as Bullet does: read files that you trust.
-  /// @throws std::runtime_error in one line that names the file, if it cannot be read, is not a
-  /// .bullet file or a damaged one, or Bullet refuses it.
-  explicit WorldFile(const std::filesystem::path& file) {
-    std::string bytes = readBytes(file);
-    checkFileStructure(bytes, file.string());
-    {
-      const PrintedToErrors while_loading;
-      ParsedFile parsed(bytes.data(), static_cast<int>(bytes.size()));
-      if (!importer_.loadFileFromMemory(&parsed)) {
-        raiseInputError(file.string(), "Bullet cannot read it");
-      }
-      lost_bodies_ = parsed.m_rigidBodies.size() - importer_.getNumRigidBodies();
-      multibodies_ = parsed.m_multiBodies.size();
+WorldFile::WorldFile(const std::filesystem::path& file) : importer_(std::make_unique<Importer>()) {
+  std::string bytes = readBytes(file);
+  checkFileStructure(bytes, file.string());
+  {
+    const PrintedToErrors while_loading;
+    ParsedFile parsed(bytes.data(), static_cast<int>(bytes.size()));
+    if (!importer_->loadFileFromMemory(&parsed)) {
+      raiseInputError(file.string(), "Bullet cannot read it");
     }
-    for (int i = 0; i < importer_.getNumRigidBodies(); ++i) {
-      const btRigidBody* body = btRigidBody::upcast(importer_.getRigidBodyByIndex(i));
-      if (body == nullptr || !(body->getInvMass() > 0)) continue;
-      const btCollisionShape* shape = body->getCollisionShape();
-      auto known = std::find_if(shapes_.begin(), shapes_.end(),
-                                [&](const WorldShape& s) { return s.shape == shape; });
-      if (known == shapes_.end()) known = shapes_.insert(known, {"", shape, {}});
-      const std::string name = importer_.nameOf(body);
-      known->bodies.push_back(name.empty() ? "body " + std::to_string(i) : name);
-    }
-    std::set<std::string> taken;
-    for (WorldShape& shape : shapes_) {
-      const std::string own = importer_.nameOf(shape.shape);
-      const bool is_shared = shape.bodies.size() > 1 && !own.empty();
-      shape.name = uniqueName(fileNameOf(is_shared ? own : shape.bodies.front()), taken);
-    }
+    lost_bodies_ = parsed.m_rigidBodies.size() - importer_->getNumRigidBodies();
+    multibodies_ = parsed.m_multiBodies.size();
   }
-
-  /// Distinct shapes of bodies with mass, in the order of the bodies. A shape is named after its
-  /// body if there is only one, else by its own name, else after its first body.
-  const std::vector<WorldShape>& dynamicShapes() const { return shapes_; }
-
-  /// Bodies that Bullet's importer left out because it does not know their shape.
-  int lostBodies() const { return lost_bodies_; }
-
-  /// Bodies of joints that Bullet's importer does not read.
-  int multibodies() const { return multibodies_; }
-
- private:
-  WorldImporter importer_;
-  std::vector<WorldShape> shapes_;
-  int lost_bodies_ = 0;
-  int multibodies_ = 0;
-};
-
-using Status = WorldShapeResult::Status;
-
-void build(const WorldShape& shape, const WorldBuildSettings& settings, WorldShapeResult& result) {
-  CollisionShapeSettings shape_settings;
-  shape_settings.name = shape.name;
-  shape_settings.flow = settings.flow;
-  shape_settings.tables = settings.tables;
-  shape_settings.holds = settings.holds;
-  shape_settings.strict = settings.strict;
-  shape_settings.report = [&](const std::string& text) { result.warnings.push_back(text); };
-  const Provenance provenance = describeCollisionShape(*shape.shape, shape_settings);
-  std::optional<FluidBody> body;
-  if (settings.reuse) body = readIfSame(result.file, shape.name, provenance);
-  result.status = body ? Status::kKept : Status::kBuilt;
-  if (!body) {
-    body = makeFluidBody(*shape.shape, shape_settings);
-    writeFluidBody(*body, result.file);
+  for (int i = 0; i < importer_->getNumRigidBodies(); ++i) {
+    const btRigidBody* body = btRigidBody::upcast(importer_->getRigidBodyByIndex(i));
+    if (body == nullptr || !(body->getInvMass() > 0)) continue;
+    const btCollisionShape* shape = body->getCollisionShape();
+    auto known = std::find_if(shapes_.begin(), shapes_.end(),
+                              [&](const WorldShape& s) { return s.shape == shape; });
+    if (known == shapes_.end()) known = shapes_.insert(known, {"", shape, {}});
+    const std::string name = importer_->nameOf(body);
+    known->bodies.push_back(name.empty() ? "body " + std::to_string(i) : name);
   }
-  result.faces = body->faces.size();
-  result.extents = extentsOf(*body);
-  result.volume = body->volume;
+  std::set<std::string> taken;
+  for (WorldShape& shape : shapes_) {
+    const std::string own = importer_->nameOf(shape.shape);
+    const bool is_shared = shape.bodies.size() > 1 && !own.empty();
+    shape.name = uniqueName(fileNameOf(is_shared ? own : shape.bodies.front()), taken);
+  }
 }
 
-}  // namespace
-
-WorldBuild buildWorld(const std::filesystem::path& file, const std::filesystem::path& folder,
-                      const WorldBuildSettings& settings,
-                      const std::function<void(const std::string&)>& onBegin) {
-  const WorldFile world(file);
-  std::error_code no_folder;
-  std::filesystem::create_directories(folder, no_folder);
-  if (no_folder)
-    raiseInputError(folder.string(), "the folder cannot be made: ", no_folder.message());
-  WorldBuild built;
-  built.lost_bodies = world.lostBodies();
-  built.multibodies = world.multibodies();
-  for (const WorldShape& shape : world.dynamicShapes()) {
-    const auto start = std::chrono::steady_clock::now();
-    WorldShapeResult result;
-    result.name = shape.name;
-    result.bodies = shape.bodies;
-    result.file = folder / (shape.name + ".ambient");
-    onBegin(shape.name);
-    try {
-      build(shape, settings, result);
-    } catch (const std::exception& error) {
-      result.status = Status::kFailed;
-      result.message = error.what();
-    }
-    result.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    built.shapes.push_back(result);
-  }
-  return built;
-}
+WorldFile::~WorldFile() = default;
 
 }  // namespace ambient

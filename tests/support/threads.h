@@ -2,29 +2,21 @@
 
 #include <pthread.h>
 
-#include <memory>
-
 #include "bullet_ambient/base/task_runner.h"
+#include "preprocess/base/parallel_for.h"
 
 namespace ambient::test {
 
-/// Owns threads that sleep between calls. The calling thread works, too. While the pool's threads
-/// are busy for another caller, the calling thread does all items alone.
-class ThreadPool : public TaskRunner {
+/// Spreads work over threads that each call starts anew; the calling thread works, too.
+class Threads : public TaskRunner {
  public:
-  /// @param threads number of threads that work, including the caller's; 0 or less: all cores. The
-  /// system may grant fewer; threads() returns the number granted.
-  explicit ThreadPool(int threads = 0);
-  ~ThreadPool() override;
-  ThreadPool(const ThreadPool&) = delete;
-  ThreadPool& operator=(const ThreadPool&) = delete;
-
-  int threads() const;  ///< threads that work, including the caller's
-  void runAll(const Task& task, int count) noexcept override;
+  explicit Threads(int threads) : threads_(threads) {}
+  void runAll(const Task& task, int count) noexcept override {
+    parallelFor(threads_, count, [&task](std::ptrdiff_t i) { task.run(static_cast<int>(i)); });
+  }
 
  private:
-  struct Shared;
-  std::unique_ptr<Shared> shared_;
+  int threads_;
 };
 
 /// Scope in which no thread can start: the default stack is larger than the address space.
