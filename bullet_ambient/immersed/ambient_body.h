@@ -139,6 +139,7 @@ struct VesselState {
   std::shared_ptr<const FluidBody> shape;
   bool is_known = false;         ///< false: the body has met no surface yet, and no water was given
   std::vector<HoldState> holds;  ///< as in FluidBody::holds
+  WaterInside inside;            ///< at FloatingState::stand
   /// Change of the velocity in B by the water that has come in at the start of this step.
   Vector6 change_B = Vector6::Zero();
 };
@@ -196,6 +197,11 @@ struct AmbientBody {
 /// Returns the states of the holds of a body; null: it has none.
 inline const HoldState* waterOf(const AmbientBody& ambient) noexcept {
   return ambient.vessel ? ambient.vessel->holds.data() : nullptr;
+}
+/// Returns the same with the place for what is inside at the stand of the body.
+inline VesselWater waterAtStand(AmbientBody& ambient) noexcept {
+  if (!ambient.vessel) return {};
+  return {ambient.vessel->holds.data(), &ambient.vessel->inside};
 }
 /// Gives a body the holds of its definition, and the water from the start; it keeps what it has if
 /// they are the same.

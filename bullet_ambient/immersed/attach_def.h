@@ -62,8 +62,6 @@ struct AmbientCounters {
       0;  ///< tests of the body against the bounds of one region or of several
   long long medium_changes = 0;  ///< changes by regions to another density or viscosity
   long long too_long = 0;  ///< bodies whose errors add up: steps are too long for their motion
-  double flooded = 0;      ///< water that has come into holds from outside [m^3]
-  double drained = 0;      ///< water that has left holds to there [m^3]
 
   AmbientCounters& operator+=(const AmbientCounters& other);
 };
@@ -82,8 +80,6 @@ inline AmbientCounters& AmbientCounters::operator+=(const AmbientCounters& other
   regions_asked += other.regions_asked;
   medium_changes += other.medium_changes;
   too_long += other.too_long;
-  flooded += other.flooded;
-  drained += other.drained;
   return *this;
 }
 

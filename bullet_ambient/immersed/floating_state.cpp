@@ -69,7 +69,7 @@ void completeAll(AmbientBody* const* bodies, int count) {
     if (floating.is_valid) continue;
     const SurfaceModel& model = *bodies[i]->surface();
     static_cast<SurfacePlace&>(floating.stand) =
-        placeAt(model, floating.stand.plane, waterOf(*bodies[i]));
+        placeAt(model, floating.stand.plane, waterAtStand(*bodies[i]));
     floating.is_valid = true;
     models[made] = &model;
     stands[made++] = &floating.stand;
@@ -168,8 +168,9 @@ void standAt(AmbientBody* const* bodies, const RigidState* states, int count,
 BodyModel modelNow(const AmbientBody& ambient, const MotionView& now) {
   const SurfaceModel* surface = ambient.surface();
   if (!surface) return ambient.model();
+  WaterInside inside;
   const SurfaceStand stand =
-      standAtSurface(*surface, planeAt(ambient, now.state), waterOf(ambient));
+      standAtSurface(*surface, planeAt(ambient, now.state), {waterOf(ambient), &inside});
   BodyModel model = frozenAt(*surface, stand);
   if (surface->loads_below.loads) {
     model.loads =
@@ -209,10 +210,9 @@ void exchangeWater(AmbientBody& ambient, const MotionView& now, double duration)
   vessel.change_B.setZero();
   bool has_changed = false;
   for (std::size_t i = 0; i < vessel.holds.size(); ++i) {
-    const HoldState& hold = vessel.holds[i];
+    HoldState& hold = vessel.holds[i];
     has_changed = has_changed || hold.change != 0;
-    (hold.inflow > 0 ? ambient.counters.flooded : ambient.counters.drained) +=
-        std::abs(hold.inflow);
+    (hold.inflow > 0 ? hold.flooded : hold.drained) += std::abs(hold.inflow);
     if (std::abs(hold.change) > kStill * vessel.shape->holds[i].volume) ambient.may_rest = false;
   }
   if (!has_changed) return;
@@ -319,6 +319,7 @@ struct Fall {
 struct Departure {
   SurfacePlace place;
   Fall fall;
+  std::optional<WaterInside> inside;  ///< at the place
 };
 
 struct RowStep {
@@ -384,10 +385,11 @@ BoundedTwist passedFrom(const Departure& before, const AmbientBody& ambient, Axe
   const Matrix6 inverse = after.inverse.full();
   const BoundedTwist moved = withinPotential(
       {before.fall, fallOf(ambient), inverse, ambient.floating->twist_before_rows, duration}, x);
-  const Vector6 shifted =
-      ambient.vessel ? shiftWater({model, place.inside_F, after.inside_F, after.plane.normal},
-                                  moved.twist, place.inertia)
-                     : moved.twist;
+  const Vector6 shifted = ambient.vessel
+                              ? shiftWater({model, before.inside ? &*before.inside : nullptr,
+                                            after.inside_F, after.plane.normal},
+                                           moved.twist, place.inertia)
+                              : moved.twist;
   BoundedTwist end = passSurface({model, place, after, duration}, shifted);
   end.energy_removed += moved.energy_removed;
   return end;
@@ -411,7 +413,9 @@ void passWithRows(AmbientBody* const* bodies, const FrameOffset* poses, int coun
   for (int i = 0; i < count; ++i) {
     AmbientBody& ambient = *bodies[i];
     departures[i] = Departure{ambient.stand(),  // since standNow()
-                              fallOf(ambient, ambient.floating->plane_before_rows)};
+                              fallOf(ambient, ambient.floating->plane_before_rows),
+                              {}};
+    if (const WaterInside* const inside = ambient.stand().inside_F) departures[i]->inside = *inside;
     if (falls) departures[i]->fall.wrench = falls[i];
     moveTo(seenFrom(movedPlane(ambient, duration), poses[i]), *ambient.floating);
   }

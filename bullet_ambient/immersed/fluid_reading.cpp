@@ -193,8 +193,9 @@ class MiddleWrenches {
     SurfacePlane plane_W = reading_.plane_W;
     plane_W.height +=
         plane_W.normal.dot(time * s.ambient_velocity + time * time / 2 * s.ambient_acceleration);
+    WaterInside inside;
     const SurfaceStand stand = standAtSurface(
-        model, seenFrom(plane_W, to_world_, step_.middle.position), waterOf(ambient_));
+        model, seenFrom(plane_W, to_world_, step_.middle.position), {waterOf(ambient_), &inside});
     setBuoyancy(step_.has_flown ? frozenAt(model, stand) : step_.model);
     if (model.loads_below.loads)
       setLoads(wholeLoad(loadBelow(model, stand, seen_, {s.load_share, s.flow}),

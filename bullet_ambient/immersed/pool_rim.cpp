@@ -137,8 +137,9 @@ Wrench resistanceOfGrowth(const AmbientBody& ambient, const RigidState& state, d
   }
   SurfacePlane plane_B = ambient.stand().plane;
   plane_B.sides_F = &before;
-  const Matrix6 growth =
-      ambient.stand().inertia.full() - placeAt(model, plane_B, waterOf(ambient)).inertia.full();
+  WaterInside inside;
+  const SurfacePlace at = placeAt(model, plane_B, {waterOf(ambient), &inside});
+  const Matrix6 growth = ambient.stand().inertia.full() - at.inertia.full();
   Twist relative = state.twist;
   relative.linear -= state.orientation.conjugate() * ambient.medium.velocity;
   const Vector6 x = relative.vector(), momentum = growth * x;

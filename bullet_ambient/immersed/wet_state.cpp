@@ -147,7 +147,8 @@ HoldWater waterIn(const Hold& hold, const HoldState& state, const Vector3& up_F)
   const HoldFill fill =
       fillHold(HoldShape(hold), up_F, state.volume, std::numeric_limits<double>::quiet_NaN());
   const WetVolume& wet = fill.water;
-  HoldWater water{state.volume, hold.volume, state.inflow, wet.waterplane.area};
+  HoldWater water{state.volume,  hold.volume,   state.inflow,
+                  state.flooded, state.drained, wet.waterplane.area};
   water.freeboard = std::numeric_limits<double>::infinity();
   for (const HoldOpening& opening : hold.openings)
     for (std::size_t i = 0; i < opening.outline.size(); i += 3) {

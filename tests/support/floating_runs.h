@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <deque>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -61,7 +62,7 @@ class FloatingRun {
     SurfaceStand stand = this->stand();
     FlightResult body{state, memory, {}};
     SurfaceFlight flight{
-        {model_, kStill, surroundings_, velocity_above, settings, duration, states()},
+        {model_, kStill, surroundings_, velocity_above, settings, duration, inside()},
         body,
         waves,
         stand};
@@ -82,7 +83,7 @@ class FloatingRun {
     const SurfacePlane plane{{0, 0, 1}, 0, model_.excess_density, -gravity_.z()};
     return seenFrom(plane, R, state.position);
   }
-  SurfaceStand stand() const { return standAtSurface(model_, plane_B(), states()); }
+  SurfaceStand stand() const { return standAtSurface(model_, plane_B(), inside()); }
   Matrix6 inertia() const { return stand().inertia.full(); }
   Vector3 velocity_W() const { return state.orientation * state.twist.linear; }
   Vector3 momentum_W() const {
@@ -98,7 +99,12 @@ class FloatingRun {
   }
 
  private:
-  const HoldState* states() const { return water.empty() ? nullptr : water.data(); }
+  VesselWater inside() const {
+    if (water.empty()) return {};
+    return {water.data(), &inside_.emplace_back()};
+  }
+
+  mutable std::deque<WaterInside> inside_;  // one of each stand that was given away
 
   Vector3 gravity_;
   double mass_ = 0;

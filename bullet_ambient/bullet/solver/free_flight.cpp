@@ -51,7 +51,7 @@ SurfaceFlight surfaceFlight(AmbientBody& ambient, Flight& flight) {
   if (ambient.vessel)
     start.twist = Twist::fromVector(start.twist.vector() + ambient.vessel->change_B);
   return {{*model, floating.plane_W, task.surroundings, floating.velocity_above, task.settings,
-           task.duration, waterOf(ambient)},
+           task.duration, waterAtStand(ambient)},
           flight.body,
           floating.waves,
           ambient.floating->stand};

@@ -124,13 +124,14 @@ template <class V>
 void fields(V& v, AmbientCounters& s) {
   each(v, kAny, s.substeps, s.load_evaluations, s.faces, s.guarded, s.coarse, s.halted,
        s.energy_removed, s.rows, s.joint_rows, s.rejected, s.regions_asked, s.medium_changes,
-       s.too_long, s.flooded, s.drained);
+       s.too_long);
 }
 
 template <class V>
 void fields(V& v, HoldState& s) {
   v(s.volume, finiteNotNegative("hold has a volume of water that is negative or not finite: "));
   v(s.pump, finite("hold has a pump whose rate is not finite: "));
+  each(v, kAny, s.flooded, s.drained);
 }
 
 template <class V>

@@ -25,10 +25,11 @@ struct HoldShapes {
 
 /// Water in one hold of a body, from step to step.
 struct HoldState {
-  double volume = 0;  ///< [m^3]
-  double change = 0;  ///< of the volume in the last step [m^3]
-  double inflow = 0;  ///< the part of it from outside; negative: out [m^3]
-  double pump = 0;    ///< from outside by a pump; negative: out [m^3/s]
+  double volume = 0;                ///< [m^3]
+  double change = 0;                ///< of the volume in the last step [m^3]
+  double inflow = 0;                ///< the part of it from outside; negative: out [m^3]
+  double pump = 0;                  ///< from outside by a pump; negative: out [m^3/s]
+  double flooded = 0, drained = 0;  ///< what has come from outside and left in all [m^3]
 };
 
 /// Water in all holds of a body at one pose, in F: what it adds to the closed vessel.
@@ -46,6 +47,13 @@ struct WaterInside {
     vessel.depth_integral += below.depth_integral;
     return vessel;
   }
+};
+
+/// States of the holds of a body, and where what follows from them at a place is kept as long as
+/// the place. Null: without holds.
+struct VesselWater {
+  const HoldState* states = nullptr;
+  WaterInside* inside = nullptr;
 };
 
 /// Finds the levels of the water in the holds and sums over it. Cost: four to six clips of each

@@ -30,7 +30,7 @@ double heaveInertia(const SurfaceModel& model, const SurfacePlace& place) {
   const Matrix3 fluid = place.inertia.bottomRight() - model.above.inertia.bottomRightCorner<3, 3>();
   const double heave = model.heave_factor / model.excess_density * s.dot(fluid * s);
   // The volume outside counts, and the factor is that of the added mass alone.
-  const double inside = -place.inside_F.below.volume;
+  const double inside = place.inside_F ? -place.inside_F->below.volume : 0;
   return std::max(0.0, inside > 0 ? heave + (1 - model.heave_factor) * inside : heave);
 }
 
@@ -104,7 +104,7 @@ void completeStands(const SurfaceModel* const* models, SurfaceStand* const* stan
 }
 
 SurfaceStand standAtSurface(const SurfaceModel& model, const SurfacePlane& plane_B,
-                            const HoldState* water) noexcept {
+                            const VesselWater& water) noexcept {
   SurfaceStand stand;
   static_cast<SurfacePlace&>(stand) = placeAt(model, plane_B, water);
   const SurfaceModel* const models = &model;

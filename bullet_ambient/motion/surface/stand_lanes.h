@@ -10,10 +10,10 @@ namespace ambient {
 /// SurfacePlaces, side by side. The bits of a stand do not depend on the others.
 void completeStands(const SurfaceModel* const* models, SurfaceStand* const* stands,
                     int count) noexcept;
-/// Computes the stand of a body for a plane in B, whose density and gravity count. `water`: states
-/// of its holds; null: without water. Cost: 1 us for a hull of some hundred triangles.
+/// Computes the stand of a body for a plane in B, whose density and gravity count. Cost: 1 us for a
+/// hull of some hundred triangles.
 SurfaceStand standAtSurface(const SurfaceModel& model, const SurfacePlane& plane_B,
-                            const HoldState* water = nullptr) noexcept;
+                            const VesselWater& water = {}) noexcept;
 
 extern const Kernels<const SurfaceKernel*> kSurfaceKernels;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
@@ -23,20 +24,21 @@ struct Progress {
   RigidState start;
   Vector3 wind_W;
   FlightCount count;
-  int most = 0;                   ///< largest number of substeps
-  int substeps = 0;               ///< number of substeps of this attempt
-  int made = 0;                   ///< number of them that are made
-  bool is_done = false;           ///< an attempt was accepted
-  bool has_load = false;          ///< flight.load_W holds a load
-  Growth growth;                  ///< of the resistance with it
-  bool has_gained = false;        ///< more energy of place than it had in all
-  double rounding = 0;            ///< energy at the start less that at the stand [J]
-  double swing = 0;               ///< the largest natural frequency that was met [1/s]
-  double energy = 0;              ///< at the start of the step [J]
-  double energy_removed = 0;      ///< by the bound of the energy [J]
-  double error = 0;               ///< the largest of the substeps, eq. (25) and (68b)
-  SurfacePlace later;             ///< where a substep has come to
-  SurfacePlace* place = nullptr;  ///< that of now: that of the stand at the start, or `later`
+  int most = 0;                       ///< largest number of substeps
+  int substeps = 0;                   ///< number of substeps of this attempt
+  int made = 0;                       ///< number of them that are made
+  bool is_done = false;               ///< an attempt was accepted
+  bool has_load = false;              ///< flight.load_W holds a load
+  Growth growth;                      ///< of the resistance with it
+  bool has_gained = false;            ///< more energy of place than it had in all
+  double rounding = 0;                ///< energy at the start less that at the stand [J]
+  double swing = 0;                   ///< the largest natural frequency that was met [1/s]
+  double energy = 0;                  ///< at the start of the step [J]
+  double energy_removed = 0;          ///< by the bound of the energy [J]
+  double error = 0;                   ///< the largest of the substeps, eq. (25) and (68b)
+  SurfacePlace later;                 ///< where a substep has come to
+  std::optional<WaterInside> inside;  ///< there
+  SurfacePlace* place = nullptr;      ///< that of now: that of the stand at the start, or `later`
 
   const SurfaceModel& model() const { return flight->task.model; }
 };
@@ -220,7 +222,7 @@ class SurfaceFlights {
 
   /// The water in the holds has moved to another level, before the surface is passed.
   void moveWater(int i, const WaterShift& shift) {
-    if (!shift.before.is_any && !shift.after.is_any) return;
+    if (!shift.before && !shift.after) return;
     SymmetricMatrix inertia = symmetricOf(lanes_.flight.inertia, i);
     const Vector6 x = twistOf(lanes_.flight.twist_B, i).vector();
     setLane(lanes_.flight.twist_B, i, Twist::fromVector(shiftWater(shift, x, inertia)));
@@ -233,11 +235,15 @@ class SurfaceFlights {
     const SurfacePlane plane_B{vectorOf(lanes_.stand.normal, i), lanes_.stand.height[i],
                                plane.density, plane.gravity, plane.sides_F};
     const Immersion before = p.place->immersion_F;
-    const HoldState* const water = p.flight->task.water;
-    const WaterInside inside_before = water ? p.place->inside_F : WaterInside{};
-    p.later = placeAt(p.model(), plane_B, water);
+    if (const HoldState* const states = p.flight->task.water.states) {
+      std::optional<WaterInside> inside;
+      if (p.place->inside_F) inside = *p.place->inside_F;
+      p.later = placeAt(p.model(), plane_B, {states, &p.inside.emplace()});
+      moveWater(i, {p.model(), inside ? &*inside : nullptr, p.later.inside_F, plane_B.normal});
+    } else {
+      p.later = placeAt(p.model(), plane_B);
+    }
     p.place = &p.later;
-    if (water) moveWater(i, {p.model(), inside_before, p.later.inside_F, plane_B.normal});
     setPlace(lanes_.stand, i, p.model(), p.later);
     setLane(lanes_.centre_of_buoyancy, i, centreOfBuoyancy(p.model(), p.later));
     const MeanDepths depths = meanDepths(before, p.later.immersion_F);
@@ -388,6 +394,10 @@ class SurfaceFlights {
                   [&](double& to, const FlightLane& from) { to = from[i]; });
     if (p.place == &p.later) {
       static_cast<SurfacePlace&>(flight.stand) = p.later;
+      if (p.later.inside_F) {
+        *flight.task.water.inside = *p.inside;
+        flight.stand.inside_F = flight.task.water.inside;
+      }
       readStand(lanes_.stand, i, flight.stand);
     }
     p.is_done = true;

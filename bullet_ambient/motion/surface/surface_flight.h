@@ -16,8 +16,8 @@ struct SurfaceTask {
   const Surroundings& surroundings;
   Vector3 velocity_above;  ///< velocity of the fluid above, world axes [m/s]
   const FlightSettings& settings;
-  double duration;                   ///< [s], > 0
-  const HoldState* water = nullptr;  ///< states of the holds; null: without water
+  double duration;         ///< [s], > 0
+  VesselWater water = {};  ///< of the stand
 };
 
 /// Task and state of a body: at the start of the step before flyAtSurface(), at its end afterwards.

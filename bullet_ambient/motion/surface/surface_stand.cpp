@@ -14,20 +14,23 @@
 
 namespace ambient {
 SurfacePlace placeAt(const SurfaceModel& model, const SurfacePlane& plane_B,
-                     const HoldState* water) noexcept {
+                     const VesselWater& water) noexcept {
   SurfacePlace place;
   place.plane = plane_B;
   place.immersion_F = immersionOf(model, plane_B);
   const Matrix6 inertia = inertiaAt(model, place.immersion_F);
-  if (water) place.inside_F = waterInside(*model.holds, water, place.immersion_F.plane);
+  if (water.states) {
+    *water.inside = waterInside(*model.holds, water.states, place.immersion_F.plane);
+    if (water.inside->is_any) place.inside_F = water.inside;
+  }
   place.inertia = SymmetricMatrix(
-      place.inside_F.is_any ? Matrix6(inertia + inertiaInside(model, place.inside_F)) : inertia);
+      place.inside_F ? Matrix6(inertia + inertiaInside(model, place.inside_F)) : inertia);
   return place;
 }
 
-Matrix6 inertiaInside(const SurfaceModel& model, const WaterInside& inside_F) noexcept {
-  if (!inside_F.is_any) return Matrix6::Zero();
-  return model.excess_density * model.fluid_frame.inertiaToB(inside_F.inertia.full());
+Matrix6 inertiaInside(const SurfaceModel& model, const WaterInside* inside_F) noexcept {
+  if (!inside_F) return Matrix6::Zero();
+  return model.excess_density * model.fluid_frame.inertiaToB(inside_F->inertia.full());
 }
 
 Vector6 shiftWater(const WaterShift& shift, const Vector6& x, SymmetricMatrix& inertia) noexcept {
@@ -55,10 +58,10 @@ bool isStable(const SurfaceModel& model, const SurfaceStand& stand) noexcept {
   const FloatingModes& modes = stand.modes;
   const auto isTiltStable = [&](int i) {
     double stiffness = modes.stiffness[i + 1], of_plane = pull * modes.second_moment[i];
-    if (stand.inside_F.is_any) {
+    if (stand.inside_F) {
       const Vector3 across_F =
           model.fluid_frame.rotation.transpose() * stand.plane.normal.cross(asEigen(modes.tilt[i]));
-      const double of_levels = pull * across_F.dot(stand.inside_F.spread * across_F);
+      const double of_levels = pull * across_F.dot(stand.inside_F->spread * across_F);
       stiffness -= of_levels;
       of_plane = std::max(0.0, of_plane - of_levels);
     }

@@ -13,21 +13,20 @@ struct SurfacePlace {
   SurfacePlane plane;
   Immersion immersion_F;    ///< of the closed vessel
   SymmetricMatrix inertia;  ///< K of body, fluids and water inside, docs/theory.md eq. (63)
-  WaterInside inside_F;     ///< in its holds
+  const WaterInside* inside_F = nullptr;  ///< in its holds; null: none
 };
 
-/// Computes the place for a plane in B, whose density and gravity count. `water`: states of the
-/// holds; null: without water.
+/// Computes the place for a plane in B, whose density and gravity count.
 SurfacePlace placeAt(const SurfaceModel& model, const SurfacePlane& plane_B,
-                     const HoldState* water = nullptr) noexcept;
+                     const VesselWater& water = {}) noexcept;
 
-/// Returns the part of K that is water in the holds, in B.
-Matrix6 inertiaInside(const SurfaceModel& model, const WaterInside& inside_F) noexcept;
+/// Returns the part of K that is water in the holds, in B. `inside_F`: null: none.
+Matrix6 inertiaInside(const SurfaceModel& model, const WaterInside* inside_F) noexcept;
 
-/// Water in the holds, before and after it has moved to another level.
+/// Water in the holds, before and after it has moved to another level; null: none.
 struct WaterShift {
   const SurfaceModel& model;
-  const WaterInside &before, &after;
+  const WaterInside *before, *after;
   Vector3 normal;  ///< of the surface, in B
 };
 /// Replaces the water before in an inertia K by that after, and returns the twist thereafter,
@@ -49,8 +48,8 @@ inline WetVolume wetOutside(const SurfaceModel& model, const SurfacePlace& place
 }
 /// Returns the same less the water in the holds, docs/theory.md eq. (135).
 inline WetVolume wetVolume(const SurfaceModel& model, const SurfacePlace& place) noexcept {
-  if (!place.inside_F.is_any) return wetOutside(model, place);
-  return place.inside_F.with(place.immersion_F.wet).inB(model.fluid_frame);
+  if (!place.inside_F) return wetOutside(model, place);
+  return place.inside_F->with(place.immersion_F.wet).inB(model.fluid_frame);
 }
 
 /// Returns the energy of the buoyancy at a plane in B less that at a place that is near, where
@@ -59,9 +58,9 @@ inline double energyOfRounding(const SurfaceModel& model, const SurfacePlace& pl
                                const SurfacePlane& plane_B) noexcept {
   const Immersion& at = place.immersion_F;
   const SurfacePlane near = seenFrom(plane_B, model.fluid_frame);
-  if (!place.inside_F.is_any) return hydrostaticEnergyChange(at.wet, at.plane, near);
-  WetVolume wet = place.inside_F.with(at.wet);
-  wet.waterplane.spread -= place.inside_F.spread;
+  if (!place.inside_F) return hydrostaticEnergyChange(at.wet, at.plane, near);
+  WetVolume wet = place.inside_F->with(at.wet);
+  wet.waterplane.spread -= place.inside_F->spread;
   return hydrostaticEnergyChange(wet, at.plane, near);
 }
 

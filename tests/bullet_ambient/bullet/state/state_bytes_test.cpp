@@ -252,11 +252,10 @@ void fill(Numbers& n, AmbientState& s) {
     s.memory.has_load, s.memory.substep, s.wake.velocity_W.angular, s.wake.velocity_W.linear,
     s.wake.has_begun, s.has_met_water, s.left_W.angular, s.left_W.linear);
   s.holds.resize(2);
-  for (HoldState& hold : s.holds) n(hold.volume, hold.pump);
+  for (HoldState& hold : s.holds) n(hold.volume, hold.pump, hold.flooded, hold.drained);
   AmbientCounters& c = s.counters;
   n(c.substeps, c.load_evaluations, c.faces, c.guarded, c.coarse, c.halted, c.energy_removed,
-    c.rows, c.joint_rows, c.rejected, c.regions_asked, c.medium_changes, c.too_long, c.flooded,
-    c.drained);
+    c.rows, c.joint_rows, c.rejected, c.regions_asked, c.medium_changes, c.too_long);
 }
 
 void fill(Numbers& n, BodyState& s) {

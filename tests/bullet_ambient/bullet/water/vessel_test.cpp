@@ -67,9 +67,10 @@ struct Sea {
     const SurfaceModel& model = ambient.models->surfaces.at(0).model;
     const RigidState state = readState(body);
     const SurfacePlane still{{0, 0, 1}, 0, 1000, kGravity};
+    WaterInside inside;
     const SurfaceStand stand =
         standAtSurface(model, seenFrom(still, state.orientation.toRotationMatrix(), state.position),
-                       waterOf(ambient));
+                       {waterOf(ambient), &inside});
     const Vector6 x = state.twist.vector();
     return x.dot(stand.inertia.full() * x) / 2 + kBarge * kGravity * state.position.z() +
            hydrostaticEnergy(wetVolume(model, stand), stand.plane) +
@@ -135,8 +136,8 @@ TEST(Vessel, BargeWithAHoleSinksInItsTime) {
   sea.scene.step(1 / 60.0, 300);
   EXPECT_DOUBLE_EQ(sea.water(body), kCapacity);
   EXPECT_LT(middleOf(body), -1);
-  const AmbientCounters counters = sea.scene.fluid.counters();
-  EXPECT_NEAR(counters.flooded - counters.drained, kCapacity, 1e-9);
+  const HoldWater hold = sea.scene.fluid.find(body)->holds().at(0);
+  EXPECT_NEAR(hold.flooded - hold.drained, kCapacity, 1e-9);
   // Far below it is a body of walls in one fluid.
   sea.scene.step(1 / 60.0, 300);
   EXPECT_EQ(sea.of(body).surface(), nullptr);
@@ -235,8 +236,9 @@ TEST(Vessel, WavesNeitherMakeNorLoseWater) {
   EXPECT_NEAR(sea.water(body), sum, 1e-12 * kCapacity);
   EXPECT_GT(come, 30);
   EXPECT_GT(gone, 30);
-  EXPECT_NEAR(sea.scene.fluid.counters().flooded, come, 1e-9);
-  EXPECT_NEAR(sea.scene.fluid.counters().drained, gone, 1e-9);
+  const HoldWater hold = sea.scene.fluid.find(body)->holds().at(0);
+  EXPECT_NEAR(hold.flooded, come, 1e-9);
+  EXPECT_NEAR(hold.drained, gone, 1e-9);
 }
 
 TEST(Vessel, StateGoesOnBitForBit) {
