@@ -42,9 +42,9 @@ struct BodyCentres {
 };
 
 /// Computes the sizes of a surface, exact integrals over its triangles. Cost O(T).
-/// @param mesh of the body, in F
+/// @param mesh of the body
 /// @param sheet its triangles are a sheet, not a closed surface
-/// @param centres of volume and surface of the mesh
+/// @param centres of volume and of reaction, in the same frame
 /// @param axes columns q_j
 /// @pre the mesh has an area
 SurfaceNumbers computeSurfaceNumbers(const TriangleMesh& mesh, bool sheet,
