@@ -285,7 +285,9 @@ RefinedFlow solveRefinedFlow(const TriangleMesh& mesh, const PotentialFlowSettin
   if (!refined.is_coarse || settings.solver == FlowSolverKind::Dense) return refined;
   if (const auto compact = solveOnCompactPanels(mesh, settings)) return *compact;
   PotentialFlowSettings finer = settings;
-  finer.max_panels = (settings.polyhedron ? 2 : 4) * settings.max_panels;
+  finer.max_panels = settings.polyhedron && !settings.convex
+                         ? static_cast<int>(kMostDensePanels)
+                         : (settings.polyhedron ? 2 : 4) * settings.max_panels;
   return solveDivided(mesh, finer);
 }
 

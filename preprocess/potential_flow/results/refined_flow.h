@@ -53,7 +53,7 @@ struct RefinedFlow {
 /// times as many, unless the dense solver was asked for. Of a polyhedron, settings.polyhedron, all
 /// flat sides are merged before they are divided and none bulges; many small sides become
 /// fewer ones about as long as wide, and of a convex one fewer still. Its divisions disagree from
-/// 10 % on, and it then gets twice as many panels.
+/// 10 % on: a convex one then gets twice as many panels, another one kMostDensePanels.
 /// @throws std::runtime_error as solvePotentialFlow().
 RefinedFlow solveRefinedFlow(const TriangleMesh& mesh, const PotentialFlowSettings& settings);
 
