@@ -199,21 +199,23 @@ RefinedFlow solveOnPanels(const TriangleMesh& mesh, const PotentialFlowSettings&
 
 constexpr int kPanelsPerTriangle = 5;  // where triangles are to be divided
 
-/// Triangles about as long as wide in place of a polyhedron's many strips; none if it has few
-/// sides, or details that they do not show. Panels that are cut from them are fewer and more exact:
-/// links of robots, as hulls on 600 panels, are 0.5 % off in translation and 1.9 % in rotation in
-/// the mean, against 6000; unions of prisms of 32 sides come out up to 12 % too light in rotation
-/// on 1500 panels of their own strips.
+/// Triangles about as long as wide in place of a polyhedron's many strips; none if it has `few`
+/// sides or fewer, or details that they do not show. Panels that are cut from them are fewer and
+/// more exact: links of robots, as hulls on 600 panels, are 0.5 % off in translation and 1.9 % in
+/// rotation in the mean, against 6000; unions of prisms of 32 sides come out up to 12 % too light
+/// in rotation on 1500 panels of their own strips.
 std::optional<TriangleMesh> inCompactTriangles(const TriangleMesh& mesh, const TriangleMesh& sides,
-                                               int triangles) {
-  if (2 * sides.triangleCount() <= triangles) return std::nullopt;
+                                               int triangles, int few) {
+  if (sides.triangleCount() <= few) return std::nullopt;
   return inFewerTriangles(mesh, triangles);
 }
 
 RefinedFlow solvePolyhedron(const TriangleMesh& mesh, const PotentialFlowSettings& settings) {
   const TriangleMesh sides = mergePolyhedronSides(mesh);
   const int fewer = 2 * settings.max_panels / (settings.convex ? 5 : 3);
-  const auto compact = inCompactTriangles(mesh, sides, fewer / kPanelsPerTriangle);
+  const int triangles = fewer / kPanelsPerTriangle;
+  const auto compact =
+      inCompactTriangles(mesh, sides, triangles, settings.convex ? triangles / 2 : triangles);
   const SurfaceLevels levels = compact ? refineInLevels(*compact, false, fewer)
                                        : refineInLevels(sides, false, settings.max_panels);
   PotentialFlowSettings undivided = settings;
