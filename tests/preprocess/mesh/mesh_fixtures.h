@@ -9,10 +9,16 @@
 
 namespace ambient {
 
-/// Mesh from literal vertices and triangles.
+/// Mesh from literal vertices and triangles; without the box of meshes, which writers of seeds do
+/// not link.
 inline TriangleMesh meshOf(const std::vector<Eigen::Vector3d>& vertices,
                            const std::vector<Eigen::Vector3i>& triangles) {
-  return makeTriangleMesh(vertices, triangles);
+  TriangleMesh mesh;
+  mesh.vertices.resize(3, static_cast<Eigen::Index>(vertices.size()));
+  for (std::size_t i = 0; i < vertices.size(); ++i) mesh.vertices.col(i) = vertices[i];
+  mesh.triangles.resize(3, static_cast<Eigen::Index>(triangles.size()));
+  for (std::size_t i = 0; i < triangles.size(); ++i) mesh.triangles.col(i) = triangles[i];
+  return mesh;
 }
 
 /// Tetrahedron with corners at the origin and at 1 on each axis; volume 1/6.
