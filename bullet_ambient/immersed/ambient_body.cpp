@@ -104,11 +104,13 @@ void setModels(AmbientBody& ambient, std::shared_ptr<const FluidModels> models) 
 void takeHolds(AmbientBody& ambient) {
   const AttachDef& def = *ambient.def;
   const std::vector<Hold>& holds = def.fluid_body->holds;
-  if (holds.empty()) {
-    ambient.vessel = nullptr;
-    return;
-  }
   if (ambient.vessel && ambient.vessel->shape == def.fluid_body) return;
+  if (ambient.vessel && ambient.floating) {
+    ambient.floating->stand.inside_F = nullptr;  // goes with the vessel
+    ambient.floating->is_valid = false;
+  }
+  ambient.vessel = nullptr;
+  if (holds.empty()) return;
   ambient.vessel = std::make_unique<VesselState>();
   ambient.vessel->shape = def.fluid_body;
   ambient.vessel->holds.resize(holds.size());

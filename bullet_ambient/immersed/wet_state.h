@@ -29,7 +29,7 @@ struct HoldWater {
   double volume = 0;    ///< [m^3]
   double capacity = 0;  ///< of the hold [m^3]
   double inflow = 0;    ///< from outside in the last step; negative: out [m^3]
-  /// What has come from outside and left for there since the body was added [m^3].
+  /// Volumes that have come from outside and left since the body was added [m^3].
   double flooded = 0, drained = 0;
   double area = 0;  ///< of its level [m^2]; 0: empty or full
   /// Height of the lowest corner of its openings above the level [m]; infinite: it has none.

@@ -41,8 +41,8 @@ HoldFill fillHold(const HoldShape& shape, const Vector3& normal, double volume,
                   double guess) noexcept;
 
 /// Inertia of the water in a hold as it moves with the body, per unit density, about F's origin.
-/// That against turning is Hold::turning_inertia times the volume's share to the power of 5/3, as
-/// of a hold of the same shape; docs/theory.md eq. (141).
+/// Its turning part is Hold::turning_inertia times the filled share to the power of 5/3, as of a
+/// smaller hold of the same shape; docs/theory.md eq. (141).
 Matrix6 carriedInertia(const HoldShape& shape, const WetVolume& water) noexcept;
 
 /// Takes what stands in a hold off the wet part of a closed vessel, docs/theory.md eq. (135).

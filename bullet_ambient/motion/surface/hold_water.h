@@ -35,7 +35,7 @@ struct HoldState {
 /// Water in all holds of a body at one pose, in F: what it adds to the closed vessel.
 struct WaterInside {
   bool is_any = false;
-  /// What docs/theory.md eq. (135) adds to V, S and W: volume and moment are negative.
+  /// Terms of V, S and W in docs/theory.md eq. (135): volume and moment are negative.
   WetVolume below;
   Matrix3 spread = Matrix3::Zero();  ///< sum of Waterplane::spread of its levels [m^4]
   SymmetricMatrix inertia;           ///< of the water, per unit density, about F's origin

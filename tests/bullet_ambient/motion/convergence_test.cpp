@@ -117,12 +117,6 @@ TEST(RungeKutta, TurnsByLessThanSixDegreesPerSubstep) {
 }
 
 using test::Arbitrary;
-using test::exactEnd;
-using test::FreeBody;
-using test::glidingDisc;
-using test::kDuration;
-using test::MakeBody;
-using test::tumblingEllipsoid;
 
 constexpr int kFlightSteps = 24;  // at 60 Hz
 

@@ -43,7 +43,7 @@ struct RobotWorld : TreeWorld {
   btMultiBody& add(Arbitrary& arbitrary, const RobotDef& def);
   /// Adds a finished robot, with spheres of a radius [m] as colliders of its links; 0: without.
   btMultiBody& take(std::unique_ptr<btMultiBody> robot, double collider_radius);
-  /// The same of one that is not damped and never sleeps.
+  /// Adds a finished robot without damping that never sleeps.
   btMultiBody& takeUndamped(std::unique_ptr<btMultiBody> robot, double collider_radius = 0) {
     btMultiBody& tree = take(std::move(robot), collider_radius);
     tree.setCanSleep(false);

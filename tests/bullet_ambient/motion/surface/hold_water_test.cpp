@@ -164,7 +164,7 @@ TEST(HoldWater, EnergyOfABargeWithWaterNeverGrows) {
   }
 }
 
-// What comes over the rim, upright and level: Poleni's formula, section 8's 29.266 l/s.
+// Flow over the rim of an upright barge: Poleni's formula, section 8's 29.266 l/s.
 TEST(HoldWater, WaterComesOverTheRimAndLevelsMeet) {
   FloatingRun run(bargeDef(0.2));
   std::vector<HoldState> water(1);
