@@ -8,6 +8,7 @@
 
 #include "bullet_ambient/base/fnv1a.h"
 #include "bullet_ambient/spatial/inertia.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
 
 namespace ambient {
 
@@ -128,6 +129,17 @@ Eigen::Matrix<double, Eigen::Dynamic, 6> computeSlipMatrix(const FaceTable& face
     slip.block<3, 3>(3 * i, 3) = -tangential;
   }
   return slip;
+}
+
+Vector3 axisOfRevolution(const FluidBody& body) {
+  constexpr double kStill = 1e-3;  // added mass over the inertia of the displaced fluid
+  const Matrix6 about_centre = shiftOrigin(body.added_mass, body.centre_of_volume);
+  const SymmetricEigen<3> spins = symmetricEigen<3>(about_centre.topLeftCorner<3, 3>());
+  const auto isStill = [&](int spin) {
+    const Vector3 axis = spins.vectors.col(spin);
+    return spins.values[spin] < kStill * body.volume * axis.dot(body.uniform_mass.inertia * axis);
+  };
+  return isStill(0) && !isStill(1) ? Vector3(spins.vectors.col(0)) : Vector3::Zero();
 }
 
 FluidBody scaled(const FluidBody& body, double factor) {

@@ -189,6 +189,10 @@ Eigen::Matrix<double, Eigen::Dynamic, 6> computeSlipMatrix(const FaceTable& face
 /// Sizes of the bounding box of the body's surface along the axes of F [m]; 0 without a surface.
 Vector3 extentsOf(const FluidBody& body);
 
+/// Returns the axis of a body of revolution, through the centre of volume: the one spin that moves
+/// next to no fluid. Unit vector, either way, in F; 0: the body is none, or a sphere.
+Vector3 axisOfRevolution(const FluidBody& body);
+
 /// Returns the shape enlarged by s = `factor` about F's origin: areas grow by s^2, volumes by s^3,
 /// added mass by s^3 to s^5, see scaleShape(). The factor is appended to provenance.settings.
 /// @throws std::invalid_argument if the factor is not positive and finite, or leaves no finite

@@ -274,6 +274,7 @@ Vector6 kickByWavesAndWind(AmbientBody& ambient, const RigidState& now, double d
   WaveMemory& waves = ambient.floating->waves_with_rows;
   waves = ambient.floating->waves;
   Vector6 end = exchangeWaves(stand.modes, R, stand.inverse, duration, x, waves);
+  end.head<3>() = x.head<3>() + model.withoutStill(end.head<3>() - x.head<3>());
   if (model.loads_above.loads) {
     const Vector3 wind_W = ambient.medium.velocity - ambient.floating->velocity_above;
     end = takeWind({model, stand, R.transpose() * wind_W, duration}, end);

@@ -10,25 +10,8 @@
 #include "bullet_ambient/spatial/cholesky.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/principal_frame.h"
-#include "bullet_ambient/spatial/symmetric_eigen.h"
 
 namespace ambient {
-
-namespace {
-
-// Returns the axis of a body of revolution in F: the one spin that moves next to no fluid; else 0.
-Vector3 stillAxisOf(const FluidBody& body) {
-  constexpr double kStill = 1e-3;  // added mass over the inertia of the displaced fluid
-  const Matrix6 about_centre = shiftOrigin(body.added_mass, body.centre_of_volume);
-  const SymmetricEigen<3> spins = symmetricEigen<3>(about_centre.topLeftCorner<3, 3>());
-  const auto isStill = [&](int spin) {
-    const Vector3 axis = spins.vectors.col(spin);
-    return spins.values[spin] < kStill * body.volume * axis.dot(body.uniform_mass.inertia * axis);
-  };
-  return isStill(0) && !isStill(1) ? Vector3(spins.vectors.col(0)) : Vector3::Zero();
-}
-
-}  // namespace
 
 Matrix6 makeVelocityBasis(const Matrix6& inertia, double mass, const Vector3& moments) {
   AMBIENT_ASSERT(moments.minCoeff() > 0 && mass > 0);
@@ -57,7 +40,7 @@ BodyStations makeBodyStations(const AttachDef& def) {
     stations.ways_B.col(axis) = way * axes_B.col(axis);
     stations.reach = std::max(stations.reach, way);
   }
-  stations.still_axis_B = def.fluid_frame.rotation * stillAxisOf(shape);
+  stations.still_axis_B = def.fluid_frame.rotation * axisOfRevolution(shape);
   return stations;
 }
 
@@ -213,6 +196,7 @@ void setMass(FluidModels& models, const AttachDef& def, const InverseMass& mass)
     };
     model.below = inFluid(surface.kind.below.medium(), model.below, HoldContent::kSealed);
     model.above = inFluid(surface.kind.mediumAbove(def.medium), model.above, HoldContent::kFull);
+    model.still_axis_B = stillAxisOf(model, propertiesOf(mass));
   }
   models.inverse_mass = mass;
 }

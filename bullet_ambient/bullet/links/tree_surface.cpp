@@ -46,6 +46,14 @@ struct SurfaceArrivals {
   Vector6 falls[kFlightsTogether];  // AmbientLink::fall
 };
 
+// Returns the gyroscopic torque about the axis of a body of revolution, along that axis, in a
+// motion of a link that is frozen.
+Vector3 torqueOnSpin(const AmbientLink& link, const Vector6& x) {
+  const Vector3& axis = link.ambient.surface()->still_axis_B;
+  if (axis.isZero(0)) return axis;
+  return axis.dot(gyroscopicWrench(pairOfTwist(*link.frozen, x)).torque) * axis;
+}
+
 // Lets the links pass the surface side by side, and writes the impulses that change their twists.
 // Returns the energy removed [J].
 double passTogether(const SurfaceArrivals& some, const SurfaceStep& step,
@@ -58,9 +66,13 @@ double passTogether(const SurfaceArrivals& some, const SurfaceStep& step,
   for (int i = 0; i < some.count; ++i) {
     AmbientLink& link = *some.links[i];
     FloatingState& floating = *link.ambient.floating;
+    const Vector3 on_spin = torqueOnSpin(link, some.twists[i]);
     link.frozen.freeze(link.ambient);
     floating.waves = floating.waves_with_rows;
-    impulses[link.link + 1] = impulseOf(link, after[i].twist - some.twists[i]);
+    // The water leaves a body of revolution its spin, docs/theory.md eq. (66a).
+    Wrench& impulse = impulses[link.link + 1];
+    impulse = impulseOf(link, after[i].twist - some.twists[i]);
+    impulse.torque = link.ambient.surface()->withoutStill(impulse.torque) - step.time * on_spin;
     energy_removed += after[i].energy_removed;
   }
   return energy_removed;

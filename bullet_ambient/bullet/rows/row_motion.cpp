@@ -11,6 +11,7 @@
 #include "bullet_ambient/bullet/members/flight_coupling.h"
 #include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/motion/flight/flight_group.h"
+#include "bullet_ambient/motion/rows/axis_locks.h"
 #include "bullet_ambient/motion/rows/row_velocity.h"
 #include "bullet_ambient/spatial/cholesky.h"
 #include "bullet_ambient/spatial/rotation.h"
@@ -233,8 +234,10 @@ void passSurfaces(const Arrival* arrivals, int count, Axes axes, double time_ste
 void setVelocity(const Arrival& arrival, const BoundedTwist& end, double time_step,
                  Complaints& complaints) {
   AmbientBody& ambient = *arrival.ambient;
-  const Twist change_B = Twist::fromVector(end.twist - arrival.moved);
-  const Twist change_W = withoutTraces(turned(arrival.orientation, change_B), time_step);
+  Twist change_B = Twist::fromVector(end.twist - arrival.moved);
+  if (ambient.surface()) change_B.angular = ambient.surface()->withoutStill(change_B.angular);
+  const Twist change_W = onFreeAxes(withoutTraces(turned(arrival.orientation, change_B), time_step),
+                                    axisFactors(*ambient.body));
   if (!change_W.vector().allFinite()) {
     ++ambient.counters.rejected;
     complaints.say(Complaint::kNotFinite);

@@ -72,21 +72,35 @@ void standAll(AmbientBody* const* bodies, const RigidState* states, int count, d
   for (int i = 0; i < found; ++i) warnOfCoarseSwing(*at_surface[i], time_step, complaints);
 }
 
-// Adds the kicks by waves and wind to a velocity change, and counts what it cost. Sets it to zero
-// if it is not finite.
-void complete(AmbientBody& ambient, const RigidState& start, double time_step,
-              Complaints& complaints, RowVelocity& row) {
+// Leaves a body of revolution at a surface its spin about its axis, docs/theory.md eq. (66a).
+// `start`: pose of B.
+void keepSpin(const SurfaceModel& model, const RigidState& start, RowVelocity& row) {
+  const Vector3 axis_W = start.orientation * model.still_axis_B;
+  const Vector3 spin_W = axis_W.dot(row.turning_W.angular) * axis_W;
+  row.turning_W.angular -= spin_W;
+  row.change_W.angular -= spin_W;
+}
+
+// Adds the kicks by waves, wind and water that comes in to a velocity change, and counts what it
+// cost. Sets it to zero if it is not finite. `inertia`: of the free body, in B.
+void complete(AmbientBody& ambient, const Matrix6& inertia, const RigidState& start,
+              double time_step, Complaints& complaints, RowVelocity& row) {
   if (ambient.surface()) {
+    const AxisFactors factors = axisFactors(*ambient.body);
+    if (factors.areFree()) keepSpin(*ambient.surface(), start, row);
     RigidState now = readState(*ambient.body);
-    Vector6 by_surface = Vector6::Zero();
-    if (ambient.vessel && axisFactors(*ambient.body).areFree()) {
-      by_surface = ambient.vessel->change_B;
-      now.twist = Twist::fromVector(now.twist.vector() + by_surface);
-    }
-    by_surface += kickByWavesAndWind(ambient, now, time_step);
-    const Twist kick_W = turned(start.orientation, Twist::fromVector(by_surface));
-    row.change_W.angular += kick_W.angular;
-    row.change_W.linear += kick_W.linear;
+    const auto kick = [&](const Vector6& change_B) {
+      const Twist change_W =
+          factors.areFree()
+              ? turned(start.orientation, Twist::fromVector(change_B))
+              : lockedChange(inertia, start.orientation.toRotationMatrix(), factors, change_B);
+      row.change_W.angular += change_W.angular;
+      row.change_W.linear += change_W.linear;
+      return turned(start.orientation.conjugate(), change_W).vector();
+    };
+    if (ambient.vessel)
+      now.twist = Twist::fromVector(now.twist.vector() + kick(ambient.vessel->change_B));
+    kick(kickByWavesAndWind(ambient, now, time_step));
   }
   countLoads(ambient, row.count.load_evaluations);
   ambient.counters.guarded += row.count.guarded;
@@ -183,7 +197,7 @@ void SolverGroup::prepareForRows(Member* const* members, int count,
     RowVelocity row = member.is_locked
                           ? computeLockedVelocity(taskOf(i), start, axisFactors(*ambient.body))
                           : rowVelocityOf(lanes, i, loads[i]);
-    complete(ambient, start, time_step_, bodies_.complaints, row);
+    complete(ambient, models[i]->inertia, start, time_step_, bodies_.complaints, row);
     // Those of FlightKernel::keep().
     batch.positions[i] = start.position;
     lanes.kick_time[i] = time_step_;

@@ -107,6 +107,19 @@ Matrix6 lockedInverse(const Matrix6& inertia_W, const AxisFactors& factors) {
   return 0.5 * (scaled + scaled.transpose());
 }
 
+Twist onFreeAxes(const Twist& change_W, const AxisFactors& factors) {
+  const Vector6 free = projectionOf(factors);
+  return {free.head<3>().cwiseProduct(change_W.angular),
+          free.tail<3>().cwiseProduct(change_W.linear)};
+}
+
+Twist lockedChange(const Matrix6& inertia, const Matrix3& R, const AxisFactors& factors,
+                   const Vector6& change_B) {
+  const Vector6 momentum_B = inertia * change_B;
+  const Vector6 momentum_W = stack(R * momentum_B.head<3>(), R * momentum_B.tail<3>());
+  return Twist::fromVector(lockedInverse(rotateAxes(inertia, R), factors) * momentum_W);
+}
+
 RowVelocity computeLockedVelocity(const FlightTask& task, const RigidState& start,
                                   const AxisFactors& factors) noexcept {
   const Surroundings& s = task.surroundings;
@@ -141,10 +154,8 @@ RowVelocity computeLockedVelocity(const FlightTask& task, const RigidState& star
   result.extent = extentOf(plain(turned), plain(pairOfTwist(model, x)), 1 / dt, 0.3);
   Vector6 turning = Vector6::Zero();
   if (result.extent <= 1) turning = dt * (rates.acceleration(midpoint(rates, x, dt)) - forced);
-  const Vector6 free = projectionOf(factors);
   const auto inWorld = [&](const Vector6& change) {
-    return Twist{free.head<3>().cwiseProduct(R * change.head<3>()),
-                 free.tail<3>().cwiseProduct(R * change.tail<3>())};
+    return onFreeAxes({R * change.head<3>(), R * change.tail<3>()}, factors);
   };
   result.turning_W = inWorld(turning);
   const Vector6 kick = dt * forced;
@@ -152,7 +163,8 @@ RowVelocity computeLockedVelocity(const FlightTask& task, const RigidState& star
   const Vector6 push = inWorld(row_inertia * kick).vector();  // momentum along free axes, in W
   const Vector6 push_B = stack(R.transpose() * push.head<3>(), R.transpose() * push.tail<3>());
   result.isotropic_excess_W = inWorld(model.even_response.beyond(push_B, kick));
-  result.change_W.linear += dt * free.tail<3>().cwiseProduct(s.ambient_acceleration);
+  result.change_W.linear +=
+      dt * onFreeAxes({Vector3::Zero(), s.ambient_acceleration}, factors).linear;
   return result;
 }
 

@@ -25,6 +25,14 @@ Matrix6 freeInertia(const Matrix6& inertia_W, const AxisFactors& factors);
 /// projection on the axes that are not locked; symmetric positive semi-definite.
 Matrix6 lockedInverse(const Matrix6& inertia_W, const AxisFactors& factors);
 
+/// Returns a change of velocity in W without its parts along and about locked axes.
+Twist onFreeAxes(const Twist& change_W, const AxisFactors& factors);
+
+/// Returns what locks leave of a change of velocity that a free body would take, in W: K_eff^-1
+/// times its momentum. `inertia`: K in B; R: B to W; change_B: of the free body, in B.
+Twist lockedChange(const Matrix6& inertia, const Matrix3& R, const AxisFactors& factors,
+                   const Vector6& change_B);
+
 /// Like computeRowVelocity(), for a body with locked axes, along which the velocity stays. Contains
 /// the whole turning part t, by the implicit midpoint rule, because such bodies have no free
 /// flight; 0 instead of t beyond an extent of 1, with the limits 1 rad and 0.3 in eq. (28a).

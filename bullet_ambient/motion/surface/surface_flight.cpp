@@ -114,6 +114,7 @@ class SurfaceFlights {
     lanes_.flight.has_resistance =
         lanes_.flight.has_resistance || task.model.loads_below.resistance;
     has_loads_above_ = has_loads_above_ || task.model.loads_above.loads;
+    has_still_axis_ = has_still_axis_ || !task.model.still_axis_B.isZero(0);
     p.most = task.settings.max_substeps > 0 ? task.settings.max_substeps : kSurfaceSubsteps;
     p.swing = flight.stand.swing;
     const double remembered =
@@ -176,10 +177,28 @@ class SurfaceFlights {
 
   void advance() {
     beginKick();
-    move();
+    keepingSpins([&] { move(); });
     endKick();
     for (int i = 0; i < count_; ++i)
       if (isActive(i)) ++progress_[i].count.substeps;
+  }
+
+  /// Makes a step that leaves bodies of revolution their spin about their axis, as eq. (66a) says.
+  template <class Step>
+  void keepingSpins(const Step& step) {
+    if (!has_still_axis_) return step();
+    const auto spinOf = [&](int i) {
+      return progress_[i].model().still_axis_B.dot(twistOf(lanes_.flight.twist_B, i).angular);
+    };
+    double spins[kFlightLanes];
+    for (int i = 0; i < count_; ++i) spins[i] = spinOf(i);
+    step();
+    for (int i = 0; i < count_; ++i) {
+      if (!isActive(i)) continue;
+      Twist x = twistOf(lanes_.flight.twist_B, i);
+      x.angular += (spins[i] - spinOf(i)) * progress_[i].model().still_axis_B;
+      setLane(lanes_.flight.twist_B, i, x);
+    }
   }
 
   /// The second half of a kick, in reversed order: loads are still those of the first half.
@@ -192,7 +211,7 @@ class SurfaceFlights {
       kernel_.keepLoad(lanes_);
     }
     if (has_loads_above_) takeWind();
-    kernel_.exchangeWaves(lanes_);
+    keepingSpins([&] { kernel_.exchangeWaves(lanes_); });
     kernel_.fall(lanes_);
   }
 
@@ -256,7 +275,7 @@ class SurfaceFlights {
     for (int i = 0; i < count_; ++i)
       if (isActive(i)) progress_[i].swing = std::max(progress_[i].swing, lanes_.stand.swing[i]);
     kernel_.fall(lanes_);
-    kernel_.exchangeWaves(lanes_);
+    keepingSpins([&] { kernel_.exchangeWaves(lanes_); });
     if (has_loads_above_) takeWind();
     if (has_loads_below_) takeLoads();
   }
@@ -406,7 +425,7 @@ class SurfaceFlights {
   const SurfaceKernel& kernel_;
   const FlightKernel& flow_;
   int count_;
-  bool has_loads_below_ = false, has_loads_above_ = false;
+  bool has_loads_below_ = false, has_loads_above_ = false, has_still_axis_ = false;
   SurfaceLanes lanes_{};
   Progress progress_[kFlightLanes];
 };

@@ -81,9 +81,25 @@ SurfaceModel makeSurfaceModel(const SurfaceModelDef& def) {
   constexpr double kHeaveOfParts = 1.13;
   if (model.hull && def.shape->waterline.empty()) model.heave_factor = kHeaveOfParts;
   model.wave_damping = def.wave_damping;
+  model.still_axis_B = stillAxisOf(model, def.mass);
   AMBIENT_ASSERT(model.wetted && (model.hull || def.shape->sphere_radius > 0));
   AMBIENT_ASSERT(model.excess_density >= 0 && model.radius >= 0 && std::isfinite(model.radius));
   return model;
+}
+
+Vector3 stillAxisOf(const SurfaceModel& model, const MassProperties& mass) {
+  constexpr double kRound = 1e-3;  // of the moments, and of the radius of inertia
+  if (model.holds) return Vector3::Zero();
+  const Vector3 axis = model.fluid_frame.rotation * axisOfRevolution(*model.shape);
+  const Matrix3 along = axis * axis.transpose();
+  const double moment = axis.dot(mass.inertia * axis);
+  const double across = (mass.inertia.trace() - moment) / 2;
+  const Matrix3 round = moment * along + across * (Matrix3::Identity() - along);
+  const Vector3 centre = model.above.centre_of_volume;
+  const double aside_sq = (centre - along * centre).squaredNorm();
+  const bool is_round = (mass.inertia - round).norm() < kRound * across &&
+                        mass.mass * aside_sq < kRound * kRound * across;
+  return is_round ? axis : Vector3::Zero();
 }
 
 namespace {

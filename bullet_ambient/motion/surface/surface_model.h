@@ -41,6 +41,14 @@ struct SurfaceModel {
   double radius = 0;  ///< radius of a sphere about the centre of mass that contains the body [m]
   double heave_factor = 1;  ///< c of docs/theory.md eq. (69)
   double wave_damping = 1;
+  /// Axis of a body of revolution whose own mass is round about it, too, in B: pressure and waves
+  /// do not change its spin about that; else 0.
+  Vector3 still_axis_B{0, 0, 0};
+
+  /// Returns a change of spin in B without what it may not change, eq. (66a).
+  Vector3 withoutStill(const Vector3& spin_B) const {
+    return spin_B - still_axis_B.dot(spin_B) * still_axis_B;
+  }
 };
 
 /// Makes the model. Makes loads of the fluid above only if its density is at least a hundredth of
@@ -50,6 +58,9 @@ struct SurfaceModel {
 /// makeSurfaceLoads(); if the fluid above is the denser one; if the body has a volume and no
 /// triangles.
 SurfaceModel makeSurfaceModel(const SurfaceModelDef& def);
+
+/// Computes SurfaceModel::still_axis_B for the own mass of the body, with moments in B.
+Vector3 stillAxisOf(const SurfaceModel& model, const MassProperties& mass);
 
 /// Position of a body relative to the surface.
 enum class SurfaceSide { kAbove, kAt, kBelow };

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -280,6 +281,37 @@ TEST(WaterWorld, NobodySleepsInWaves) {
   body.forceActivationState(ACTIVE_TAG);
   water.scene.step(1.0 / 60, 600);
   EXPECT_TRUE(body.isActive());
+}
+
+// A sea that flows by, with wind: what it gives along locked axes goes into the locks.
+TEST(WaterWorld, NothingMovesABodyAlongLockedAxes) {
+  FluidRegion sea = seaAt(0);
+  sea.surface =
+      std::make_shared<AiryWaves>(CalmSea{}, std::vector<WaveComponent>{{0.1, 2, {0.8, 0.6, 0}}});
+  sea.below.velocity = {0.5, 0.2, 0};
+  sea.above = air();
+  sea.above->velocity = {5, 3, 0};
+  WaterWorld water(sea);
+  btRigidBody& held = water.addBox(0.5, at(0));
+  held.setLinearFactor({0, 0, 0});
+  held.setAngularFactor({0, 0, 0});
+  RigidState aside = at(0);
+  aside.position.y() = 5;
+  btRigidBody& heaving = water.addBox(0.5, aside);
+  heaving.setLinearFactor({0, 0, 1});
+  heaving.setAngularFactor({0, 0, 0});
+  double highest = 0;
+  for (int i = 0; i < 1200; ++i) {
+    water.scene.step(1.0 / 60);
+    highest = std::max(highest, std::abs(heightOf(heaving)));
+  }
+  EXPECT_EQ(toVector3(held.getWorldTransform().getOrigin()), Vector3(0, 0, 0));
+  EXPECT_EQ(toVector3(held.getLinearVelocity()), Vector3(0, 0, 0));
+  EXPECT_EQ(held.getOrientation(), btQuaternion::getIdentity());
+  EXPECT_EQ(static_cast<double>(heaving.getWorldTransform().getOrigin().x()), 0);
+  EXPECT_EQ(static_cast<double>(heaving.getWorldTransform().getOrigin().y()), 5);
+  EXPECT_EQ(heaving.getOrientation(), btQuaternion::getIdentity());
+  EXPECT_NEAR(highest, 0.1, 0.03);  // with the wave
 }
 
 TEST(WaterWorld, TheInertiaOfAFloatingBodyIsThatOfItsImmersion) {
