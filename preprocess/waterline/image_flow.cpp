@@ -163,8 +163,7 @@ MatrixX6 solveOddJump(const PanelSurface& surface, const MirroredMesh& mirrored,
   if (factors.info() != Eigen::Success)
     throw std::runtime_error(
         "the linear system is not positive definite; two sides of the surface are too close for "
-        "the "
-        "size of its panels: leave the table out, or take a sheet");
+        "the size of its panels");
   const MatrixX6 solution = factors.solve(-assembleNormalVelocity(surface, wet));
   MatrixX6 jump = MatrixX6::Zero(surface.vertexCount(), 6);
   for (Index v = 0; v < mirrored.image.size(); ++v) {

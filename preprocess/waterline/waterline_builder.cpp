@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <tuple>
@@ -65,6 +66,17 @@ Vector6 panelFactors(const FluidBody& body, const TriangleMesh& mesh, int panels
   return factors;
 }
 
+[[noreturn]] void refuse(const FluidBody& body, const Vector3& normal, double immersion) {
+  std::ostringstream text;
+  text << "fluid body '" << body.name
+       << "': the flow at the surface of the water has no solution on "
+       << "this mesh where the body is about " << immersion
+       << " of its height deep and the surface looks "
+       << "along (" << normal.x() << ", " << normal.y() << ", " << normal.z()
+       << "); build it without a waterline table, or from a mesh without long thin triangles";
+  throw std::runtime_error(text.str());
+}
+
 class WaterlineSolver {
  public:
   WaterlineSolver(const FluidBody& body, int panels)
@@ -75,15 +87,31 @@ class WaterlineSolver {
         hull_(body),
         parts_(body, std::make_shared<AddedMassParts>(body.added_mass_parts)) {}
 
+  /// Where the flow has no solution on the panels that the surface cuts, takes the correction at
+  /// the next immersion that has one, 0.3 % of the height away at most.
   Matrix6 correction(const Vector3& normal, double immersion) const {
+    for (const double shift : {0.0, 1e-3, -1e-3, 2e-3, -2e-3, 3e-3, -3e-3})
+      if (const auto found = correctionAt(normal, immersion + shift)) return *found;
+    refuse(body_, normal, immersion);
+  }
+
+ private:
+  /// None: the flow has no solution.
+  std::optional<Matrix6> correctionAt(const Vector3& normal, double immersion) const {
     Immersion at{{normal, 0, 1, 1}, 0, 0, {}};
     std::tie(at.low, at.high) = computeExtent(hull_, normal);
     at.plane.height = at.low + immersion * at.size();
     at.wet = computeWetVolume(hull_, at.plane);
-    return reference(normal, immersion, wetShare(at, body_.volume)) - parts_.unraisedInertia(at);
+    Matrix6 flow;
+    try {
+      flow = reference(normal, immersion, wetShare(at, body_.volume));
+    } catch (const std::runtime_error&) {
+      return std::nullopt;
+    }
+    if (!flow.allFinite()) return std::nullopt;
+    return flow - parts_.unraisedInertia(at);
   }
 
- private:
   /// Panels are the finer the less of the body is wet.
   Matrix6 reference(const Vector3& normal, double immersion, double wet_share) const {
     const auto [low, high] = extentOf(mesh_, normal);
@@ -172,17 +200,6 @@ class AttitudeCount {
   int immersions_ = 0;
 };
 
-[[noreturn]] void refuse(const FluidBody& body, const Vector3& normal, double immersion) {
-  std::ostringstream text;
-  text << "fluid body '" << body.name
-       << "': the flow at the surface of the water has no solution on "
-       << "this mesh where the body is " << immersion
-       << " of its height deep and the surface looks "
-       << "along (" << normal.x() << ", " << normal.y() << ", " << normal.z()
-       << "); build it without a waterline table, or from a mesh without long thin triangles";
-  throw std::runtime_error(text.str());
-}
-
 }  // namespace
 
 Matrix6 solveImageFlow(const TriangleMesh& body, const SurfacePlane& plane, int panels) {
@@ -218,9 +235,6 @@ WaterlineTable makeWaterlineTable(const FluidBody& body, const WaterlineSettings
     solved.addImmersion();
   };
   parallelFor(threadCount(settings.threads), table.corrections.size(), solve);
-  for (std::size_t i = 0; i < table.corrections.size(); ++i)
-    if (origins[i / count].node == static_cast<int>(i / count) && !correctionOf(i).allFinite())
-      refuse(body, lattice.direction(static_cast<int>(i / count)), kImmersions[i % count]);
   for (std::size_t node = 0; node < origins.size(); ++node) {
     const Origin& origin = origins[node];
     if (origin.node == static_cast<int>(node)) continue;

@@ -67,10 +67,11 @@ json fallingBoxes() {
   return scene;
 }
 
-// A plate that is pushed, and compounds that touch.
+// A plate that is pushed, compounds that touch, and a hundred boxes that fall into a pool.
 TEST(SimulationState, GoesOnBitForBit) {
   expectSavedStatesGoOn(readNamedScene("plate_9cm"));
   expectSavedStatesGoOn(sceneFrom(fallingBoxes()), 12);
+  expectSavedStatesGoOn(readNamedScene("pool"), 12);
 }
 
 TEST(SimulationRegions, AreReplacedByThoseOfAnotherScene) {
