@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <optional>
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "preprocess/base/surface_triangles.h"
@@ -49,15 +51,16 @@ struct Node {
   double place, weight;  // abscissa in [0, 1], and weight; weights add up to 1
 };
 
-/// Gauss-Legendre rules of 4 and of 3 points.
-constexpr std::array<Node, 4> kFourNodes{{{0.06943184420297371, 0.17392742256872693},
-                                          {0.33000947820757187, 0.32607257743127307},
-                                          {0.6699905217924281, 0.32607257743127307},
-                                          {0.9305681557970263, 0.17392742256872693}}};
-constexpr std::array<Node, 3> kThreeNodes{{{0.1127016653792583, 0.2777777777777778},
-                                           {0.5, 0.4444444444444444},
-                                           {0.8872983346207417, 0.2777777777777778}}};
-constexpr std::size_t kPointsPerQuadrilateral = 4 * 4, kPointsPerTriangle = 3 * 3 * 3;
+/// Gauss-Legendre rules of 1, 2, 3 and 4 points.
+constexpr Node kNodes[4][4] = {{{0.5, 1}},
+                               {{0.2113248654051871, 0.5}, {0.7886751345948129, 0.5}},
+                               {{0.1127016653792583, 0.2777777777777778},
+                                {0.5, 0.4444444444444444},
+                                {0.8872983346207417, 0.2777777777777778}},
+                               {{0.06943184420297371, 0.17392742256872693},
+                                {0.33000947820757187, 0.32607257743127307},
+                                {0.6699905217924281, 0.32607257743127307},
+                                {0.9305681557970263, 0.17392742256872693}}};
 
 using Corners = std::array<Vector3, 3>;  // of a triangle
 
@@ -67,45 +70,73 @@ struct Point {
   double area;
 };
 
-/// Adds the points of a plane quadrilateral.
-template <std::size_t N>
-void addPoints(const std::array<Vector3, 4>& corners, const std::array<Node, N>& rule,
-               std::vector<Point>& points) {
-  const auto& [a, b, c, d] = corners;
-  for (const Node& u : rule)
-    for (const Node& v : rule) {
-      const Vector3 low = a + u.place * (b - a), high = d + u.place * (c - d);
-      const Vector3 along = (1 - v.place) * (b - a) + v.place * (c - d);
-      points.push_back(
-          {low + v.place * (high - low), u.weight * v.weight * along.cross(high - low).norm()});
-    }
-}
+/// Makes the points of plane quadrilaterals and triangles: the more the longer they are, one where
+/// they are shorter than a twentieth of the body's size.
+class PointMaker {
+ public:
+  /// `size`: of the body [m].
+  explicit PointMaker(double size) : size_(size) {}
 
-/// Adds the points of a triangle, as three quadrilaterals that meet in its middle.
-void addPoints(const Corners& corners, std::vector<Point>& points) {
-  const Vector3 middle = (corners[0] + corners[1] + corners[2]) / 3;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vector3 &here = corners[k], &next = corners[(k + 1) % 3], &last = corners[(k + 2) % 3];
-    addPoints({middle, (last + here) / 2, here, (here + next) / 2}, kThreeNodes, points);
+  /// Longest edge of a triangle that is sampled at one point [m].
+  double longestEdge() const { return 0.2 * size_; }
+
+  /// Points of a flat side with these corners.
+  std::vector<Point> pointsOf(const std::vector<Vector3>& corners) const {
+    std::vector<Point> points;
+    for (std::size_t i = 1; i + 1 < corners.size(); i += 2)
+      if (i + 2 < corners.size())
+        add({corners[0], corners[i], corners[i + 1], corners[i + 2]}, 4, points);
+      else
+        add({corners[0], corners[i], corners[i + 1]}, points);
+    return points;
   }
-}
+  std::vector<Point> pointsOf(const Corners& corners) const {
+    std::vector<Point> points;
+    add(corners, points);
+    return points;
+  }
 
-/// Points of a flat side with these corners.
-std::vector<Point> pointsOf(const std::vector<Vector3>& corners) {
-  std::vector<Point> points;
-  for (std::size_t i = 1; i + 1 < corners.size(); i += 2)
-    if (i + 2 < corners.size())
-      addPoints({corners[0], corners[i], corners[i + 1], corners[i + 2]}, kFourNodes, points);
-    else
-      addPoints({corners[0], corners[i], corners[i + 1]}, points);
-  return points;
-}
+ private:
+  int pointsAlong(double length, int most) const {
+    const double share = length / size_;
+    return std::min(most, share < 0.05 ? 1 : share < 0.1 ? 2 : share < 0.2 ? 3 : 4);
+  }
 
-/// Returns true if all faces of a side have sharpness 1.
-bool isSharp(const FlatSide& side, const FaceTable& faces) {
+  /// Adds the points of a plane quadrilateral, at most so many each way.
+  void add(const std::array<Vector3, 4>& corners, int most, std::vector<Point>& points) const {
+    const auto& [a, b, c, d] = corners;
+    const int across = pointsAlong(std::max((b - a).norm(), (c - d).norm()), most);
+    const int up = pointsAlong(std::max((d - a).norm(), (c - b).norm()), most);
+    for (int i = 0; i < across; ++i)
+      for (int j = 0; j < up; ++j) {
+        const Node &u = kNodes[across - 1][i], &v = kNodes[up - 1][j];
+        const Vector3 low = a + u.place * (b - a), high = d + u.place * (c - d);
+        const Vector3 along = (1 - v.place) * (b - a) + v.place * (c - d);
+        points.push_back(
+            {low + v.place * (high - low), u.weight * v.weight * along.cross(high - low).norm()});
+      }
+  }
+
+  /// Adds the points of a triangle, as three quadrilaterals that meet in its middle.
+  void add(const Corners& corners, std::vector<Point>& points) const {
+    const Vector3 middle = (corners[0] + corners[1] + corners[2]) / 3;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vector3 &here = corners[k], &next = corners[(k + 1) % 3], &last = corners[(k + 2) % 3];
+      add({middle, (last + here) / 2, here, (here + next) / 2}, 3, points);
+    }
+  }
+
+  double size_;
+};
+
+/// Returns the sharpness that all faces of a side have, but for rounding; none if they differ.
+std::optional<double> commonSharpness(const FlatSide& side, const FaceTable& faces) {
+  constexpr double kRounding = 1e-6;
+  const double first = faces.sharpness[static_cast<std::size_t>(side.triangles.front())];
   for (const int t : side.triangles)
-    if (faces.sharpness[static_cast<std::size_t>(t)] != 1) return false;
-  return true;
+    if (!(std::abs(faces.sharpness[static_cast<std::size_t>(t)] - first) <= kRounding))
+      return std::nullopt;
+  return first;
 }
 
 Corners cornersOf(const SurfaceTriangles& mesh, int triangle) {
@@ -113,14 +144,12 @@ Corners cornersOf(const SurfaceTriangles& mesh, int triangle) {
           mesh.place(mesh.vertex(triangle, 2))};
 }
 
-/// Longest edge of a triangle that is sampled at one point: a fifth of twice the distance that the
-/// surface reaches from the centre of volume [m].
-double longestEdgeOf(const FluidBody& body, const SurfaceTriangles& mesh) {
-  constexpr double kLongest = 0.2;
+/// Twice the distance that the surface reaches from the centre of volume [m].
+double sizeOf(const FluidBody& body, const SurfaceTriangles& mesh) {
   double reach = 0;
   for (int v = 0; v < mesh.vertexCount(); ++v)
     reach = std::max(reach, (mesh.place(v) - body.centre_of_volume).norm());
-  return 2 * kLongest * reach;
+  return 2 * reach;
 }
 
 bool isLong(const Corners& corners, double longest) {
@@ -129,14 +158,11 @@ bool isLong(const Corners& corners, double longest) {
   return false;
 }
 
-/// Returns true if points replace the triangles of a side: it has more triangles than points, at
+/// Returns true if so many points replace the triangles of a sharp side: it has more triangles, at
 /// least kLarge of the surface's area, or edges around it and a triangle too long for one point.
-bool deservesPoints(const FlatSide& side, const SurfaceTriangles& mesh, const FluidBody& body,
-                    double longest) {
+bool deservesPoints(const FlatSide& side, std::size_t points, const SurfaceTriangles& mesh,
+                    const FluidBody& body, double longest) {
   constexpr double kLarge = 0.02;
-  const std::size_t corners = side.corners.size();
-  const std::size_t points =
-      (corners - 2) / 2 * kPointsPerQuadrilateral + corners % 2 * kPointsPerTriangle;
   double area = 0;
   bool has_long = false;
   for (const int t : side.triangles) {
@@ -144,6 +170,13 @@ bool deservesPoints(const FlatSide& side, const SurfaceTriangles& mesh, const Fl
     has_long = has_long || (side.has_sharp_rim && isLong(cornersOf(mesh, t), longest));
   }
   return points < side.triangles.size() || area >= kLarge * body.area || has_long;
+}
+
+/// Returns true for a strip of a round surface that has a triangle too long for one point.
+bool isLongStrip(const FlatSide& side, const SurfaceTriangles& mesh, double longest) {
+  return side.triangles.size() > 1 &&
+         std::any_of(side.triangles.begin(), side.triangles.end(),
+                     [&](int t) { return isLong(cornersOf(mesh, t), longest); });
 }
 
 /// Sets the sharpness of the faces of a side; a sheet of as many `triangles` has them on its back,
@@ -163,10 +196,8 @@ class FaceCollector {
   void copy(std::size_t face) {
     add(faces_.normal(face), faces_.centroid(face), faces_.area[face], faces_.sharpness[face]);
   }
-  /// Adds points of a face of these corners in its place.
-  void addPointsOf(std::size_t face, const Corners& corners) {
-    std::vector<Point> points;
-    addPoints(corners, points);
+  /// Adds points of a face in its place.
+  void addPointsOf(std::size_t face, const std::vector<Point>& points) {
     for (const Point& point : points)
       add(faces_.normal(face), point.place, point.area, faces_.sharpness[face]);
   }
@@ -187,18 +218,23 @@ FaceTable facesWithPoints(const FluidBody& body) {
   AMBIENT_ASSERT(faces.sharpness.size() == faces.size());
   if (body.surface.triangles.empty()) return faces;
   const SurfaceTriangles mesh(body);
-  const double longest = longestEdgeOf(body, mesh);
+  const PointMaker maker(sizeOf(body, mesh));
+  const double longest = maker.longestEdge();
   FaceCollector collector(faces);
   std::vector<bool> is_replaced(static_cast<std::size_t>(mesh.size()));
   for (const FlatSide& side : findFlatSides(mesh)) {
-    if (!isSharp(side, faces)) continue;
+    const std::optional<double> common = commonSharpness(side, faces);
+    if (!common) continue;
+    const bool is_sharp = *common == 1;
     const std::vector<Vector3> corners = mesh.places(side.corners);
-    const double sharpness = sharpnessOfSide(corners);
-    if (!deservesPoints(side, mesh, body, longest)) {
-      if (side.has_sharp_rim) setSharpness(side, sharpness, mesh.size(), faces);
+    const std::vector<Point> points = maker.pointsOf(corners);
+    const double sharpness = is_sharp ? sharpnessOfSide(corners) : *common;
+    if (is_sharp ? !deservesPoints(side, points.size(), mesh, body, longest)
+                 : !isLongStrip(side, mesh, longest)) {
+      if (is_sharp && side.has_sharp_rim) setSharpness(side, sharpness, mesh.size(), faces);
       continue;
     }
-    for (const Point& point : pointsOf(corners)) {
+    for (const Point& point : points) {
       collector.add(side.normal, point.place, point.area, sharpness);
       if (mesh.isSheet()) collector.add(-side.normal, point.place, point.area, sharpness);
     }
@@ -209,7 +245,7 @@ FaceTable facesWithPoints(const FluidBody& body) {
     if (is_replaced[t]) continue;
     const Corners corners = cornersOf(mesh, static_cast<int>(t));
     if (isLong(corners, longest))
-      collector.addPointsOf(face, corners);
+      collector.addPointsOf(face, maker.pointsOf(corners));
     else
       collector.copy(face);
   }
