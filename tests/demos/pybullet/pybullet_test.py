@@ -407,6 +407,37 @@ class LifeTest(Case):
             self.fluid.restore(state)
         self.assertEqual(ends[0], ends[1])
 
+    def test_a_state_that_is_not_restored_bit_for_bit_is_told(self):
+        self.fluid.remove()
+        self.fluid.air()
+        self.gravity()
+        p.createMultiBody(0, p.createCollisionShape(p.GEOM_PLANE, physicsClientId=self.client), physicsClientId=self.client)
+        self.box(position=(0, 0, 0.1))
+        self.steps(10)
+        for sorts in (1, 0, 0):
+            p.setPhysicsEngineParameter(deterministicOverlappingPairs=sorts, physicsClientId=self.client)
+            self.fluid.save()
+            said = [line for line in self.fluid.status()["said"] if "deterministicOverlappingPairs=1" in line]
+            self.assertEqual(len(said), 1 - sorts, said)
+
+    def test_what_is_said_of_shapes_comes_to_each_client_that_has_them(self):
+        """The hold of a tray of five boxes."""
+        size = [[0.5, 0.3, 0.01], *[[0.01, 0.3, 0.19]] * 2, *[[0.48, 0.01, 0.19]] * 2]
+        place = [[0, 0, 0.01], [-0.49, 0, 0.21], [0.49, 0, 0.21], [0, -0.29, 0.21], [0, 0.29, 0.21]]
+        for client in (self.client, self.client, p.connect(p.DIRECT)):
+            p.resetSimulation(physicsClientId=client)
+            fluid = Fluid(client)
+            fluid.water(level=0)
+            shape = p.createCollisionShapeArray([p.GEOM_BOX] * 5, halfExtents=size, collisionFramePositions=place,
+                                                physicsClientId=client)
+            p.createMultiBody(60, shape, physicsClientId=client)
+            p.stepSimulation(physicsClientId=client)
+            status = fluid.status()
+            (own,) = status["bodies"][0]["said"]
+            self.assertRegex(own, r"hold of 0\.204\d* m\^3")
+            self.assertEqual([line for line in status["said"] if "hold" in line], ["bullet_ambient: " + own])
+        p.disconnect(client)
+
     def test_long_commands(self):
         self.fluid.water(level=0, waves=[Wave(1e-4, 2 + 0.01 * i, phase=1e5) for i in range(200)])
         self.assertTrue(self.floats())
