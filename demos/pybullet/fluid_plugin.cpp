@@ -251,6 +251,7 @@ std::string FluidPlugin::status(const Command&) {
       if (shape.volume > 0) one["density"] = mass / shape.volume;
       one["shape"] = shape.name;
       one["made"] = shape.provenance.source + "; " + shape.provenance.settings;
+      one["said"] = shapes().said(shape);
       status["bodies"].push_back(std::move(one));
     });
   }

@@ -8,6 +8,7 @@
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 #include <LinearMath/btIDebugDraw.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -98,7 +99,8 @@ void scaleTo(double volume, FluidBody& body, FrameOffset& frame) {
   body = scaled(body, factor);
 }
 
-const char* const kHulls = "hulls";  // entry of printed_: it was said
+const char* const kOurs = "bullet_ambient: ";  // begins sentences
+const char* const kHulls = "hulls";            // entry of printed_: it was said
 constexpr std::size_t kKeptSentences = 100;
 const char* const kOtherLayout =
     "this PyBullet has other layouts than the plugin, which is for 3.1.7 and later in double";
@@ -121,6 +123,12 @@ std::string nameOf(const btCollisionObject& object) {
   return given ? name + " " + given : name;
 }
 
+bool hasContacts(btDispatcher& dispatcher) {
+  for (int i = 0; i < dispatcher.getNumManifolds(); ++i)
+    if (dispatcher.getManifoldByIndexInternal(i)->getNumContacts() > 0) return true;
+  return false;
+}
+
 // True for a convex hull, also one in a compound of its own.
 bool isLoneHull(const btCollisionShape& shape) {
   if (!shape.isCompound()) return shape.getShapeType() == CONVEX_HULL_SHAPE_PROXYTYPE;
@@ -141,6 +149,10 @@ void WorldFluid::say(const std::string& sentence) {
   if (said_.size() < kKeptSentences) said_.push_back(sentence);
 }
 
+void WorldFluid::sayOnce(const std::string& sentence) {
+  if (std::find(said_.begin(), said_.end(), sentence) == said_.end()) say(sentence);
+}
+
 void WorldFluid::prepare(const Settings& settings, bool has_news) {
   if (has_news) checkLayouts();
   fluid_.refit();
@@ -153,7 +165,7 @@ void WorldFluid::prepare(const Settings& settings, bool has_news) {
   } else {
     addAll(settings);
   }
-  storeHandles();
+  storeHandles(settings.shapes);
   sayHulls();
 }
 
@@ -164,7 +176,7 @@ void WorldFluid::sayHulls() {
     if (!collider || members_.count(key) == 0 || !isLoneHull(*collider->getCollisionShape()))
       continue;
     if (!printed_.insert(kHulls).second) return;
-    return say("bullet_ambient: " + nameOf(*collider) +
+    return say(kOurs + nameOf(*collider) +
                " displaces the convex hull that PyBullet has made of its mesh or cylinder, without "
                "hollows and gaps; Fluid.body() gives a link another fluid body");
   }
@@ -196,17 +208,25 @@ void WorldFluid::addAll(const Settings& settings) {
     return true;
   };
   for (const auto& refusal : fluid_.addAll(settings.shapes, Medium{}, std::move(attach)).refused)
-    say("bullet_ambient: " + refusal.reason);
+    say(kOurs + refusal.reason);
 }
 
 // Stores the handles of new members under their numbers. PyBullet reuses only numbers of removed
 // bodies, whose handles forget() has erased.
-void WorldFluid::storeHandles() {
+void WorldFluid::storeHandles(const FluidBodyCache& shapes) {
   for (const auto& [key, body] : new_bodies_)
-    if (const auto member = fluid_.find(*body)) members_.insert_or_assign(key, *member);
+    if (const auto member = fluid_.find(*body)) store(key, *member, shapes);
   for (const auto& [key, multi_body] : new_links_)
-    if (const auto member = fluid_.find(*multi_body, key.second))
-      members_.insert_or_assign(key, *member);
+    if (const auto member = fluid_.find(*multi_body, key.second)) store(key, *member, shapes);
+}
+
+// The cache has printed what it said when it made the fluid body, for this client or another one.
+void WorldFluid::store(const Key& key, const Immersed& member, const FluidBodyCache& shapes) {
+  members_.insert_or_assign(key, member);
+  for (const std::string& line : shapes.said(*member.fluidBody())) {
+    printed_.insert(kOurs + line);
+    sayOnce(kOurs + line);
+  }
 }
 
 WorldFluid::Found WorldFluid::find(int body, int link) const {
@@ -231,7 +251,7 @@ WorldFluid::Found WorldFluid::find(int body, int link) const {
                               std::to_string(link));
 }
 
-void WorldFluid::choose(int body, int link, const ChosenBody& chosen, FluidBodySource& shapes) {
+void WorldFluid::choose(int body, int link, const ChosenBody& chosen, FluidBodyCache& shapes) {
   const Found found = find(body, link);
   std::shared_ptr<const FluidBody> made;
   if (chosen.file.empty()) {
@@ -244,7 +264,7 @@ void WorldFluid::choose(int body, int link, const ChosenBody& chosen, FluidBodyS
   exclude(body, link);  // from what is added by its collision shape
   const Immersed member = found.rigid ? fluid_.add(*found.rigid, std::move(def))
                                       : fluid_.add(*found.multi_body, link, std::move(def));
-  members_.insert_or_assign({body, link}, member);
+  store({body, link}, member, shapes);
 }
 
 void WorldFluid::forget(int body) {
@@ -278,6 +298,12 @@ const btMultiBody& WorldFluid::multiBody(int body) const {
 }
 
 std::size_t WorldFluid::save() {
+  if (!world_.getDispatchInfo().m_deterministicOverlappingPairs &&
+      hasContacts(*world_.getDispatcher()))
+    sayOnce(std::string(kOurs) +
+            "bodies touch each other where a state is saved: after restore() they do not move on "
+            "bit for bit, unless setPhysicsEngineParameter(deterministicOverlappingPairs=1) was "
+            "called");
   states_.push_back(fluid_.save());
   return states_.size() - 1;
 }

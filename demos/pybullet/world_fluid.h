@@ -13,6 +13,7 @@
 #include "bullet_ambient/saved_state.h"
 #include "demos/pybullet/command.h"
 #include "demos/pybullet/pybullet_interface.h"
+#include "preprocess/collision_shape/fluid_body_cache.h"
 
 namespace ambient::pybullet {
 
@@ -53,7 +54,7 @@ class WorldFluid {
  public:
   /// Settings of all bodies that are added.
   struct Settings {
-    FluidBodySource& shapes;
+    FluidBodyCache& shapes;
     FlowSettings flow;
   };
   static constexpr int kAllLinks = -2;  ///< in place of a link's number
@@ -74,7 +75,7 @@ class WorldFluid {
   void forget(int body);
   /// Gives a body or link a fluid body that the user has chosen, in place of the one that it has.
   /// @throws std::exception, in one line, if there is no such body or link, or it cannot have it
-  void choose(int body, int link, const ChosenBody& chosen, FluidBodySource& shapes);
+  void choose(int body, int link, const ChosenBody& chosen, FluidBodyCache& shapes);
   /// Removes a body or link from the fluid, and never adds it again.
   void exclude(int body, int link);
   /// Returns the handle of a body or link; link -1: the base, or a rigid body. @throws
@@ -96,7 +97,8 @@ class WorldFluid {
   std::size_t save();
   /// Restores a saved state by its number. @throws std::invalid_argument if there is no such state
   void restore(std::size_t state);
-  /// Returns the first 100 reports of the fluid, among them reasons why bodies were refused.
+  /// Returns the first 100 reports of the fluid, among them reasons why bodies were refused and
+  /// what was said of fluid bodies while they were made.
   const std::vector<std::string>& said() const { return said_; }
 
  private:
@@ -112,9 +114,11 @@ class WorldFluid {
   void checkLayouts() const;
   void sayHulls();
   void addAll(const Settings& settings);
-  void storeHandles();
+  void storeHandles(const FluidBodyCache& shapes);
+  void store(const Key& key, const Immersed& member, const FluidBodyCache& shapes);
   bool isWanted(int body, int link) const;
   void say(const std::string& sentence);
+  void sayOnce(const std::string& sentence);
 
   btMultiBodyDynamicsWorld& world_;
   std::set<std::string>& printed_;

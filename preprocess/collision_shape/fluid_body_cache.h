@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "bullet_ambient/attach_world.h"
 #include "bullet_ambient/bullet/core/precision_check.h"
@@ -39,6 +40,11 @@ class FluidBodyCache : public FluidBodySource {
   /// Finds the last result of fluidBody() with a name; null: none. A FluidBodyLookup for
   /// decodeState().
   std::shared_ptr<const FluidBody> find(const std::string& name) const;
+
+  /// Returns what settings.report was told, or would have been, of the form of a result of
+  /// fluidBody() while this object made it, in the metres of the shape that it was made for; none
+  /// if it was read from the folder. Lines about the work itself are not in it.
+  std::vector<std::string> said(const FluidBody& body) const;
 
   Counts counts() const;
 

@@ -224,18 +224,26 @@ class Fluid:
         return float(self.wet(body, link)["volume"])
 
     def save(self) -> int:
-        """Saves the state of world and fluid, and returns its number. `pybullet.saveState` does not save the fluid."""
+        """Saves the state of world and fluid, and returns its number. `pybullet.saveState` does not save the fluid.
+
+        Says once if bodies touch each other and restore() is not bit for bit.
+        """
         return int(self._give("save"))
 
     def restore(self, state: int) -> None:
-        """Restores a state of save(), from which the motion goes on bit for bit."""
+        """Restores a state of save().
+
+        The motion goes on bit for bit if `pybullet.setPhysicsEngineParameter(deterministicOverlappingPairs=1)` was called
+        before, or if no bodies touch each other; not where one touches with several of its collision shapes.
+        """
         self._give("restore", state=state)
 
     def status(self) -> dict[str, Any]:
         """Returns the names of regions, counters of the steps, the first 100 reports of the fluid ("said"), and "bodies".
 
-        "shapes" says how many forms of shapes the process has "made", and "read" from files. Each of "bodies" has the numbers of body and link, "mass" [kg], "volume" [m^3], their "density", and how its fluid
-        body was "made".
+        "shapes" says how many forms of shapes the process has "made", and "read" from files. Each of "bodies" has the
+        numbers of body and link, "mass" [kg], "volume" [m^3], their "density", how its fluid body was "made", and all that
+        was "said" of it then; nothing of what was read from files.
         """
         answer: dict[str, Any] = json.loads(self._give("status"))
         return answer

@@ -9,6 +9,13 @@
 #include <cstring>
 
 namespace ambient::pybullet::test {
+namespace {
+
+void addBox(btCompoundShape& compound, const btVector3& middle, const btVector3& half) {
+  compound.addChildShape(btTransform(btQuaternion::getIdentity(), middle), new btBoxShape(half));
+}
+
+}  // namespace
 
 FakeServer::FakeServer() { createWorld(); }
 
@@ -135,8 +142,21 @@ void FakeServer::changeSolver(bool has_mlcp) {  // 11436
 
 int FakeServer::add(double half_width, double mass) {
   auto* compound = new btCompoundShape;
-  const btVector3 half = btVector3(1, 1, 1) * static_cast<btScalar>(half_width);
-  compound->addChildShape(btTransform::getIdentity(), new btBoxShape(half));
+  addBox(*compound, {0, 0, 0}, btVector3(1, 1, 1) * static_cast<btScalar>(half_width));
+  return add(compound, mass);
+}
+
+int FakeServer::addTray(double mass) {
+  auto* compound = new btCompoundShape;
+  addBox(*compound, {0, 0, 0.01}, {0.5, 0.3, 0.01});
+  for (const int side : {-1, 1}) {
+    addBox(*compound, {side * 0.49, 0, 0.21}, {0.01, 0.3, 0.19});
+    addBox(*compound, {0, side * 0.29, 0.21}, {0.48, 0.01, 0.19});
+  }
+  return add(compound, mass);
+}
+
+int FakeServer::add(btCompoundShape* compound, double mass) {
   btVector3 inertia;
   compound->calculateLocalInertia(static_cast<btScalar>(mass), inertia);
   auto* body = new btMultiBody(0, static_cast<btScalar>(mass), inertia, false, false);
@@ -165,7 +185,7 @@ void FakeServer::destroy(btMultiBody*& body) {
   world_->removeMultiBody(body);
   delete body;
   body = nullptr;
-  delete compound->getChildShape(0);
+  for (int i = 0; i < compound->getNumChildShapes(); ++i) delete compound->getChildShape(i);
   delete compound;
 }
 

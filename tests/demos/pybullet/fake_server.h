@@ -34,8 +34,9 @@ class FakeServer : public Server, public Client {
   void reset(bool in_one_round = false);
   /// p.setPhysicsEngineParameter(constraintSolverType=)
   void changeSolver(bool has_mlcp);
-  /// p.createMultiBody() of a cube; its number
+  /// p.createMultiBody() of a cube, or of a tray of five boxes, 1 x 0.6 x 0.4 m; its number
   int add(double half_width, double mass);
+  int addTray(double mass);
   /// p.removeBody()
   void remove(int number);
   void step(int count);
@@ -60,6 +61,7 @@ class FakeServer : public Server, public Client {
   Context makeContext();
   void createWorld();
   void deleteWorld();
+  int add(btCompoundShape* compound, double mass);
   void destroy(btMultiBody*& body);
   void notify(NotificationType type, int body);
   void report();

@@ -45,6 +45,15 @@ class PyBulletPlugin : public testing::Test {
     const std::size_t at = answer.find('"' + key + "\":");
     return at == std::string::npos ? NAN : std::stod(answer.substr(at + key.size() + 3));
   }
+  // A number of a part of `wrench`: torque, then force.
+  double wrench(int body, const std::string& part, int index) {
+    const std::string answer = server.command(of(body, "wrench"));
+    std::size_t at = answer.find('"' + part + "\":[");
+    if (at == std::string::npos) return NAN;
+    at += part.size() + 3;
+    for (int i = 0; i < index; ++i) at = answer.find(',', at + 1);
+    return std::stod(answer.substr(at + 1));
+  }
   FakeServer server;
 };
 
@@ -111,6 +120,38 @@ TEST_F(PyBulletPlugin, MakesAShapeOnceForAllClientsOfTheProcess) {
   expectOneShape(server);
 }
 
+// The first client makes the tray and is told of its hold once; the second one gets the same tray.
+TEST_F(PyBulletPlugin, TellsWhatIsSaidOfABodyWhileItIsMade) {
+  const TemporaryFolder folder;
+  const auto expectHold = [&](FakeServer& client) {
+    client.command(R"({"settings": {"folder": ")" + folder.path().string() + R"("}})");
+    client.command(kWater);
+    client.addTray(60);
+    client.add(0.1, 4);
+    client.step(1);
+    client.addTray(70);
+    client.step(1);
+    const std::string status = client.command(R"({"status": {}})");
+    std::size_t at = 0;  // of what is looked for, one after the other
+    for (const char* part :
+         {R"("said":["bullet_ambient: Compound: hold of 0.204)", R"("bodies":[{"body":0)",
+          R"("said":["Compound: hold of 0.204)", R"("body":1)", R"("said":[]})", R"("body":2)",
+          R"("said":["Compound: hold of 0.204)"}) {
+      const std::size_t found = status.find(part, at);
+      ASSERT_NE(found, std::string::npos) << part << " is not in " << status.substr(at);
+      at = found + 1;
+    }
+    const std::string once = "bullet_ambient: Compound";
+    EXPECT_EQ(status.find(once), status.rfind(once)) << status;
+  };
+  expectHold(server);
+  server.reset();
+  expectHold(server);
+  FakeServer other;
+  ASSERT_TRUE(other.load(kPlugin));
+  expectHold(other);
+}
+
 // With several clients a step of one may come before the notification of another one's reset.
 TEST_F(PyBulletPlugin, KnowsAResetBeforeItsNotification) {
   server.command(kWater);
@@ -169,6 +210,21 @@ TEST_F(PyBulletPlugin, GivesABodyTheFluidBodyThatIsChosen) {
       std::string::npos);
 }
 
+// 1/2 rho v^2 A C_D of what the density leaves: a cube of 0.1 m. Without viscosity, as friction
+// comes on top.
+TEST_F(PyBulletPlugin, TakesTheDragThatWasMeasured) {
+  server.command(R"({"region": {"density": 1.2, "viscosity": 0, "velocity": [10, 0, 0]}})");
+  const int body = server.add(0.1, 4);
+  for (const double drag : {0.7, 1.4}) {
+    const std::string coefficients = "[" + std::to_string(drag) + ", 1, 1]";
+    EXPECT_EQ(server.command(of(body, "body", R"(, "density": 4000, "drag": )" + coefficients)),
+              "0 ");
+    const double expected = 0.5 * 1.2 * 100 * 0.01 * drag;
+    EXPECT_NEAR(wrench(body, "pressure", 3), expected, 1e-6 * expected);  // measured 1.5e-7
+    EXPECT_EQ(wrench(body, "friction", 3), 0);
+  }
+}
+
 // A new world may have other settings.
 TEST_F(PyBulletPlugin, TakesOtherSettingsAfterAReset) {
   server.command(kWater);
@@ -194,18 +250,34 @@ TEST_F(PyBulletPlugin, RestoresItsStates) {
   EXPECT_EQ(server.command(restoring(0)).rfind("-1 ", 0), 0u);
 }
 
+// One cube comes to lie on the other one.
+TEST_F(PyBulletPlugin, SaysOnceThatASavedStateDoesNotGoOnBitForBit) {
+  server.command(kWater);
+  const auto expectSaid = [&](const std::string& answer) {
+    EXPECT_EQ(server.command(R"({"save": {}})").rfind("0 ", 0), 0u);
+    const std::string said = server.command(R"({"status": {}})"), key = "OverlappingPairs=1";
+    EXPECT_EQ(said.find(key) == std::string::npos, answer == "no") << said;
+    EXPECT_EQ(said.find(key), said.rfind(key)) << said;
+  };
+  const int lower = server.add(0.1, 4), upper = server.add(0.1, 4);
+  server.step(1);
+  expectSaid("no");
+  server.body(upper).setBasePos(server.body(lower).getBasePos() + btVector3(0, 0, btScalar(0.19)));
+  server.world().getDispatchInfo().m_deterministicOverlappingPairs = true;
+  server.step(2);
+  expectSaid("no");
+  server.world().getDispatchInfo().m_deterministicOverlappingPairs = false;
+  expectSaid("once");
+  expectSaid("once");
+}
+
 TEST_F(PyBulletPlugin, TellsWhatIsWetAndWhatTheFluidDoes) {
   server.command(R"({"water": {"level": -1, "density": 1000}})");
   const int body = server.add(0.1, 4);  // its centre at the surface
   EXPECT_NEAR(number(of(body, "wet"), "volume"), 0.004, 1e-6);
   EXPECT_NEAR(number(of(body, "wet"), "share"), 0.5, 1e-3);
   EXPECT_NEAR(number(of(body, "wet"), "draught"), 0.1, 1e-6);
-  const std::string parts = server.command(of(body, "wrench"));
-  const std::size_t buoyancy = parts.find("\"buoyancy\":[");
-  ASSERT_NE(buoyancy, std::string::npos) << parts;
-  std::size_t at = buoyancy;
-  for (int i = 0; i < 5; ++i) at = parts.find(',', at + 1);
-  EXPECT_NEAR(std::stod(parts.substr(at + 1)), 1000 * 9.81 * 0.004, 0.4);
+  EXPECT_NEAR(wrench(body, "buoyancy", 5), 1000 * 9.81 * 0.004, 0.4);
 }
 
 TEST_F(PyBulletPlugin, GoesOffAndOn) {

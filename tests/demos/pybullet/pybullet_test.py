@@ -188,6 +188,34 @@ class MotionTest(Case):
         self.steps(60)
         self.assertGreater(self.speed(body), 0.1)
 
+    def hovers(self, **chosen):
+        """How far a quadrotor of 27 g comes off its place in a wind of 3 m/s, with the gains of gym-pybullet-drones [m]."""
+        shape = p.createCollisionShape(p.GEOM_CYLINDER, radius=0.06, height=0.025, physicsClientId=self.client)
+        drone = p.createMultiBody(0.027, shape, physicsClientId=self.client)
+        p.changeDynamics(drone, -1, localInertiaDiagonal=[1.4e-5, 1.4e-5, 2.17e-5], physicsClientId=self.client)
+        if chosen:
+            self.fluid.body(drone, **chosen)
+        for _ in range(240 * 5):
+            place, turn = p.getBasePositionAndOrientation(drone, physicsClientId=self.client)
+            velocity, spin = map(np.array, p.getBaseVelocity(drone, physicsClientId=self.client))
+            axes = np.reshape(p.getMatrixFromQuaternion(turn), (3, 3))
+            thrust = [0, 0, 0.027 * 9.81] - np.multiply([0.4, 0.4, 1.25], place) - np.multiply([0.2, 0.2, 0.5], velocity)
+            torque = 0.0193 * np.cross(axes[:, 2], thrust / np.linalg.norm(thrust)) - 2.75e-3 * spin
+            torque = axes @ np.clip(axes.T @ torque, -4.4e-4, 4.4e-4)  # what its rotors have
+            force = max(0, axes[:, 2] @ thrust) * axes[:, 2]
+            p.applyExternalForce(drone, -1, force, place, p.WORLD_FRAME, physicsClientId=self.client)
+            p.applyExternalTorque(drone, -1, torque, p.WORLD_FRAME, physicsClientId=self.client)
+            self.steps(1)
+        return np.linalg.norm(place)
+
+    def test_a_drone_that_is_mostly_air_holds_its_place_in_a_wind(self):
+        self.gravity()
+        self.fluid.air(wind=(3, 0, 0))
+        self.assertGreater(self.hovers(), 1)  # a solid puck tips over
+        side = 0.12 * 0.025 * (0.027 / 600 / (math.pi * 0.06**2 * 0.025)) ** (2 / 3)
+        force = 0.5 * 1.2 * 3**2 * side * 1.1
+        self.assertAlmostEqual(self.hovers(density=600, drag=(1.1, 1.1, 1.2)), force / 0.4, delta=0.1 * force / 0.4)
+
     def test_without_fluid_it_is_stock_bit_for_bit(self):
         ends = []
         for kind in ("stock", "loaded", "vacuum"):
@@ -406,6 +434,37 @@ class LifeTest(Case):
             ends.append([p.getBasePositionAndOrientation(body, physicsClientId=self.client) for body in bodies])
             self.fluid.restore(state)
         self.assertEqual(ends[0], ends[1])
+
+    def test_a_state_that_is_not_restored_bit_for_bit_is_told(self):
+        self.fluid.remove()
+        self.fluid.air()
+        self.gravity()
+        p.createMultiBody(0, p.createCollisionShape(p.GEOM_PLANE, physicsClientId=self.client), physicsClientId=self.client)
+        self.box(position=(0, 0, 0.1))
+        self.steps(10)
+        for sorts in (1, 0, 0):
+            p.setPhysicsEngineParameter(deterministicOverlappingPairs=sorts, physicsClientId=self.client)
+            self.fluid.save()
+            said = [line for line in self.fluid.status()["said"] if "deterministicOverlappingPairs=1" in line]
+            self.assertEqual(len(said), 1 - sorts, said)
+
+    def test_what_is_said_of_shapes_comes_to_each_client_that_has_them(self):
+        """The hold of a tray of five boxes."""
+        size = [[0.5, 0.3, 0.01], *[[0.01, 0.3, 0.19]] * 2, *[[0.48, 0.01, 0.19]] * 2]
+        place = [[0, 0, 0.01], [-0.49, 0, 0.21], [0.49, 0, 0.21], [0, -0.29, 0.21], [0, 0.29, 0.21]]
+        for client in (self.client, self.client, p.connect(p.DIRECT)):
+            p.resetSimulation(physicsClientId=client)
+            fluid = Fluid(client)
+            fluid.water(level=0)
+            shape = p.createCollisionShapeArray([p.GEOM_BOX] * 5, halfExtents=size, collisionFramePositions=place,
+                                                physicsClientId=client)
+            p.createMultiBody(60, shape, physicsClientId=client)
+            p.stepSimulation(physicsClientId=client)
+            status = fluid.status()
+            (own,) = status["bodies"][0]["said"]
+            self.assertRegex(own, r"hold of 0\.204\d* m\^3")
+            self.assertEqual([line for line in status["said"] if "hold" in line], ["bullet_ambient: " + own])
+        p.disconnect(client)
 
     def test_long_commands(self):
         self.fluid.water(level=0, waves=[Wave(1e-4, 2 + 0.01 * i, phase=1e5) for i in range(200)])

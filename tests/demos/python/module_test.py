@@ -329,6 +329,29 @@ class WorldTest(Temporary):
             world(np.pi / 2).step()
             world(2, "published").step()
 
+    def test_all_reports_are_kept(self):
+        scene = ba.Scene({**STILL, "gravity": [0, 0, -9.81], "medium": {"density": 998}}, {"bodies.0.separation_angle": 2})
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            world = ba.World(scene)
+            world.step()
+        for said in (world.warning.splitlines(), [str(warning.message) for warning in caught]):
+            self.assertRegex("\n".join(sorted(said)), r"^.* so that it rises; .*\n.* has a separation angle, .*$")
+
+    def test_takes_scenes_alone(self):
+        with self.assertRaisesRegex(TypeError, r"^World takes a Scene, as in World\(Scene\(\.\.\.\)\)$"):
+            ba.World(STILL)
+
+    def test_regions_change_while_it_runs(self):
+        world = ba.World(ba.Scene({**STILL, "gravity": [0, 0, -9.81], "water": {"level": -5}}))
+        world.step()
+        self.assertEqual(world.bodies["ball"].wet["volume"], 0)
+        world.set_regions(world.scene.replace({"water.level": 5}))
+        world.step()
+        self.assertAlmostEqual(world.bodies["ball"].wet["share"], 1, delta=1e-12)
+        with self.assertRaisesRegex(ValueError, "it has 0 waters and regions, the world 1; must be as many"):
+            world.set_regions(ba.Scene(STILL))
+
     def test_forces_and_torques_act_for_one_step(self):
         vacuum = ba.Scene(STILL, {"model": "vacuum", "bodies.0.inertia": [0.2, 0.3, 0.4, 0, 0, 0]})
         world = ba.World(vacuum)
@@ -534,6 +557,14 @@ class RobotTest(Temporary):
         self.world.step(20)
         again = ba.World(self.world.scene, cache=self.cache)  # the robots are in its scene
         self.assertEqual(again.bodies.keys(), self.world.bodies.keys())
+
+    def test_robots_may_be_the_only_bodies(self):
+        world = ba.World(ba.Scene({**self.FALLING, "bodies": []}), robots=True, cache=self.cache)
+        world.step()
+        self.assertEqual(world.position.shape, (0, 3))
+        world.load_urdf(self.ARM, name="arm", fixed_base=True)
+        world.step()
+        self.assertEqual(list(world.bodies), ["arm/turntable", "arm/upper_arm", "arm/forearm"])
 
     def test_a_world_with_room_for_robots_moves_as_others(self):
         free = [ba.World(ba.Scene("plate_9cm"), robots=robots).run(0.2).position for robots in (False, True)]

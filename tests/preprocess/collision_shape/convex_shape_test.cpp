@@ -20,6 +20,7 @@
 #include "tests/preprocess/collision_shape/shape_fixtures.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 #include "tests/reference/ellipsoid_added_mass.h"
+#include "tests/support/temporary_folder.h"
 
 namespace ambient {
 namespace {
@@ -288,6 +289,28 @@ TEST(MeshShape, OpenMeshesAreWrappedUnlessStrict) {
   const std::string message = messageOf([&] { makeFluidBody(shape, settings); });
   EXPECT_EQ(message.find("GImpactMesh: not watertight: 3 boundary edges"), 0u) << message;
   EXPECT_NE(describeCollisionShape(shape, settings).settings.find(", strict"), std::string::npos);
+}
+
+TEST(MeshShape, WhatWasSaidOfItIsKeptWithItsForm) {
+  const TemporaryFolder folder;
+  btTriangleMesh triangles;
+  addTriangles(withoutTriangle(unitTetrahedron(), 0), triangles);
+  btGImpactMeshShape shape(&triangles);
+  shape.updateBound();
+  CollisionShapeSettings settings = coarse();
+  settings.report = nullptr;
+  FluidBodyCache cache(settings, folder.path()), later(settings, folder.path());
+  const std::vector<std::string> said = cache.said(*cache.fluidBody(shape));
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_EQ(said[0].find("GImpactMesh: not watertight: 3 boundary edges"), 0u) << said[0];
+  shape.setLocalScaling({2, 2, 2});
+  shape.updateBound();
+  EXPECT_EQ(cache.said(*cache.fluidBody(shape)), said);
+  EXPECT_EQ(cache.said(scaled(*cache.fluidBody(shape), 3)), said);
+  EXPECT_EQ(cache.counts().made, 1);
+  EXPECT_TRUE(cache.said(*cache.fluidBody(btSphereShape(1))).empty());
+  EXPECT_TRUE(later.said(*later.fluidBody(shape)).empty());
+  EXPECT_EQ(later.counts().read, 1);
 }
 
 using test::coarse;

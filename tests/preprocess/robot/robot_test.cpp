@@ -180,10 +180,7 @@ TEST(Robot, FixedLinksMoveAsMergedOnes) {
     RobotWorld in({0, 0, -10});
     Robot robot(merged ? withoutFixedJoints(model) : model, settings);
     robot.addTo(in.world);
-    MotorTarget spin;
-    spin.velocity = 2;
-    spin.position_gain = 0;
-    robot.setMotor("ab", spin);
+    robot.setMotor("ab", MotorTarget::speed(2));
     in.step(robot, 1e-3, 100);
     EXPECT_NEAR(robot.velocity("ab"), 2, 100 * rounding());
     ends.push_back(robot.linkPose("e"));
