@@ -219,10 +219,12 @@ std::array<SmallOscillation, 3> modesOf(const FloatingBody& body, const PackedHu
   const Matrix3 root = Cholesky<3>(M).inverseTransposed();
   const Matrix3 reduced = root.transpose() * K * root;
   const SymmetricEigen<3> eigen = symmetricEigen<3>(reduced);
+  constexpr double kNeutral = 1e-9;  // of the square of the highest frequency: rounding
   std::array<SmallOscillation, 3> modes;
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d q = root * eigen.vectors.col(i);
-    modes[static_cast<std::size_t>(i)] = modeOf(q, eigen.values[i], K, of);
+    const double square = eigen.values[i] > kNeutral * eigen.values[2] ? eigen.values[i] : 0;
+    modes[static_cast<std::size_t>(i)] = modeOf(q, square, K, of);
   }
   return modes;
 }
