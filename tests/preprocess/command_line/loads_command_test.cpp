@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string>
 
+#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "bullet_ambient/force/loads/face_loads.h"
 #include "preprocess/base/fluid_body_writer.h"
@@ -289,22 +290,34 @@ bool hasRounding(const std::string& text) {
   return std::regex_search(text, kTiny);
 }
 
-// Of a ball every turn is neutral; the axes of the box are oblique.
-TEST_F(FloatingCommand, InspectShowsNoRounding) {
+// A ball up to its middle in water: every turn is neutral.
+TEST_F(FloatingCommand, InspectTellsHowABallFloats) {
   resultOf({"build", write("ball.json", sphereText()), "-o", path("ball.ambient"), "--json"});
-  const Arguments ball{"inspect", path("ball.ambient"), "--mass", "200"};
-  const std::string text = run(ball).output;
-  EXPECT_FALSE(hasRounding(text)) << text;
-  EXPECT_EQ(text.find("heave           no"), std::string::npos) << text;
+  const Arguments inspect{"inspect",          path("ball.ambient"), "--mass",
+                          "261.799387799149", "--density",          "1000"};
+  const json ball = resultOf(appended(inspect, {"--json"}))["floating"];
+  ASSERT_EQ(ball.size(), 1u);
+  EXPECT_NEAR(ball[0]["draught"].get<double>(), 0.5, 1e-9);
+  EXPECT_NEAR(ball[0]["waterplane_area"].get<double>(), kPi / 4, 1e-9);
+  EXPECT_NEAR(ball[0]["metacentres"][0]["height"].get<double>(), 0, 1e-9);
   int neutral = 0;
-  for (const json& mode : resultOf(appended(ball, {"--json"}))["floating"][0]["modes"])
-    neutral += mode["period"].is_null() ? 1 : 0;
+  for (const json& mode : ball[0]["modes"]) neutral += mode["period"].is_null() ? 1 : 0;
   EXPECT_EQ(neutral, 2);
-  const std::string box =
-      write("box.obj", objText(rotated(makeBoxMesh({1, 0.5, 0.25}, 12), someRotation())));
+  const std::string text = run(inspect).output;
+  EXPECT_FALSE(hasRounding(text)) << text;
+  EXPECT_NE(text.find("\n    heave         yes\n"), std::string::npos) << text;
+  EXPECT_EQ(text.find("\n    heave         no\n"), std::string::npos) << text;
+}
+
+TEST_F(FloatingCommand, InspectShowsNoRoundingInObliqueAxes) {
+  const std::string box = write("box.json", R"({"type": "compound", "parts": [{
+    "shape": {"type": "box", "size": [1, 0.5, 0.25]}, "orientation": [0.8, 0.2, -0.4, 0.4]}]})");
   resultOf({"build", box, "-o", path("box.ambient"), "--panels", "300", "--json"});
-  const std::string of_box = run({"inspect", path("box.ambient"), "--mass", "500"}).output;
-  EXPECT_FALSE(hasRounding(of_box)) << of_box;
+  const Arguments inspect{"inspect", path("box.ambient"), "--mass", "62.5", "--density", "1000"};
+  EXPECT_TRUE(hasRounding(resultOf(appended(inspect, {"--json"})).dump()));
+  const std::string text = run(inspect).output;
+  EXPECT_FALSE(hasRounding(text)) << text;
+  EXPECT_NE(text.find("height of mass  0 m"), std::string::npos) << text;
 }
 
 TEST_F(FloatingCommand, InspectTellsThatABodySinks) {
