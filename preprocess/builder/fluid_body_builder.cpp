@@ -55,6 +55,21 @@ FaceTable facesOf(const TriangleMesh& mesh, bool sheet) {
   return faces;
 }
 
+/// Sharpness of the faces of a body whose mesh is `whole`, divided. The parts of a triangle are as
+/// sharp as it is: strips of a barrel stay round, though a part between others is flat.
+std::vector<double> sharpnessOfParts(const TriangleMesh& whole, const std::vector<int>& face,
+                                     const FluidBody& body) {
+  FluidBody undivided;
+  undivided.area = body.area;
+  undivided.surface = surfaceOf(whole);
+  undivided.faces = facesOf(whole, body.faces.size() > face.size());
+  const std::vector<double> sharpness = computeSharpness(undivided);
+  std::vector<double> parts;
+  for (auto side = sharpness.begin(); side < sharpness.end(); side += whole.triangleCount())
+    for (const int t : face) parts.push_back(side[t]);
+  return parts;
+}
+
 MassDistribution aboutOrigin(MassDistribution mass, const Eigen::Vector3d& origin) {
   mass.centre -= origin;
   return mass;
@@ -191,7 +206,8 @@ std::string holdsText(const HoldSearch& search) {
 FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& settings) {
   requireUsualSize(source_mesh, settings.flow.sheet, sourceOf(settings));
   requireWaterline(settings);
-  TriangleMesh mesh = divideTriangles(source_mesh, settings.least_faces);
+  DividedSurface divided = divideSurface(source_mesh, settings.least_faces);
+  TriangleMesh& mesh = divided.mesh;
   const MeshProperties properties = computeMassProperties(mesh, settings.flow.sheet);
   const Eigen::Vector3d origin = settings.origin.value_or(properties.uniform.centre);
   requireNearOrigin(mesh, origin, sourceOf(settings));
@@ -223,7 +239,9 @@ FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& se
   body.centre_of_volume = properties.uniform.centre - origin;
   body.faces = facesOf(mesh, settings.flow.sheet);
   body.surface = surfaceOf(mesh);
-  body.faces.sharpness = computeSharpness(body);
+  TriangleMesh whole = source_mesh;
+  whole.vertices.colwise() -= origin;
+  body.faces.sharpness = sharpnessOfParts(whole, divided.face, body);
   AMBIENT_ASSERT(body.faces.sharpness.size() == body.faces.size());
   AMBIENT_ASSERT(settings.sphere_radius >= 0);
   if (settings.sphere_radius > 0) setSphere(settings.sphere_radius, body);

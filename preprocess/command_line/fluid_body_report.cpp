@@ -53,29 +53,61 @@ std::string numberText(const ordered_json& number, const char* format) {
   return text;
 }
 
-/// A value on one line; of long lists the length. Rounding beside larger numbers becomes 0.
-std::string plainValue(const ordered_json& value) {
+/// What is smaller beside others of its unit is rounding, which people are shown as 0.
+constexpr double kRounding = 1e-9;
+
+/// A value on one line; of long lists the length. Numbers up to `rounding` become 0, and those of a
+/// list that are rounding beside its largest.
+std::string plainValue(const ordered_json& value, double rounding) {
   constexpr std::size_t kMostShown = 8;
-  constexpr double kRounding = 1e-9;
   if (value.is_string()) return plainLine(value.get<std::string>());
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
-  if (value.is_number_float()) return numberText(value, "%.9g");
+  if (value.is_number_float())
+    return std::abs(value.get<double>()) <= rounding ? "0" : numberText(value, "%.9g");
   if (!value.is_array()) return value.dump();
   if (value.size() > kMostShown) return std::to_string(value.size());
-  double largest = 0;
-  for (const ordered_json& item : value) largest = std::max(largest, std::abs(item.get<double>()));
+  for (const ordered_json& item : value)
+    rounding = std::max(rounding, kRounding * std::abs(item.get<double>()));
   std::string text;
-  for (const ordered_json& item : value) {
-    const bool is_zero = std::abs(item.get<double>()) <= kRounding * largest;
-    text += (text.empty() ? "" : ", ") + (is_zero ? "0" : plainValue(item));
+  for (const ordered_json& item : value)
+    text += (text.empty() ? "" : ", ") + plainValue(item, rounding);
+  return text;
+}
+
+/// The rows of a symmetric matrix: of 3x3 with one unit, or of 6x6, whose first three rows and
+/// columns each have the unit of the others times a length.
+std::string matrixText(const ordered_json& rows, const std::string& indent, double size) {
+  const double lever = rows.size() == 6 ? size : 1;
+  double largest = 0;
+  for (std::size_t i = rows.size() - 3; i < rows.size(); ++i)
+    largest = std::max(largest, std::abs(rows[i][i].get<double>()));
+  std::string text;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    text += indent;
+    for (std::size_t j = 0; j < rows.size(); ++j) {
+      const double rounding = kRounding * largest * (i < 3 ? lever : 1) * (j < 3 ? lever : 1);
+      const bool is_zero = std::abs(rows[i][j].get<double>()) <= rounding;
+      text += numberText(is_zero ? ordered_json(0) : rows[i][j], " %14.6e");
+    }
+    text += "\n";
   }
   return text;
 }
 
-/// A row for each fact with a value, the parts of a fact indented.
-std::string rowsText(const ordered_json& facts, const std::string& indent) {
+/// The largest extent in facts about a body, 0 without.
+double sizeIn(const ordered_json& facts) {
+  double size = 0;
+  if (facts.contains("size"))
+    for (const ordered_json& extent : facts["size"]) size = std::max(size, extent.get<double>());
+  return size;
+}
+
+/// A row for each fact with a value, the parts of a fact indented; `size` of the body that they are
+/// parts of [m], 0 if there is none.
+std::string rowsText(const ordered_json& facts, const std::string& indent, double size) {
   constexpr std::size_t kWidth = 18;
   const std::string inside = indent + "  ";
+  size = std::max(size, sizeIn(facts));
   std::string text;
   for (const auto& [key, value] : facts.items()) {
     if (value.empty() || (value.is_string() && value.get_ref<const std::string&>().empty()))
@@ -85,19 +117,16 @@ std::string rowsText(const ordered_json& facts, const std::string& indent) {
     const std::string label = title + std::string(kWidth - std::min(kWidth - 1, title.size()), ' ');
     const auto found = kUnits.find(key);
     const std::string unit = found == kUnits.end() ? "\n" : std::string(" ") + found->second + "\n";
+    const bool is_length = unit.compare(0, 2, " m") == 0 && unit[2] != '^';
+    const double rounding = is_length ? kRounding * size : 0;
     if (!value.is_structured() || (value.is_array() && value.front().is_number())) {
-      text += label + plainValue(value) + unit;
+      text += label + plainValue(value, rounding) + unit;
     } else if (value.is_array() && value.front().is_array()) {
-      text += label + unit;
-      for (const ordered_json& row : value) {
-        text += inside;
-        for (const ordered_json& number : row) text += numberText(number, " %14.6e");
-        text += "\n";
-      }
+      text += label + unit + matrixText(value, inside, size);
     } else {
       for (const ordered_json& part : value.is_object() ? ordered_json::array({value}) : value)
-        text += part.is_object() ? title + "\n" + rowsText(part, inside)
-                                 : label + plainValue(part) + unit;
+        text += part.is_object() ? title + "\n" + rowsText(part, inside, size)
+                                 : label + plainValue(part, rounding) + unit;
     }
   }
   return text;
@@ -159,7 +188,7 @@ ordered_json viscousJson(const ViscousForm& form) {
 
 std::string factsText(const ordered_json& facts, bool json) {
   return json ? facts.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n"
-              : rowsText(facts, "");
+              : rowsText(facts, "", 0);
 }
 
 ordered_json holdsJson(const std::vector<Hold>& holds) {

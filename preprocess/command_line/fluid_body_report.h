@@ -27,7 +27,7 @@ nlohmann::ordered_json matrixJson(const Matrix& matrix) {
 
 /// The text of facts that a command has found: `json` or rows for people, which leave out what is
 /// empty. Numbers in JSON have as many digits, 17 at most, as it takes to read back the same bits,
-/// those for people 9.
+/// those for people 9, and what is rounding beside other numbers or the size of the body is 0.
 std::string factsText(const nlohmann::ordered_json& facts, bool json);
 
 /// Lists holds: name, volume, rims.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/elementary.h"
@@ -27,6 +28,19 @@ Matrix3 leverStiffness(const Vector3& s, const Vector3& r) {
 
 constexpr double kRounding = 1e-12;
 
+// A sphere has no triangles in its hull.
+WetVolume wetVolumeOf(const FluidBody& body, const PackedHull& hull, const SurfacePlane& plane) {
+  return body.sphere_radius > 0 ? computeWetSphere(body.sphere_radius, body.centre_of_volume, plane)
+                                : computeWetVolume(hull, plane);
+}
+
+// The lowest and the highest point along `up` [m].
+std::pair<double, double> extentOf(const FluidBody& body, const PackedHull& hull,
+                                   const Vector3& up) {
+  const double middle = up.dot(body.centre_of_volume), radius = body.sphere_radius;
+  return radius > 0 ? std::pair(middle - radius, middle + radius) : computeExtent(hull, up);
+}
+
 /// Of the water in all holds [m^3].
 double waterIn(const FloatingBody& body) {
   double volume = 0;
@@ -46,13 +60,13 @@ void addWater(const FloatingBody& body, FloatingPose& pose) {
 // The height of the plane at which the water carries the body: Newton's method within an interval
 // that halving keeps.
 void balance(const FloatingBody& body, const PackedHull& hull, FloatingPose& pose) {
-  const auto [low, high] = computeExtent(hull, pose.plane.normal);
+  const auto [low, high] = extentOf(*body.shape, hull, pose.plane.normal);
   const double wanted = body.mass / body.density + waterIn(body);
   AMBIENT_ASSERT(body.mass > 0 && body.density > 0 && high > low);
   double below = low, above = high;
   pose.plane.height = (low + high) / 2;
   for (int i = 0; i < 100; ++i) {
-    pose.wet = computeWetVolume(hull, pose.plane);
+    pose.wet = wetVolumeOf(*body.shape, hull, pose.plane);
     const double excess = pose.wet.volume - wanted;
     if (std::abs(excess) <= kRounding * wanted) return;
     (excess > 0 ? above : below) = pose.plane.height;
@@ -114,7 +128,7 @@ FloatingPose settle(const FloatingBody& body, const PackedHull& hull, const Vect
   constexpr int kMostSteps = 200;
   constexpr double kLongest = 0.3;  // [rad]
   FloatingPose pose = floatAt(body, hull, up);
-  const auto [low, high] = computeExtent(hull, up);
+  const auto [low, high] = extentOf(*body.shape, hull, up);
   const double scale = body.mass * body.gravity * (high - low);
   for (int i = 0; i < kMostSteps; ++i) {
     if (pose.gradient.norm() <= 1e-10 * scale) break;
@@ -182,7 +196,7 @@ Eigen::Matrix3d stiffnessOf(const FloatingBody& body, const FloatingPose& pose,
 // Returns the inertia of body and added mass against `motions`. All others follow freely.
 Eigen::Matrix3d inertiaOf(const FloatingBody& body, const PackedHull& hull,
                           const FloatingPose& pose, const Motions& motions) {
-  const auto [low, high] = computeExtent(hull, pose.plane.normal);
+  const auto [low, high] = extentOf(*body.shape, hull, pose.plane.normal);
   const Matrix6 added =
       makeWettedInertia(body.shape)->inertia({pose.plane, low, high, pose.outside});
   const FrameOffset about_mass{Matrix3::Identity(), -body.centre_of_mass};
@@ -219,10 +233,12 @@ std::array<SmallOscillation, 3> modesOf(const FloatingBody& body, const PackedHu
   const Matrix3 root = Cholesky<3>(M).inverseTransposed();
   const Matrix3 reduced = root.transpose() * K * root;
   const SymmetricEigen<3> eigen = symmetricEigen<3>(reduced);
+  constexpr double kNeutral = 1e-9;  // of the square of the highest frequency: rounding
   std::array<SmallOscillation, 3> modes;
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d q = root * eigen.vectors.col(i);
-    modes[static_cast<std::size_t>(i)] = modeOf(q, eigen.values[i], K, of);
+    const double square = eigen.values[i] > kNeutral * eigen.values[2] ? eigen.values[i] : 0;
+    modes[static_cast<std::size_t>(i)] = modeOf(q, square, K, of);
   }
   return modes;
 }
@@ -236,7 +252,7 @@ FloatingAttitude describe(const FloatingBody& body, const PackedHull& hull,
   attitude.plane = pose.plane;
   attitude.wet = pose.wet;
   attitude.energy = pose.energy;
-  attitude.draught = pose.plane.height - computeExtent(hull, pose.plane.normal).first;
+  attitude.draught = pose.plane.height - extentOf(*body.shape, hull, pose.plane.normal).first;
   attitude.height_of_mass = -pose.plane.depth(body.centre_of_mass);
   // Turned about an axis a, the normal moves along a x s, in which the stiffness is given.
   const PlaneEigen eigen = planeEigen(pose.stiffness, PlaneAxes(pose.plane.normal));

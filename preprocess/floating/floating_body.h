@@ -42,7 +42,7 @@ struct Metacentre {
 /// A small oscillation about a floating attitude, without the waves that it makes; the other
 /// motions are free.
 struct SmallOscillation {
-  double period = 0;      ///< [s]
+  double period = 0;      ///< [s]; infinite: neutral
   Vector3 turn{0, 0, 0};  ///< unit axis of the rotation; zero: heave alone
   bool is_heave = false;  ///< true: most of its potential energy is that of heave
 };

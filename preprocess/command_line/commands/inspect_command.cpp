@@ -38,7 +38,8 @@ std::optional<double> freeboardOf(const FluidBody& body, const SurfacePlane& pla
   return least;
 }
 
-ordered_json attitudeJson(const FluidBody& body, const FloatingAttitude& attitude) {
+/// Neutral modes, which have no period, are listed with `all_modes` alone.
+ordered_json attitudeJson(const FluidBody& body, const FloatingAttitude& attitude, bool all_modes) {
   ordered_json json{{"up", vectorJson(attitude.up)},
                     {"alike", attitude.alike},
                     {"share", attitude.share},
@@ -51,15 +52,16 @@ ordered_json attitudeJson(const FluidBody& body, const FloatingAttitude& attitud
   for (const Metacentre& metacentre : attitude.metacentres)
     json["metacentres"].push_back(
         {{"height", metacentre.height}, {"axis", vectorJson(metacentre.axis)}});
-  for (const SmallOscillation& mode : attitude.modes) json["modes"].push_back(modeJson(mode));
+  for (const SmallOscillation& mode : attitude.modes)
+    if (all_modes || std::isfinite(mode.period)) json["modes"].push_back(modeJson(mode));
   return json;
 }
 
 /// The attitudes in which a body floats; none if it sinks.
-ordered_json floatingFacts(const FloatingBody& body) {
+ordered_json floatingFacts(const FloatingBody& body, bool all_modes) {
   ordered_json list = ordered_json::array();
   for (const FloatingAttitude& attitude : findFloatingAttitudes(body))
-    list.push_back(attitudeJson(*body.shape, attitude));
+    list.push_back(attitudeJson(*body.shape, attitude, all_modes));
   return list;
 }
 
@@ -101,6 +103,9 @@ void warnOfMass(const FloatingBody& body, const ordered_json& attitudes) {
   if (attitudes.empty())
     std::cerr << "it sinks: it displaces " << body.density * body.shape->volume << " kg"
               << (body.water.empty() ? "\n" : ", with the water in it\n");
+  constexpr double kDownwards = -0.5;  // within 60 degrees
+  if (!attitudes.empty() && attitudes[0]["up"][2] < kDownwards)
+    std::cerr << "it floats with its z axis downwards in the likeliest attitude\n";
 }
 
 void runInspect(const InspectArguments& arguments) {
@@ -108,7 +113,7 @@ void runInspect(const InspectArguments& arguments) {
   ordered_json facts = bodyFacts(body);
   if (arguments.mass) {
     const FloatingBody floating = onWater(body, arguments);
-    facts["floating"] = floatingFacts(floating);
+    facts["floating"] = floatingFacts(floating, arguments.json);
     if (!arguments.json) warnOfMass(floating, facts["floating"]);
   }
   std::cout << factsText(facts, arguments.json);

@@ -213,11 +213,15 @@ const DividedSurface* beforeHalving(const std::vector<DividedSurface>& uniform) 
 
 }  // namespace
 
-TriangleMesh divideTriangles(const TriangleMesh& mesh, int least_triangles) {
+DividedSurface divideSurface(const TriangleMesh& mesh, int least_triangles) {
   AMBIENT_ASSERT(mesh.triangleCount() > 0 && isManifold(computeMeshEdges(mesh)));
   DividedSurface fine = undivided(mesh);
   while (fine.mesh.triangleCount() < least_triangles) fine = cutLongEdges(fine);
-  return fine.mesh;
+  return fine;
+}
+
+TriangleMesh divideTriangles(const TriangleMesh& mesh, int least_triangles) {
+  return divideSurface(mesh, least_triangles).mesh;
 }
 
 TriangleMesh divideLongEdges(const TriangleMesh& mesh, double longest_edge) {

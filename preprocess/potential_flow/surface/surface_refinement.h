@@ -52,6 +52,9 @@ SurfaceLevels refineInLevels(const TriangleMesh& mesh, bool sheet, int max_trian
 /// Halves the longest edges until there are at least `least_triangles` triangles, of similar size.
 /// The surface stays the same. Vertices of the mesh come first.
 /// @pre the mesh has a triangle; every edge has one or two.
+DividedSurface divideSurface(const TriangleMesh& mesh, int least_triangles);
+
+/// The mesh of divideSurface().
 TriangleMesh divideTriangles(const TriangleMesh& mesh, int least_triangles);
 
 /// Halves edges until none is longer than `longest_edge` [m]. The surface stays the same. Vertices

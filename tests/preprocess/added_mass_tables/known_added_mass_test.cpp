@@ -308,6 +308,22 @@ std::vector<Blade> blades() {
        true}};
 }
 
+/// Barrels of 8 strips, which count as sides, and of 12, which count as round.
+std::vector<Blade> barrels() {
+  std::vector<Blade> all;
+  for (const int strips : {8, 12}) {
+    std::vector<Vector3> corners;
+    for (int i = 0; i < strips; ++i)
+      for (const double z : {-0.5, 0.5}) {
+        const double angle = 2 * kPi * i / strips;
+        corners.emplace_back(0.5 * std::cos(angle), 0.5 * std::sin(angle), z);
+      }
+    all.push_back(
+        {strips == 8 ? "barrel of sides" : "round barrel", hullOf(corners), {0.5, 0.5, 0.4}});
+  }
+  return all;
+}
+
 FluidBody bodyOf(const Blade& blade, int least_faces) {
   BuildSettings settings;
   settings.name = blade.name;
@@ -351,7 +367,9 @@ TEST(FormLawRefinement, LeavesAPlateItsAspectRatioAndChord) {
 // A per cent of the load, or of the mean of all loads where those on the sides cancel.
 TEST(FormLawRefinement, KeepsForceAndMomentWithinAPercent) {
   test::Arbitrary arbitrary(76);
-  for (const Blade& blade : blades()) {
+  std::vector<Blade> bodies = blades();
+  for (const Blade& barrel : barrels()) bodies.push_back(barrel);
+  for (const Blade& blade : bodies) {
     const auto coarse = loadsOf(bodyOf(blade, 0)), fine = loadsOf(bodyOf(blade, kFine));
     constexpr int kMotions = 200;
     std::vector<Wrench> found, expected;

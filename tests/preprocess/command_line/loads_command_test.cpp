@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 #include <string>
 
+#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "bullet_ambient/force/loads/face_loads.h"
 #include "preprocess/base/fluid_body_writer.h"
@@ -252,6 +254,10 @@ TEST_F(FloatingCommand, InspectTellsOfABodyUpsideDownAndOfOneLighterThanAir) {
   EXPECT_NE(inspect("500", "0.24").output.find(downwards), std::string::npos)
       << inspect("500", "0.24").output;
   EXPECT_EQ(inspect("500", "-0.24").output.find(downwards), std::string::npos);
+  EXPECT_EQ(inspect("500", "0.24").errors,
+            "it floats with its z axis downwards in the likeliest attitude\n");
+  EXPECT_EQ(inspect("500", "-0.24").errors, "");
+  EXPECT_EQ(run({"inspect", file, "--mass", "500"}).errors, "") << "either side is up";
   EXPECT_NE(inspect("0.5", "0").errors.find("it is lighter than the 1.2"), std::string::npos)
       << inspect("0.5", "0").errors;
 }
@@ -276,6 +282,42 @@ TEST_F(FloatingCommand, PeriodsAreThoseOfTheInertiaThatIsGiven) {
   EXPECT_NE(refusal({"inspect", file, "--mass", "500", "--inertia", "-1", "1", "1", "0", "0", "0"})
                 .find("smallest principal moment"),
             std::string::npos);
+}
+
+/// True if a text has a number that is not 0 and below 1e-9.
+bool hasRounding(const std::string& text) {
+  static const std::regex kTiny("e-(0[9]|[1-9][0-9]|[0-9]{3})");
+  return std::regex_search(text, kTiny);
+}
+
+// A ball up to its middle in water: every turn is neutral.
+TEST_F(FloatingCommand, InspectTellsHowABallFloats) {
+  resultOf({"build", write("ball.json", sphereText()), "-o", path("ball.ambient"), "--json"});
+  const Arguments inspect{"inspect",          path("ball.ambient"), "--mass",
+                          "261.799387799149", "--density",          "1000"};
+  const json ball = resultOf(appended(inspect, {"--json"}))["floating"];
+  ASSERT_EQ(ball.size(), 1u);
+  EXPECT_NEAR(ball[0]["draught"].get<double>(), 0.5, 1e-9);
+  EXPECT_NEAR(ball[0]["waterplane_area"].get<double>(), kPi / 4, 1e-9);
+  EXPECT_NEAR(ball[0]["metacentres"][0]["height"].get<double>(), 0, 1e-9);
+  int neutral = 0;
+  for (const json& mode : ball[0]["modes"]) neutral += mode["period"].is_null() ? 1 : 0;
+  EXPECT_EQ(neutral, 2);
+  const std::string text = run(inspect).output;
+  EXPECT_FALSE(hasRounding(text)) << text;
+  EXPECT_NE(text.find("\n    heave         yes\n"), std::string::npos) << text;
+  EXPECT_EQ(text.find("\n    heave         no\n"), std::string::npos) << text;
+}
+
+TEST_F(FloatingCommand, InspectShowsNoRoundingInObliqueAxes) {
+  const std::string box = write("box.json", R"({"type": "compound", "parts": [{
+    "shape": {"type": "box", "size": [1, 0.5, 0.25]}, "orientation": [0.8, 0.2, -0.4, 0.4]}]})");
+  resultOf({"build", box, "-o", path("box.ambient"), "--panels", "300", "--json"});
+  const Arguments inspect{"inspect", path("box.ambient"), "--mass", "62.5", "--density", "1000"};
+  EXPECT_TRUE(hasRounding(resultOf(appended(inspect, {"--json"})).dump()));
+  const std::string text = run(inspect).output;
+  EXPECT_FALSE(hasRounding(text)) << text;
+  EXPECT_NE(text.find("height of mass  0 m"), std::string::npos) << text;
 }
 
 TEST_F(FloatingCommand, InspectTellsThatABodySinks) {
@@ -315,6 +357,50 @@ json upright(const json& facts) {
   for (const json& attitude : facts["floating"])
     if (best.is_null() || attitude["up"][2] > best["up"][2]) best = attitude;
   return best;
+}
+
+/// Wigley's hull of 50 x 12 x 3.5 m in quads, with straight sides and a deck above the water:
+/// y = B/2 (1 - (2x/L)^2) (1 - (z/T)^2). Where keel and stem meet, port and starboard have three
+/// corners in common, and quads of the deck have two.
+std::string wigleyText() {
+  constexpr int kAlong = 36, kUp = 12, kLevels = kUp + 2;
+  std::ostringstream text;
+  for (const int side : {-1, 1})
+    for (int i = 0; i <= kAlong; ++i)
+      for (int j = 0; j < kLevels; ++j) {
+        const double s = 2.0 * i / kAlong - 1, t = std::min(double(j) / kUp - 1, 0.0);
+        text << "v " << 25 * s << ' ' << side * 6 * (1 - s * s) * (1 - t * t) << ' '
+             << (j > kUp ? 2 : 3.5 * t) << '\n';
+      }
+  const auto add = [&](int a, int b, int c, int d) {
+    text << "f " << a << ' ' << b << ' ' << c << ' ' << d << '\n';
+  };
+  constexpr int kPort = (kAlong + 1) * kLevels;
+  for (int i = 0; i < kAlong; ++i) {
+    const int first = 1 + i * kLevels, next = first + kLevels;
+    for (int j = 0; j <= kUp; ++j) {
+      add(first + j, next + j, next + j + 1, first + j + 1);
+      add(kPort + first + j, kPort + first + j + 1, kPort + next + j + 1, kPort + next + j);
+    }
+    const int deck = kLevels - 1;
+    add(first + deck, next + deck, kPort + next + deck, kPort + first + deck);
+  }
+  return text.str();
+}
+
+// By the formulas GM is 3.964 m at 3.5 m; chords of the sides leave 0.4 % of the volume out.
+TEST_F(FloatingCommand, WigleysHullOfQuadsFloatsAsItsFormulaSays) {
+  const std::string file = path("wigley.ambient");
+  const ProgramResult built = run({"build", write("wigley.obj", wigleyText()), "-o", file,
+                                   "--origin", "0,0,0", "--panels", "0", "--strict"});
+  ASSERT_EQ(built.exit_code, 0) << built.errors;
+  EXPECT_NE(built.errors.find("opposite triangles on the same corners, were left out: 2"),
+            std::string::npos)
+      << built.errors;
+  const json hull = upright(resultOf({"inspect", file, "--mass", "956667", "--density", "1025",
+                                      "--centre-of-mass", "0", "0", "-1.75", "--json"}));
+  EXPECT_NEAR(hull["draught"].get<double>(), 3.508, 0.001);
+  EXPECT_NEAR(hull["metacentres"][0]["height"].get<double>(), 3.96, 0.005);
 }
 
 // What is read of an .obj file has the rounding of float.
