@@ -70,8 +70,8 @@ struct Point {
   double area;
 };
 
-/// Makes the points of plane quadrilaterals and triangles: the more the longer they are, one where
-/// they are shorter than a twentieth of the body's size.
+/// Makes the points of plane quadrilaterals and triangles: four each way, or, with `few_across`,
+/// two where they are shorter than a tenth of the body's size, one where shorter than a twentieth.
 class PointMaker {
  public:
   /// `size`: of the body [m].
@@ -81,32 +81,33 @@ class PointMaker {
   double longestEdge() const { return 0.2 * size_; }
 
   /// Points of a flat side with these corners.
-  std::vector<Point> pointsOf(const std::vector<Vector3>& corners) const {
+  std::vector<Point> pointsOf(const std::vector<Vector3>& corners, bool few_across) const {
     std::vector<Point> points;
     for (std::size_t i = 1; i + 1 < corners.size(); i += 2)
       if (i + 2 < corners.size())
-        add({corners[0], corners[i], corners[i + 1], corners[i + 2]}, 4, points);
+        add({corners[0], corners[i], corners[i + 1], corners[i + 2]}, {4, few_across}, points);
       else
-        add({corners[0], corners[i], corners[i + 1]}, points);
-    return points;
-  }
-  std::vector<Point> pointsOf(const Corners& corners) const {
-    std::vector<Point> points;
-    add(corners, points);
+        add({corners[0], corners[i], corners[i + 1]}, few_across, points);
     return points;
   }
 
  private:
-  int pointsAlong(double length, int most) const {
-    const double share = length / size_;
-    return std::min(most, share < 0.05 ? 1 : share < 0.1 ? 2 : share < 0.2 ? 3 : 4);
+  struct Rule {
+    int most;
+    bool few_across;
+  };
+
+  int pointsAlong(double length, const Rule& rule) const {
+    if (!rule.few_across || length >= 0.1 * size_) return rule.most;
+    return length < 0.05 * size_ ? 1 : 2;
   }
 
-  /// Adds the points of a plane quadrilateral, at most so many each way.
-  void add(const std::array<Vector3, 4>& corners, int most, std::vector<Point>& points) const {
+  /// Adds the points of a plane quadrilateral.
+  void add(const std::array<Vector3, 4>& corners, const Rule& rule,
+           std::vector<Point>& points) const {
     const auto& [a, b, c, d] = corners;
-    const int across = pointsAlong(std::max((b - a).norm(), (c - d).norm()), most);
-    const int up = pointsAlong(std::max((d - a).norm(), (c - b).norm()), most);
+    const int across = pointsAlong(std::max((b - a).norm(), (c - d).norm()), rule);
+    const int up = pointsAlong(std::max((d - a).norm(), (c - b).norm()), rule);
     for (int i = 0; i < across; ++i)
       for (int j = 0; j < up; ++j) {
         const Node &u = kNodes[across - 1][i], &v = kNodes[up - 1][j];
@@ -118,11 +119,11 @@ class PointMaker {
   }
 
   /// Adds the points of a triangle, as three quadrilaterals that meet in its middle.
-  void add(const Corners& corners, std::vector<Point>& points) const {
+  void add(const Corners& corners, bool few_across, std::vector<Point>& points) const {
     const Vector3 middle = (corners[0] + corners[1] + corners[2]) / 3;
     for (std::size_t k = 0; k < 3; ++k) {
       const Vector3 &here = corners[k], &next = corners[(k + 1) % 3], &last = corners[(k + 2) % 3];
-      add({middle, (last + here) / 2, here, (here + next) / 2}, 3, points);
+      add({middle, (last + here) / 2, here, (here + next) / 2}, {3, few_across}, points);
     }
   }
 
@@ -227,7 +228,9 @@ FaceTable facesWithPoints(const FluidBody& body) {
     if (!common) continue;
     const bool is_sharp = *common == 1;
     const std::vector<Vector3> corners = mesh.places(side.corners);
-    const std::vector<Point> points = maker.pointsOf(corners);
+    // Strips of round surfaces and fans of many corners.
+    const bool is_divided = !is_sharp || corners.size() > 4;
+    const std::vector<Point> points = maker.pointsOf(corners, is_divided);
     const double sharpness = is_sharp ? sharpnessOfSide(corners) : *common;
     if (is_sharp ? !deservesPoints(side, points.size(), mesh, body, longest)
                  : !isLongStrip(side, mesh, longest)) {
@@ -245,7 +248,7 @@ FaceTable facesWithPoints(const FluidBody& body) {
     if (is_replaced[t]) continue;
     const Corners corners = cornersOf(mesh, static_cast<int>(t));
     if (isLong(corners, longest))
-      collector.addPointsOf(face, maker.pointsOf(corners));
+      collector.addPointsOf(face, maker.pointsOf({corners.begin(), corners.end()}, true));
     else
       collector.copy(face);
   }

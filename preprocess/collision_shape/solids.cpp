@@ -181,7 +181,9 @@ TriangleMesh evenlyDivided(const TriangleMesh& mesh, int faces) {
 }
 
 std::optional<Matrix6> tabulatedAddedMass(const Shape& shape) {
-  const auto known = factsOf(shape).added_mass(1);
+  const ShapeFacts facts = factsOf(shape);
+  const bool has_size = facts.half_extents.allFinite() && facts.half_extents.minCoeff() > 0;
+  const auto known = has_size ? facts.added_mass(1) : std::nullopt;
   return known && known->is_tabulated ? std::optional(known->added_mass) : std::nullopt;
 }
 
