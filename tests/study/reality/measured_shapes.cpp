@@ -17,6 +17,7 @@
 #include "preprocess/mesh/shapes/convex_hull.h"
 #include "preprocess/mesh/shapes/primitives.h"
 #include "preprocess/mesh/triangle_mesh.h"
+#include "preprocess/potential_flow/surface/surface_refinement.h"
 #include "preprocess/shape/shape_reader.h"
 
 namespace ambient {
@@ -278,7 +279,8 @@ FluidBody makeMeasuredShape(const nlohmann::json& shape) {
   static_cast<CommonBuildSettings&>(settings) = common;
   settings.flow.sheet = common.name == "cup" || common.name == "half pipe" ||
                         common.name == "delta" || common.name == "shuttlecock";
-  return makeFluidBody(meshOf(shape), settings);
+  // Divided before it is built, the sides of grains count as flat.
+  return makeFluidBody(divideTriangles(meshOf(shape), common.least_faces), settings);
 }
 
 namespace {
