@@ -77,8 +77,7 @@ class PointMaker {
   /// `size`: of the body [m].
   explicit PointMaker(double size) : size_(size) {}
 
-  /// Longest edge of a triangle that is sampled at one point [m].
-  double longestEdge() const { return 0.2 * size_; }
+  static constexpr double kLongest = 0.2;  ///< edge of a triangle with one point, in sizes
 
   /// Points of a flat side with these corners.
   std::vector<Point> pointsOf(const std::vector<Vector3>& corners, bool few_across) const {
@@ -173,11 +172,22 @@ bool deservesPoints(const FlatSide& side, std::size_t points, const SurfaceTrian
   return points < side.triangles.size() || area >= kLarge * body.area || has_long;
 }
 
-/// Returns true for a strip of a round surface that has a triangle too long for one point.
-bool isLongStrip(const FlatSide& side, const SurfaceTriangles& mesh, double longest) {
-  return side.triangles.size() > 1 &&
-         std::any_of(side.triangles.begin(), side.triangles.end(),
-                     [&](int t) { return isLong(cornersOf(mesh, t), longest); });
+/// Returns true for a narrow strip of a round surface with a triangle too long for one point.
+bool isLongStrip(const FlatSide& side, const SurfaceTriangles& mesh, double size) {
+  constexpr double kNarrow = 0.1;
+  if (side.triangles.size() < 2) return false;
+  double longest = 0, twice_area = 0;
+  bool has_long = false;
+  for (const int t : side.triangles) {
+    const Corners c = cornersOf(mesh, t);
+    twice_area += (c[1] - c[0]).cross(c[2] - c[0]).norm();
+    has_long = has_long || isLong(c, PointMaker::kLongest * size);
+  }
+  for (std::size_t i = 0; i < side.corners.size(); ++i) {
+    const int next = side.corners[(i + 1) % side.corners.size()];
+    longest = std::max(longest, (mesh.place(next) - mesh.place(side.corners[i])).norm());
+  }
+  return has_long && twice_area / 2 < kNarrow * size * longest;
 }
 
 /// Sets the sharpness of the faces of a side; a sheet of as many `triangles` has them on its back,
@@ -219,22 +229,21 @@ FaceTable facesWithPoints(const FluidBody& body) {
   AMBIENT_ASSERT(faces.sharpness.size() == faces.size());
   if (body.surface.triangles.empty()) return faces;
   const SurfaceTriangles mesh(body);
-  const PointMaker maker(sizeOf(body, mesh));
-  const double longest = maker.longestEdge();
+  const double size = sizeOf(body, mesh), longest = PointMaker::kLongest * size;
+  const PointMaker maker(size);
   FaceCollector collector(faces);
   std::vector<bool> is_replaced(static_cast<std::size_t>(mesh.size()));
   for (const FlatSide& side : findFlatSides(mesh)) {
     const std::optional<double> common = commonSharpness(side, faces);
     if (!common) continue;
     const bool is_sharp = *common == 1;
+    if (!is_sharp && !isLongStrip(side, mesh, size)) continue;
     const std::vector<Vector3> corners = mesh.places(side.corners);
-    // Strips of round surfaces and fans of many corners.
-    const bool is_divided = !is_sharp || corners.size() > 4;
-    const std::vector<Point> points = maker.pointsOf(corners, is_divided);
+    const bool is_fan = corners.size() > 4;
+    const std::vector<Point> points = maker.pointsOf(corners, !is_sharp || is_fan);
     const double sharpness = is_sharp ? sharpnessOfSide(corners) : *common;
-    if (is_sharp ? !deservesPoints(side, points.size(), mesh, body, longest)
-                 : !isLongStrip(side, mesh, longest)) {
-      if (is_sharp && side.has_sharp_rim) setSharpness(side, sharpness, mesh.size(), faces);
+    if (is_sharp && !deservesPoints(side, points.size(), mesh, body, longest)) {
+      if (side.has_sharp_rim) setSharpness(side, sharpness, mesh.size(), faces);
       continue;
     }
     for (const Point& point : points) {
@@ -248,7 +257,7 @@ FaceTable facesWithPoints(const FluidBody& body) {
     if (is_replaced[t]) continue;
     const Corners corners = cornersOf(mesh, static_cast<int>(t));
     if (isLong(corners, longest))
-      collector.addPointsOf(face, maker.pointsOf({corners.begin(), corners.end()}, true));
+      collector.addPointsOf(face, maker.pointsOf({corners.begin(), corners.end()}, false));
     else
       collector.copy(face);
   }

@@ -239,9 +239,9 @@ FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& se
   body.centre_of_volume = properties.uniform.centre - origin;
   body.faces = facesOf(mesh, settings.flow.sheet);
   body.surface = surfaceOf(mesh);
-  TriangleMesh whole = source_mesh;
-  whole.vertices.colwise() -= origin;
-  body.faces.sharpness = sharpnessOfParts(whole, divided.face, body);
+  body.faces.sharpness = mesh.triangleCount() > source_mesh.triangleCount()
+                             ? sharpnessOfParts(source_mesh, divided.face, body)
+                             : computeSharpness(body);
   AMBIENT_ASSERT(body.faces.sharpness.size() == body.faces.size());
   AMBIENT_ASSERT(settings.sphere_radius >= 0);
   if (settings.sphere_radius > 0) setSphere(settings.sphere_radius, body);
