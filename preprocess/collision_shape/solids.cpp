@@ -182,7 +182,7 @@ TriangleMesh evenlyDivided(const TriangleMesh& mesh, int faces) {
 
 std::optional<Matrix6> tabulatedAddedMass(const Shape& shape) {
   const ShapeFacts facts = factsOf(shape);
-  const bool has_size = facts.half_extents.allFinite() && facts.half_extents.minCoeff() > 0;
+  const bool has_size = facts.half_extents.allFinite() && (facts.half_extents.array() > 0).all();
   const auto known = has_size ? facts.added_mass(1) : std::nullopt;
   return known && known->is_tabulated ? std::optional(known->added_mass) : std::nullopt;
 }

@@ -236,8 +236,9 @@ void setVelocity(const Arrival& arrival, const BoundedTwist& end, double time_st
   AmbientBody& ambient = *arrival.ambient;
   Twist change_B = Twist::fromVector(end.twist - arrival.moved);
   if (ambient.surface()) change_B.angular = ambient.surface()->withoutStill(change_B.angular);
-  const Twist change_W = onFreeAxes(withoutTraces(turned(arrival.orientation, change_B), time_step),
-                                    axisFactors(*ambient.body));
+  Twist change_W = withoutTraces(turned(arrival.orientation, change_B), time_step);
+  const bool may_be_locked = !arrival.rows().momentum_W;
+  if (may_be_locked) change_W = onFreeAxes(change_W, axisFactors(*ambient.body));
   if (!change_W.vector().allFinite()) {
     ++ambient.counters.rejected;
     complaints.say(Complaint::kNotFinite);

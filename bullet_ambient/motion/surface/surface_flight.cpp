@@ -194,9 +194,10 @@ class SurfaceFlights {
     for (int i = 0; i < count_; ++i) spins[i] = spinOf(i);
     step();
     for (int i = 0; i < count_; ++i) {
-      if (!isActive(i)) continue;
+      const Vector3& axis = progress_[i].model().still_axis_B;
+      if (!isActive(i) || axis.isZero(0)) continue;
       Twist x = twistOf(lanes_.flight.twist_B, i);
-      x.angular += (spins[i] - spinOf(i)) * progress_[i].model().still_axis_B;
+      x.angular += (spins[i] - spinOf(i)) * axis;
       setLane(lanes_.flight.twist_B, i, x);
     }
   }

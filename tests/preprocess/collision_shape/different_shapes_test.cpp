@@ -105,7 +105,7 @@ TEST(DifferentShapes, BoxesCostLittle) {
         return std::make_unique<btBoxShape>(
             btVector3(toScalar(s.x()), toScalar(s.y()), toScalar(s.z())));
       },
-      {139, 1110, 3150});
+      {108, 1208, 3230});
 }
 
 TEST(DifferentShapes, CylindersCostLittle) {
@@ -114,7 +114,7 @@ TEST(DifferentShapes, CylindersCostLittle) {
         return std::make_unique<btCylinderShapeZ>(
             btVector3(toScalar(s.x()), toScalar(s.x()), toScalar(s.y())));
       },
-      {317, 3540, 5720});
+      {246, 3060, 5470});
 }
 
 TEST(DifferentShapes, CapsulesCostLittle) {
@@ -122,7 +122,7 @@ TEST(DifferentShapes, CapsulesCostLittle) {
       [](const Sizes& s) {
         return std::make_unique<btCapsuleShapeZ>(toScalar(s.x()), toScalar(2 * s.y()));
       },
-      {260, 3130, 10700});
+      {232, 2750, 10500});
 }
 
 TEST(DifferentShapes, ConesCostLittle) {
@@ -130,7 +130,7 @@ TEST(DifferentShapes, ConesCostLittle) {
       [](const Sizes& s) {
         return std::make_unique<btConeShapeZ>(toScalar(s.x()), toScalar(2 * s.y()));
       },
-      {289, 3700, 8640});
+      {256, 3160, 8360});
 }
 
 }  // namespace
