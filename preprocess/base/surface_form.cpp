@@ -239,8 +239,8 @@ FaceTable facesWithPoints(const FluidBody& body) {
     const bool is_sharp = *common == 1;
     if (!is_sharp && !isLongStrip(side, mesh, size)) continue;
     const std::vector<Vector3> corners = mesh.places(side.corners);
-    const bool is_fan = corners.size() > 4;
-    const std::vector<Point> points = maker.pointsOf(corners, !is_sharp || is_fan);
+    constexpr std::size_t kDisc = 12;  // corners of a side with a round outline
+    const std::vector<Point> points = maker.pointsOf(corners, !is_sharp || corners.size() >= kDisc);
     const double sharpness = is_sharp ? sharpnessOfSide(corners) : *common;
     if (is_sharp && !deservesPoints(side, points.size(), mesh, body, longest)) {
       if (side.has_sharp_rim) setSharpness(side, sharpness, mesh.size(), faces);
