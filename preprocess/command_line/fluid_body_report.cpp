@@ -53,7 +53,7 @@ std::string numberText(const ordered_json& number, const char* format) {
   return text;
 }
 
-/// What is smaller beside others of its unit is rounding, which people are shown as 0.
+/// Limit below which a number is shown as 0, relative to the largest one of its unit: rounding.
 constexpr double kRounding = 1e-9;
 
 /// A value on one line; of long lists the length. Numbers up to `rounding` become 0, and those of a

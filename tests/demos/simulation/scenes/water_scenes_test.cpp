@@ -340,7 +340,7 @@ TEST(Buoy, DoesNotSpinInWaves) {
   EXPECT_LT(std::abs(turned.about_axis), 0.01);  // measured 0.005; by sums over parts 0.16
 }
 
-// The same of a float that a ball joint holds to a spar.
+// Waves do not spin a float about its axis that a ball joint holds to a spar.
 TEST(Buoy, DoesNotSpinOnAJoint) {
   const TemporaryFolder folder;
   writeText(folder / "buoy.json", R"({"duration": 500, )" + std::string(kSwell) + R"(
@@ -353,7 +353,7 @@ TEST(Buoy, DoesNotSpinOnAJoint) {
   EXPECT_LT(std::abs(turned.about_axis), 0.02);
 }
 
-// The same of a float of a robot, on a rail along a spar that hangs below it.
+// Waves do not spin the float of a robot about its axis, on a rail along a spar that hangs below.
 TEST(Buoy, DoesNotSpinOnTheRailOfARobot) {
   const TemporaryFolder folder;
   writeText(folder / "buoy.urdf", R"(<robot name="buoy">
