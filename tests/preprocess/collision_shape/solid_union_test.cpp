@@ -228,7 +228,7 @@ bool isInside(const TriangleMesh& hull, const Eigen::Vector3d& x) {
 // Share of evenly spread points that are in a piece.
 TEST(SolidUnion, VolumeOfAConvexDecompositionIsWhatCountingPointsGives) {
   constexpr int kPoints = 200000;
-  const std::vector<TriangleMesh> hulls = decomposedBall(19);
+  const std::vector<TriangleMesh> hulls = decomposedBall(14);
   const Eigen::Vector3d spread(0.8191725133961645, 0.6710436067037893, 0.5497004779019702);
   int inside = 0;
   for (int i = 0; i < kPoints; ++i) {
