@@ -259,44 +259,35 @@ std::optional<CheckedMesh> wrapOf(const Meshes& parts, const std::string& name) 
 
 /// The union of a group, or a wrap around it. Round parts of many triangles, which seldom can be
 /// united, are wrapped before the tries that take seconds.
-Solid unitedOrWrapped(const Meshes& parts, bool polyhedra, JoinedBy by, const std::string& name) {
+CheckedMesh unitedOrWrapped(const Meshes& parts, JoinedBy by, const std::string& name) {
   constexpr Eigen::Index kFewTriangles = 1500;
   const bool are_few = joinMeshes(parts).triangleCount() <= kFewTriangles;
-  const auto solidOf = [](CheckedMesh surface, bool is_polyhedron) {
-    Solid solid;
-    solid.mesh = std::move(surface.mesh);
-    solid.cavities = std::move(surface.cavities);
-    solid.is_polyhedron = is_polyhedron;
-    return solid;
-  };
   std::string reason;
   if (by == JoinedBy::kUnion) {
     try {
-      return solidOf(uniteMeshes(parts, name, are_few ? UnionTries::kAll : UnionTries::kOne),
-                     polyhedra);
+      return uniteMeshes(parts, name, are_few ? UnionTries::kAll : UnionTries::kOne);
     } catch (const std::runtime_error& error) {
       reason = error.what();
     }
   }
-  if (std::optional<CheckedMesh> wrap = wrapOf(parts, name))
-    return solidOf(*std::move(wrap), false);
+  if (std::optional<CheckedMesh> wrap = wrapOf(parts, name)) return *std::move(wrap);
   if (by == JoinedBy::kWrap || are_few) throw std::runtime_error(reason);
-  return solidOf(uniteMeshes(parts, name), polyhedra);
+  return uniteMeshes(parts, name);
 }
 
 Solid uniteGroup(const std::vector<Solid>& group, int faces, JoinedBy by, const std::string& name) {
+  Solid solid;
   Meshes parts, cavities;
-  std::vector<std::string> warnings;
   for (const Solid& own : group) {
     parts.push_back(own.is_polyhedron ? mergePolyhedronSides(own.mesh)
                                       : mergeFlatTriangles(own.mesh, false, kDefaultPanels));
     cavities.push_back(own.cavities);
-    warnings.insert(warnings.end(), own.warnings.begin(), own.warnings.end());
+    solid.warnings.insert(solid.warnings.end(), own.warnings.begin(), own.warnings.end());
   }
-  Solid solid = unitedOrWrapped(parts, arePolyhedra(group), by, name);
-  solid.warnings = std::move(warnings);
-  cavities.push_back(solid.cavities);
-  solid.mesh = evenlyDivided(solid.mesh, faces);
+  const CheckedMesh surface = unitedOrWrapped(parts, by, name);
+  cavities.push_back(surface.cavities);
+  solid.is_polyhedron = arePolyhedra(group);
+  solid.mesh = evenlyDivided(surface.mesh, faces);
   solid.cavities = joinMeshes(cavities);
   return solid;
 }
