@@ -10,6 +10,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "bullet_ambient/bullet/core/attitude.h"
 #include "bullet_ambient/bullet/core/conversions.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/resistance/prepare.h"
@@ -229,6 +230,7 @@ void Robot::requireFinite(const std::string& joint, const char* what, double val
 void Robot::setPosition(const std::string& joint, double position) {
   requireFinite(joint, "position", position);
   body_->setJointPos(jointNumber(joint), static_cast<btScalar>(position));
+  settleLink(body_->getLink(jointNumber(joint)));
   moveColliders();
 }
 

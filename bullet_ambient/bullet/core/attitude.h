@@ -1,6 +1,7 @@
 #pragma once
 
 #include <BulletDynamics/Dynamics/btRigidBody.h>
+#include <BulletDynamics/Featherstone/btMultiBodyLink.h>
 
 #include <cmath>
 #include <limits>
@@ -17,12 +18,23 @@ AMBIENT_BEGIN
 inline const double kTurnRounding =
     std::sqrt(16 * static_cast<double>(std::numeric_limits<btScalar>::epsilon()));
 
+/// Returns the turn that Bullet makes of the vector `turn` [rad] in one step. Beyond pi/4 it turns
+/// by less.
+Quaternion turnOfBullet(const Vector3& turn) noexcept;
+
 /// Returns the attitude that Bullet's integrateTransform() gives to a body at `from` that turns by
-/// `turn_W` [rad]. Beyond pi/4 it turns by less, as Bullet does.
+/// `turn_W` [rad].
 Quaternion turnedByBullet(const Quaternion& from, const Vector3& turn_W) noexcept;
 
 /// Sets the attitude of a body that Bullet has brought there up to kTurnRounding. Leaves a body
 /// alone that others have turned.
 void settleAttitude(btRigidBody& body, const Quaternion& attitude) noexcept;
+
+/// Returns btQuaternion(axis, angle [rad]).
+btQuaternion turnAbout(const btVector3& axis, btScalar angle) noexcept;
+
+/// Computes anew what Bullet keeps of the position of a link's joint: its rotation and the way from
+/// its parent, like btMultibodyLink::updateCacheMultiDof(). Returns true if a number has changed.
+bool settleLink(btMultibodyLink& link) noexcept;
 
 AMBIENT_END

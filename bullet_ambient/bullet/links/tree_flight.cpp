@@ -59,9 +59,10 @@ bool takeFlight(AmbientTree& tree, const TreeTask& task) {
   step.moved << end.effective_W.angular, end.effective_W.linear;
   if (turnsTooFastForBullet(tree.tree, step.moved, task.duration)) return false;
   step.end << end.left_W.angular, end.left_W.linear;
-  step.pose.orientation = end.orientation;
-  step.pose.position = end.position;
-  tree.flight.stay(step.pose, step.end);
+  TreePose& reached = step.surface.middle;  // scratch memory: bodies have no middle
+  reached.orientation = end.orientation;
+  reached.position = end.position;
+  tree.flight.stay(reached, step.end);
   setFlown(step);
   if (ambient.outcome.is_too_long) task.bodies.complaints.sayTooLong(*ambient.def);
   return true;

@@ -9,6 +9,7 @@
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/bullet/links/tree_flight.h"
 #include "bullet_ambient/bullet/links/tree_links.h"
+#include "bullet_ambient/bullet/links/tree_pose.h"
 #include "bullet_ambient/bullet/links/tree_reading.h"
 #include "bullet_ambient/bullet/links/tree_surface.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
@@ -300,6 +301,7 @@ void completeTree(AmbientTree& tree, const TreeTask& task) noexcept {
   TreeStep& step = tree.step;
   btMultiBody& body = *tree.multi_body;
   if (!isSolved(tree) || isAsleep(body)) return;
+  settleTree(tree, task.duration);
   if (step.outcome == TreeOutcome::kRows) {
     turnAfterRows(tree, task.duration);
   } else {

@@ -30,6 +30,8 @@ AmbientTree::AmbientTree(btMultiBody& attached)
       flight(tree),
       step(coordinateCount(tree), tree.links.size()) {
   readPose(attached, step.pose);
+  to_local.resize(tree.size());
+  origins.resize(tree.size());
 }
 
 AmbientLink* AmbientTree::find(int link) const noexcept {

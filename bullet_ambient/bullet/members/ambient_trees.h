@@ -1,5 +1,8 @@
 #pragma once
 
+#include <LinearMath/btAlignedObjectArray.h>
+#include <LinearMath/btQuaternion.h>
+
 #include <memory>
 #include <unordered_map>
 #include <vector>
@@ -97,6 +100,8 @@ struct AmbientTree {
       tree;  ///< links and joints at the time of addition; all other data from the last substep
   LinkFlight flight;
   TreeStep step;
+  btAlignedObjectArray<btQuaternion> to_local;  ///< scratch memory of Bullet, one per link
+  btAlignedObjectArray<btVector3> origins;      ///< another one
 
   /// True if the btMultiBody at the address is still the added one. Compares instance numbers; with
   /// RK4 integration, which overwrites them, links and joints. @pre a btMultiBody is alive at that

@@ -15,7 +15,7 @@ AMBIENT_BEGIN
 // All stored fields, listed once for all operations: write, read, check, copy from Bullet and back
 // to Bullet. Their order is that of the bytes. To add a field, add it to the structure and here,
 // and raise the version.
-constexpr std::uint32_t kStateVersion = 16;
+constexpr std::uint32_t kStateVersion = 17;
 
 /// Condition that each number of a field must meet, and the words of the message if one does not.
 /// The message begins with the name of the object; the value follows if the words end with a blank.
@@ -258,14 +258,26 @@ void fields(V& v, MultiBodyLinkState& s) {
     [](Place& l) { return l.joint(&Link::m_jointPos, &Link::m_posVarCount); });
   v(s.joint_force, kForce,
     [](Place& l) { return l.joint(&Link::m_jointTorque, &Link::m_dofCount); });
-  // After the joints: their caches follow them, and so would the pose.
+  v(
+      s.turn_in_parent, kPosition,
+      [](Place& l) {
+        return l.link ? l.link->m_cachedRotParentToThis : btQuaternion::getIdentity();
+      },
+      [](Place& l, const btQuaternion& x) {
+        if (l.link)
+          l.link->m_cachedRotParentToThis = l.link->m_cachedRotParentToThis_interpolate = x;
+      });
+  v(
+      s.way_from_parent, kPosition,
+      [](Place& l) { return l.link ? l.link->m_cachedRVector : btVector3(0, 0, 0); },
+      [](Place& l, const btVector3& x) {
+        if (l.link) l.link->m_cachedRVector = l.link->m_cachedRVector_interpolate = x;
+      });
   v(
       s.pose, kPosition,
       [](Place& l) { return l.link ? l.link->m_cachedWorldTransform : btTransform::getIdentity(); },
       [](Place& l, const btTransform& x) {
-        if (!l.link) return;
-        l.link->updateCacheMultiDof();
-        l.link->m_cachedWorldTransform = x;
+        if (l.link) l.link->m_cachedWorldTransform = x;
       });
   v.optional(s.collider);
 }

@@ -1,4 +1,4 @@
-// The bits of the scenes of data/scenes without robots do not hang on the processor's variants of
+// The bits of the scenes of data/scenes do not hang on the processor's variants of
 // the C library's sine and cosine. `processor_test --run FOLDER` prints a hash for each body of
 // each scene; FOLDER keeps the fluid bodies. The C library chooses its variants when a program
 // starts.
@@ -33,7 +33,6 @@ std::string bytesOf(const MotionSample& sample) {
 
 void printHashes(const std::filesystem::path& file, SceneBodyCache& cache) {
   Scene scene = readScene(file);
-  if (!scene.robots.empty()) return;  // Bullet turns multibodies by the C library
   scene.duration = std::min(scene.duration, kMostTime);
   const RunRecord run = runPrepared(scene, prepareBodies(scene, cache));
   for (std::size_t i = 0; i < run.motion.size(); ++i) {
