@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bullet_ambient/bullet/core/precision_check.h"
+#include "bullet_ambient/bullet/links/cone_friction.h"
 #include "bullet_ambient/bullet/rows/quick_rows.h"
 #include "bullet_ambient/bullet/solver/solver_group.h"
 #include "bullet_ambient/bullet/solver/tree_group.h"
@@ -143,8 +144,14 @@ class FluidSolver : public Base {
     if constexpr (std::is_same_v<Base, btSequentialImpulseConstraintSolver>)
       if (hasQuickRows() && !(info.m_solverMode & kOtherOrders))
         return iterate(iteration, constraints, constraint_count, info);
-    return Base::solveSingleIteration(iteration, bodies, body_count, manifolds, manifold_count,
-                                      constraints, constraint_count, info, debug_drawer);
+    const auto iterateBase = [&] {
+      return Base::solveSingleIteration(iteration, bodies, body_count, manifolds, manifold_count,
+                                        constraints, constraint_count, info, debug_drawer);
+    };
+    if constexpr (kHasMultiBodies)
+      if (hasConeFriction(info))
+        return iterateWithCones(iterateBase, iteration < info.m_numIterations);
+    return iterateBase();
   }
 
   btScalar solveGroupCacheFriendlyFinish(btCollisionObject** bodies, int body_count,
@@ -201,6 +208,53 @@ class FluidSolver : public Base {
       row.m_upperLimit = most > row.m_friction ? row.m_friction : most;
       row.m_lowerLimit = -row.m_upperLimit;
       largest = solve(row, largest);
+    }
+    return largest;
+  }
+
+  // True if two friction rows of multibodies share a limit, by which Bullet needs the C library.
+  bool hasConeFriction(const btContactSolverInfo& info) const {
+    return (info.m_solverMode & SOLVER_USE_2_FRICTION_DIRECTIONS) &&
+           !(info.m_solverMode & SOLVER_DISABLE_IMPLICIT_CONE_FRICTION) && group_.hasMembers();
+  }
+
+  // Calls `iterate_base` without these rows, and then solves them as Bullet does. Returns the
+  // largest squared residual [m^2/s^2].
+  template <class Iterate>
+  btScalar iterateWithCones(const Iterate& iterate_base, bool solves_contacts) {
+    auto& rolling = this->m_multiBodyTorsionalFrictionContactConstraints;
+    auto& sliding = this->m_multiBodyFrictionContactConstraints;
+    const int rolling_count = rolling.size(), sliding_count = sliding.size();
+    rolling.resizeNoInitialize(0);
+    sliding.resizeNoInitialize(0);
+    btScalar largest = iterate_base();
+    rolling.resizeNoInitialize(rolling_count);
+    sliding.resizeNoInitialize(sliding_count);
+    if (!solves_contacts) return largest;
+    largest = solveCones(rolling, true, largest);
+    return solveCones(sliding, false, largest);
+  }
+
+  // Solves pairs of friction rows; `under_pressure`: those of contacts that are pressed together.
+  // Returns the largest squared residual, or `largest`.
+  template <class Rows>
+  btScalar solveCones(Rows& rows, bool under_pressure, btScalar largest) {
+    for (int i = 0; i + 1 < rows.size(); i += 2) {
+      auto &a = rows[i], &b = rows[i + 1];
+      const btScalar pressed =
+          this->m_multiBodyNormalContactConstraints[a.m_frictionIndex].m_appliedImpulse;
+      if (a.m_frictionIndex != b.m_frictionIndex || (under_pressure && !(pressed > 0))) continue;
+      for (auto* row : {&a, &b}) {
+        row->m_upperLimit = row->m_friction * pressed;
+        row->m_lowerLimit = -row->m_upperLimit;
+        for (auto* body : {row->m_multiBodyA, row->m_multiBodyB})
+          if (body) body->setPosUpdated(false);
+      }
+      const btScalar residual =
+          group_.touchesMember(a)
+              ? solveFrictionPair({a, b, this->m_data, this->m_tmpSolverBodyPool})
+              : this->resolveConeFrictionConstraintRows(a, b);
+      largest = btMax(largest, residual * residual);
     }
     return largest;
   }

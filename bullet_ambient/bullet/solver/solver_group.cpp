@@ -3,6 +3,7 @@
 #include <BulletCollision/NarrowPhaseCollision/btManifoldPoint.h>
 #include <BulletDynamics/ConstraintSolver/btContactSolverInfo.h>
 #include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
+#include <BulletDynamics/Featherstone/btMultiBodySolverConstraint.h>
 
 #include <utility>
 
@@ -69,6 +70,20 @@ void SolverGroup::rewriteRows(SolverBodies& solver_bodies, const RowPools& rows,
   rewrite(rows.joints, RowKind::kJoint, 1);
   if (multibodies) rewriteMultiBodyRows(*multibodies, info, *row_bodies_, solver_bodies);
   reapplyWarmStart(solver_bodies, rows, multibodies, info.m_solverMode);
+}
+
+bool SolverGroup::hasMembers() const noexcept {
+  return !row_bodies_->empty() || !bodies_.trees.empty();
+}
+
+bool SolverGroup::touchesMember(const btMultiBodySolverConstraint& row) const noexcept {
+  const auto is_member = [this](const btMultiBody* multibody, int solver_body) {
+    if (!multibody) return row_bodies_->find(solver_body) != nullptr;
+    const AmbientTree* tree = bodies_.trees.find(multibody);
+    return tree && isSolved(*tree);
+  };
+  return is_member(row.m_multiBodyA, row.m_solverBodyIdA) ||
+         is_member(row.m_multiBodyB, row.m_solverBodyIdB);
 }
 
 int SolverGroup::solveJoints(SolverBodies& solver_bodies, btConstraintArray& joints) noexcept {

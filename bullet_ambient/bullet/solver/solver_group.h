@@ -88,6 +88,11 @@ class SolverGroup {
   void rewriteRows(SolverBodies& solver_bodies, const RowPools& rows,
                    const MultiBodyRows* multibodies, const btContactSolverInfo& info) noexcept;
 
+  /// False: touchesMember() is false for all rows of the group.
+  bool hasMembers() const noexcept;
+  /// True if a row of multibodies acts on a body or tree that moves in a fluid. @pre rewriteRows()
+  bool touchesMember(const btMultiBodySolverConstraint& row) const noexcept;
+
   /// Call after rewriteRows(). Solves rows of joints without loops together, eq. (27a); the
   /// iterations go on from their impulses. Returns the number of rows solved.
   int solveJoints(SolverBodies& solver_bodies, btConstraintArray& joints) noexcept;
