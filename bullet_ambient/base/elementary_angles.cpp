@@ -170,12 +170,20 @@ double cos(double angle) noexcept {
   return (reduced.quarters + 1) % 4 >= 2 ? -cosine : cosine;
 }
 
+SineCosine sineAndCosine(double angle) noexcept {
+  if (std::fabs(angle) < 0x1p-27) return {angle, 1};
+  const ReducedAngle reduced = reduce(angle);
+  double sine = sineOf(reduced.rest), cosine = cosineOf(reduced.rest);
+  if (reduced.quarters % 2 != 0) std::swap(sine, cosine);
+  if (reduced.quarters % 4 >= 2) sine = -sine;
+  if ((reduced.quarters + 1) % 4 >= 2) cosine = -cosine;
+  return {angle < 0 ? -sine : sine, cosine};
+}
+
 double tan(double angle) noexcept {
   if (std::fabs(angle) < 0x1p-27) return angle;
-  const ReducedAngle reduced = reduce(angle);
-  const double sine = sineOf(reduced.rest), cosine = cosineOf(reduced.rest);
-  const double tangent = reduced.quarters % 2 == 0 ? sine / cosine : -cosine / sine;
-  return angle < 0 ? -tangent : tangent;
+  const SineCosine of = sineAndCosine(angle);
+  return of.sine / of.cosine;
 }
 
 double atan2(double y, double x) noexcept {

@@ -35,9 +35,10 @@ Twist turned(const Quaternion& q, const Twist& x) {
 Quaternion rotationFromVector(const Vector3& r) {
   const double angle = r.norm();
   // sin(a/2)/a; for small angles by its series, because the quotient would lose digits.
-  const double scale = angle < 1e-4 ? 0.5 - angle * angle / 48 : portable::sin(angle / 2) / angle;
+  const auto [sine, cosine] = portable::sineAndCosine(angle / 2);
+  const double scale = angle < 1e-4 ? 0.5 - angle * angle / 48 : sine / angle;
   const Vector3 v = scale * r;
-  return Quaternion(portable::cos(angle / 2), v.x(), v.y(), v.z()).normalized();
+  return Quaternion(cosine, v.x(), v.y(), v.z()).normalized();
 }
 
 Vector3 rotationVector(const Quaternion& q) {

@@ -24,16 +24,12 @@ double squaredDifference(const btMatrix3x3& a, const btMatrix3x3& b) {
 
 }  // namespace
 
-Quaternion turnOfBullet(const Vector3& turn) noexcept {
-  const double angle = turn.norm();
-  if (!(angle > kMostTurn)) return rotationFromVector(turn);
-  // Bullet scales the axis by the angle, and the scalar part by its limit.
-  const Vector3 axis = kSine / kMostTurn * turn;
-  return Quaternion(kCosine, axis.x(), axis.y(), axis.z()).normalized();
-}
-
 Quaternion turnedByBullet(const Quaternion& from, const Vector3& turn_W) noexcept {
-  return turnOfBullet(turn_W) * from;
+  const double angle = turn_W.norm();
+  if (!(angle > kMostTurn)) return rotationFromVector(turn_W) * from;
+  // Bullet scales the axis by the angle, and the scalar part by its limit.
+  const Vector3 axis = kSine / kMostTurn * turn_W;
+  return Quaternion(kCosine, axis.x(), axis.y(), axis.z()).normalized() * from;
 }
 
 void settleAttitude(btRigidBody& body, const Quaternion& attitude) noexcept {
@@ -44,10 +40,21 @@ void settleAttitude(btRigidBody& body, const Quaternion& attitude) noexcept {
     body.setCenterOfMassTransform(btTransform(basis, now.getOrigin()));
 }
 
+btQuaternion turnInStep(const btVector3& spin, btScalar h) noexcept {
+  constexpr btScalar kMost = btScalar(0.5) * SIMD_HALF_PI, kSlow = btScalar(0.001);
+  btScalar speed = spin.length();
+  if (speed * h > kMost) speed = kMost / h;
+  const auto [sine, cosine] =
+      portable::sineAndCosine(static_cast<double>(btScalar(0.5) * speed * h));
+  const btScalar series = btScalar(0.5) * h - h * h * h * btScalar(0.020833333333) * speed * speed;
+  const btVector3 axis = spin * (speed < kSlow ? series : static_cast<btScalar>(sine) / speed);
+  return {axis.x(), axis.y(), axis.z(), static_cast<btScalar>(cosine)};
+}
+
 btQuaternion turnAbout(const btVector3& axis, btScalar angle) noexcept {
-  const double half = static_cast<double>(angle) / 2;
-  const btVector3 way = axis * (static_cast<btScalar>(portable::sin(half)) / axis.length());
-  return {way.x(), way.y(), way.z(), static_cast<btScalar>(portable::cos(half))};
+  const auto [sine, cosine] = portable::sineAndCosine(static_cast<double>(angle) / 2);
+  const btVector3 scaled = axis * (static_cast<btScalar>(sine) / axis.length());
+  return {scaled.x(), scaled.y(), scaled.z(), static_cast<btScalar>(cosine)};
 }
 
 bool settleLink(btMultibodyLink& link) noexcept {
@@ -56,6 +63,7 @@ bool settleLink(btMultibodyLink& link) noexcept {
   const btScalar* position = link.m_jointPos;
   const btQuaternion turn = turnAbout(link.getAxisTop(0), -position[0]);
   const btQuaternion rotation = turn * link.m_zeroRotParentToThis;
+  if (!is_planar && rotation == link.m_cachedRotParentToThis) return false;
   btVector3 way = quatRotate(rotation, link.m_eVector);
   if (is_planar) {
     way +=

@@ -23,12 +23,16 @@ inline const double kTurnRounding =
 Quaternion turnOfBullet(const Vector3& turn) noexcept;
 
 /// Returns the attitude that Bullet's integrateTransform() gives to a body at `from` that turns by
-/// `turn_W` [rad].
+/// `turn_W` [rad]. Beyond pi/4 it turns by less, as Bullet does.
 Quaternion turnedByBullet(const Quaternion& from, const Vector3& turn_W) noexcept;
 
 /// Sets the attitude of a body that Bullet has brought there up to kTurnRounding. Leaves a body
 /// alone that others have turned.
 void settleAttitude(btRigidBody& body, const Quaternion& attitude) noexcept;
+
+/// Returns the turn by a spin [rad/s] in the time h [s], of which btMultiBody::
+/// stepPositionsMultiDof() makes at most pi/4. But for sine and cosine it has Bullet's bits.
+btQuaternion turnInStep(const btVector3& spin, btScalar h) noexcept;
 
 /// Returns btQuaternion(axis, angle [rad]).
 btQuaternion turnAbout(const btVector3& axis, btScalar angle) noexcept;

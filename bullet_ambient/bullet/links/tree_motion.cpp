@@ -112,7 +112,6 @@ void finishFlown(AmbientTree& tree) {
   step.spare = step.moved - step.change / 2;  // Bullet adds the whole change d by the rows
   writeVelocity(*tree.multi_body, step.spare);
   if (!step.change.isZero(0)) forgetLoads(tree);
-  step.moved += step.change / 2;
   step.end += step.change;
 }
 
@@ -128,7 +127,6 @@ void finishRows(AmbientTree& tree, const TreeTask& task) {
     }
     return;
   }
-  step.moved += step.change;
   LinkDynamics& dynamics = tree.flight.dynamics();
   Coordinates& free = step.spare;
   const double on_share = twiceProduct(dynamics, step.share, step.change, free);
@@ -257,6 +255,7 @@ bool prepareTree(AmbientTree& tree, const TreeTask& task) noexcept {
   step.outcome = TreeOutcome::kStock;
   step.meets_surface = false;
   readPose(body, step.pose);
+  step.to_base = body.getWorldToBaseRot();
   stopIfNotFinite(tree, task.bodies);
   if (!prepareLinks(tree, task)) return true;
   beginTreeReading(tree);
@@ -295,6 +294,7 @@ void finishTree(AmbientTree& tree, const TreeTask& task) noexcept {
   } else {
     finishRows(tree, task);
   }
+  readChangedVelocity(*tree.multi_body, step.moved);
 }
 
 void completeTree(AmbientTree& tree, const TreeTask& task) noexcept {

@@ -71,9 +71,10 @@ struct TreeStep {
                             ///< joints to other bodies)
   bool meets_surface = false;  ///< true: the links have taken the kicks of a water surface
   SurfaceStep surface;
-  TreePose pose;       ///< q_0
-  Coordinates start;   ///< u_0, after the kicks of a water surface
-  Coordinates moved;   ///< velocity that Bullet moves the tree by
+  TreePose pose;                     ///< q_0
+  btQuaternion to_base{0, 0, 0, 1};  ///< Bullet's number for the base's orientation there
+  Coordinates start;                 ///< u_0, after the kicks of a water surface
+  Coordinates moved;                 ///< velocity that Bullet moves the tree by
   Coordinates end;     ///< velocity after the step; with rows, that without the turning part
   Coordinates share;   ///< part of the turning velocity change included in the velocity that rows
                        ///< were solved for

@@ -172,6 +172,12 @@ void readChange(const btMultiBody& body, CoordinatesOut change) noexcept {
   readAll(body.getDeltaVelocityVector(), change);
 }
 
+void readChangedVelocity(const btMultiBody& body, CoordinatesOut u) noexcept {
+  const btScalar *now = body.getVelocityVector(), *change = body.getDeltaVelocityVector();
+  for (Eigen::Index i = 0; i < u.size(); ++i)
+    u[i] = static_cast<double>(withinLimit(body, static_cast<double>(now[i] + change[i])));
+}
+
 void writeVelocity(btMultiBody& body, const CoordinatesIn& u) noexcept {
   AMBIENT_ASSERT(u.size() == coordinatesOf(body));
   for (Eigen::Index i = 0; i < u.size(); ++i) velocities(body)[i] = withinLimit(body, u[i]);

@@ -41,6 +41,10 @@ void readVelocity(const btMultiBody& multi_body, CoordinatesOut u) noexcept;
 /// Reads the change of the velocity by rows in this substep.
 void readChange(const btMultiBody& multi_body, CoordinatesOut change) noexcept;
 
+/// Computes the velocity that the multibody has once Bullet adds the change by rows, which it then
+/// moves the multibody by.
+void readChangedVelocity(const btMultiBody& multi_body, CoordinatesOut u) noexcept;
+
 /// Sets the velocity, each coordinate limited by btMultiBody::getMaxCoordinateVelocity().
 void writeVelocity(btMultiBody& multi_body, const CoordinatesIn& u) noexcept;
 void addVelocity(btMultiBody& multi_body, const CoordinatesIn& change) noexcept;

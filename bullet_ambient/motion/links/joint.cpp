@@ -11,7 +11,7 @@ namespace {
 
 // Returns the rotation by an angle [rad] about a unit axis.
 Matrix3 rotationAbout(const Vector3& axis, double angle) {
-  const double s = portable::sin(angle), c = portable::cos(angle);
+  const auto [s, c] = portable::sineAndCosine(angle);
   const Vector3 n = s * axis, m = (1 - c) * axis;
   const double xy = m.x() * axis.y(), xz = m.x() * axis.z(), yz = m.y() * axis.z();
   Matrix3 R;

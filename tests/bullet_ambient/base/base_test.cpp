@@ -129,6 +129,19 @@ TEST(Elementary, SineAndCosine) {
   }
 }
 
+TEST(Elementary, SineAndCosineTogetherHaveTheBitsOfEach) {
+  std::mt19937_64 engine(5);
+  for (const double size : {1e-9, 1e-3, 1.0, 10.0, 1e3, 1e7, 1e300}) {
+    std::uniform_real_distribution<double> angles(-size, size);
+    for (int i = 0; i < 1000; ++i) {
+      const double angle = angles(engine);
+      const portable::SineCosine both = portable::sineAndCosine(angle);
+      EXPECT_EQ(both.sine, portable::sin(angle)) << angle;
+      EXPECT_EQ(both.cosine, portable::cos(angle)) << angle;
+    }
+  }
+}
+
 TEST(Elementary, InverseTrigonometricFunctions) {
   for (const Range& range : {Range{-1, 1}, {-60, -1e-3, true}}) {
     EXPECT_LT(worstError(portable::asin, asinl, range), 1.8) << range.low;
