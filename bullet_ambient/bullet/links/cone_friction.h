@@ -1,6 +1,7 @@
 #pragma once
 
 #include <BulletDynamics/ConstraintSolver/btSolverBody.h>
+#include <LinearMath/btAlignedObjectArray.h>
 
 #include "bullet_ambient/bullet/core/precision_check.h"
 

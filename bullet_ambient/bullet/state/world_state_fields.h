@@ -267,6 +267,8 @@ void fields(V& v, MultiBodyLinkState& s) {
         if (l.link)
           l.link->m_cachedRotParentToThis = l.link->m_cachedRotParentToThis_interpolate = x;
       });
+  v.check("turn of its joint is no quaternion of unit length",
+          [&s] { return std::abs(s.turn_in_parent.length2() - 1) < btScalar(0.01); });
   v(
       s.way_from_parent, kPosition,
       [](Place& l) { return l.link ? l.link->m_cachedRVector : btVector3(0, 0, 0); },

@@ -281,6 +281,11 @@ TEST(RobotState, WithNumbersThatNoWorldCanHaveIsRefused) {
       {[](Body b) { b.links[0].inertia.setY(kNaN); }, "link -1: inertia"},
       {[](Body b) { b.links[2].joint_position[0] = kNaN; }, "link 1: pose or position"},
       {[](Body b) { b.links[2].pose.getOrigin().setX(kNaN); }, "link 1: pose or position"},
+      {[](Body b) {
+         b.links[2].turn_in_parent = {0, 0, 0, 2};
+       },
+       "link 1: turn of its joint"},
+      {[](Body b) { b.links[2].way_from_parent.setX(kNaN); }, "link 1: pose or position"},
       {[](Body b) { b.links[2].joint_force[0] = kNaN; }, "link 1: force"},
       {[](Body b) { b.links[2].force.setX(kInfinity); }, "link 1: force"},
       {[](Body b) { b.links[2].collider->activation_state = 77; }, "activation state"},
