@@ -30,8 +30,7 @@ class FrictionTask : public btMultiBodyConstraintSolver {
       m_data.m_deltaVelocities[i] = bt(size * arbitrary.between(-1, 1));
     const btRigidBody::btRigidBodyConstructionInfo info(1, nullptr, nullptr, {1, 1, 1});
     rigid_ = std::make_unique<btRigidBody>(info);
-    m_tmpSolverBodyPool.resize(1);
-    initSolverBody(&m_tmpSolverBodyPool[0], rigid_.get(), bt(0.01));
+    initSolverBody(&m_tmpSolverBodyPool.expandNonInitializing(), rigid_.get(), bt(0.01));
     for (int i = 0; i < 2; ++i) {
       btMultiBodySolverConstraint& row = rows[i];
       row.m_multiBodyA = robot_.get();
