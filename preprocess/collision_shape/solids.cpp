@@ -18,6 +18,7 @@
 #include "preprocess/mesh/shapes/primitives.h"
 #include "preprocess/mesh/triangle_mesh.h"
 #include "preprocess/mesh/union/mesh_union.h"
+#include "preprocess/mesh/wrap/grid_surface.h"
 #include "preprocess/mesh/wrap/surface_wrap.h"
 #include "preprocess/potential_flow/surface/flat_merging.h"
 #include "preprocess/potential_flow/surface/surface_refinement.h"

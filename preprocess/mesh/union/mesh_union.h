@@ -33,11 +33,6 @@ enum class UnionTries { kOne, kAll };
 CheckedMesh uniteMeshes(const std::vector<TriangleMesh>& parts, const std::string& name,
                         UnionTries tries = UnionTries::kAll);
 
-/// Computes the volume of the union of closed surfaces [m^3], also of those that uniteMeshes()
-/// cannot unite, from what 300 by 300 lines across them have in it. Error: about 1e-4 of it.
-/// @pre each is closed and outward.
-double volumeOfUnion(const std::vector<TriangleMesh>& parts);
-
 /// Unites the closed parts of a mesh that overlap, touch, lie in each other or have edges in
 /// common, whatever their orientation; adds a warning. None if the mesh is open, has one part only,
 /// or cannot be united.

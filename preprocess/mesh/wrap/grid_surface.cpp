@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "bullet_ambient/spatial/rotation.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/mesh/geometry.h"
 #include "preprocess/mesh/triangle_mesh.h"
@@ -357,6 +358,54 @@ class DualContour {
 TriangleMesh makeGridSurface(const TriangleMesh& mesh, const CubicGrid& grid) {
   const GridCrossings crossings(mesh, grid);
   return DualContour(mesh, grid, crossings, findSolidNodes(mesh, grid, crossings)).surface();
+}
+
+namespace {
+
+/// An end of what a line has in a part.
+struct LineEnd {
+  double height = 0;  ///< [steps]
+  int depth = 0;      ///< 1: the part begins there, -1: it ends
+};
+
+/// Returns the length of a line in any part [steps].
+double lengthInside(std::vector<LineEnd>& ends) {
+  std::sort(ends.begin(), ends.end(),
+            [](const LineEnd& a, const LineEnd& b) { return a.height < b.height; });
+  double length = 0;
+  int depth = 0;
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+    depth += ends[i].depth;
+    if (depth > 0) length += ends[i + 1].height - ends[i].height;
+  }
+  return length;
+}
+
+}  // namespace
+
+double volumeOfUnion(const std::vector<TriangleMesh>& parts) {
+  constexpr int kLines = 300;          // across the longest side
+  const Vector3d turn(0.3, 0.7, 0.5);  // of the parts: no side of a box is along the lines
+  TriangleMesh all = joinMeshes(parts);
+  all.vertices = rotationFromVector(turn).toRotationMatrix() * all.vertices;
+  CubicGrid grid;
+  grid.origin = all.bounds().min();
+  grid.step = all.extents().maxCoeff() / kLines;
+  for (int axis = 0; axis < 3; ++axis)
+    grid.counts[axis] = static_cast<std::int64_t>(all.extents()[axis] / grid.step) + 2;
+  std::vector<std::vector<LineEnd>> ends(static_cast<std::size_t>(grid.stride(2)));
+  for (int t = 0; t < static_cast<int>(all.triangleCount()); ++t) {
+    const TriangleCorners corners = inStepsOf(grid, all, t);
+    const Vector3d normal = normalOf(corners);
+    forEachLine(grid, 2, boxAround(corners, 0), corners.col(0), normal,
+                [&](std::int64_t node, const Vector3d& x) {
+                  if (isIn(corners, normal, x))
+                    ends[node % grid.stride(2)].push_back({x.z(), normal.z() < 0 ? 1 : -1});
+                });
+  }
+  double length = 0;
+  for (std::vector<LineEnd>& line : ends) length += lengthInside(line);
+  return length * grid.step * grid.step * grid.step;
 }
 
 }  // namespace ambient

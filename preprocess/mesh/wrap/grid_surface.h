@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "preprocess/mesh/triangle_mesh.h"
 #include "preprocess/mesh/wrap/grid_crossings.h"
 
@@ -13,5 +15,11 @@ namespace ambient {
 /// kinds gets two triangles. Cost O(nodes + T + A / step^2).
 /// @pre coordinates are finite, and the mesh lies inside the grid.
 TriangleMesh makeGridSurface(const TriangleMesh& mesh, const CubicGrid& grid);
+
+/// Computes the volume of the union of closed surfaces [m^3], also of those that
+/// uniteMeshes() cannot unite, from what 300 by 300 lines across them have in it. Error: about 1e-4
+/// of it.
+/// @pre each is closed and outward.
+double volumeOfUnion(const std::vector<TriangleMesh>& parts);
 
 }  // namespace ambient

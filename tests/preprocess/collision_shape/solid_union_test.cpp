@@ -18,6 +18,7 @@
 #include "preprocess/mesh/triangle_mesh.h"
 #include "preprocess/mesh/union/mesh_union.h"
 #include "preprocess/mesh/union/solid_tree.h"
+#include "preprocess/mesh/wrap/grid_surface.h"
 #include "preprocess/potential_flow/results/potential_flow.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 
