@@ -57,6 +57,13 @@ inline Floats load(const float* from) {
   return f;
 }
 
+/// Loads floats, as many as there are doubles in a register.
+inline Doubles loadDoubles(const float* from) {
+  float __attribute__((vector_size(kRegister / 2))) f;
+  __builtin_memcpy(&f, from, sizeof f);
+  return __builtin_convertvector(f, Doubles);
+}
+
 inline void store(double* to, const Doubles& d) { __builtin_memcpy(to, &d, sizeof d); }
 inline void store(float* to, const Floats& f) { __builtin_memcpy(to, &f, sizeof f); }
 

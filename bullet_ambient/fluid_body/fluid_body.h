@@ -158,6 +158,8 @@ struct FluidBody {
   Vector3 origin{0, 0, 0};            ///< F's origin in the source mesh's frame [m]
   MassDistribution uniform_mass;      ///< uniform density inside
   MassDistribution surface_mass;      ///< uniform mass per area
+  /// For laws other than the form law. Empty, while the form has faces: those of `surface`, see
+  /// facesOf().
   FaceTable faces;
   Surface surface;
   SurfaceForm form;                    ///< made by prepare(); spheres need none
@@ -198,6 +200,13 @@ Vector3 axisOfRevolution(const FluidBody& body);
 /// @throws std::invalid_argument if the factor is not positive and finite, or leaves no finite
 /// area, volume and added mass above zero.
 FluidBody scaled(const FluidBody& body, double factor);
+
+/// Returns the faces of a body; those of the triangles of its surface, without sharpness, if it is
+/// prepared and keeps none itself.
+FaceTable facesOf(const FluidBody& body);
+
+/// Returns the body, or one with its faces if it keeps none.
+std::shared_ptr<const FluidBody> withFaces(const std::shared_ptr<const FluidBody>& body);
 
 /// Throws std::invalid_argument: one line that names the fluid body, the value and the limit.
 [[noreturn]] void reject(const FluidBody& body, const std::string& what, double value,

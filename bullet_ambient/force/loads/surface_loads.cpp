@@ -406,10 +406,13 @@ std::shared_ptr<const SurfaceLoads> loadsOn(const Body& body, const LoadTables::
 
 std::shared_ptr<const SurfaceLoads> loadsOnFaces(const Body& body, LoadSettings settings,
                                                  const FlowSettings& flow) {
-  if (body->faces.size() == 0) return nullptr;
-  if (settings.law != PressureLaw::kForm)
-    return loadsOn(body, {body, &body->faces}, settings, flow.precision);
+  if (settings.law != PressureLaw::kForm) {
+    const Body whole = withFaces(body);
+    if (whole->faces.size() == 0) return nullptr;
+    return loadsOn(whole, {whole, &whole->faces}, settings, flow.precision);
+  }
   requirePrepared(*body);
+  if (body->form.faces.size() == 0) return nullptr;
   const LoadTables::Shape shape = LoadTables(body).shape();
   const LoadTables::Faces faces = chooseFormFaces(body, *shape, flow);
   LoadSettings smooth = settings;  // friction is no sum over faces
@@ -450,7 +453,7 @@ std::shared_ptr<const SurfaceLoads> lawOf(const Body& body, const LoadSettings& 
   checkFaces(*body);
   if (!(settings.density > 0)) return nullptr;
   const bool is_cut = place == LoadPlace::kWaterline;
-  if (flow.own_law && !is_cut) return flow.own_law(body, settings);
+  if (flow.own_law && !is_cut) return flow.own_law(withFaces(body), settings);
   FlowSettings chosen = flow;
   if (is_cut) chosen.maximum_load_error = 0;
   if (body->sphere_radius > 0)
@@ -488,7 +491,8 @@ std::shared_ptr<const SurfaceLoads> makeSurfaceLoads(const std::shared_ptr<const
 std::shared_ptr<const SurfaceLoads> makeWaterlineLoads(const std::shared_ptr<const FluidBody>& body,
                                                        const Medium& medium,
                                                        const FlowSettings& flow) {
-  const bool has_places = (body->faces.size() > 0 || body->sphere_radius > 0) && !flow.own_law;
+  const bool has_faces = body->faces.size() > 0 || body->form.faces.size() > 0;
+  const bool has_places = (has_faces || body->sphere_radius > 0) && !flow.own_law;
   return makeLoads(body, medium, flow, has_places ? LoadPlace::kWaterline : LoadPlace::kUnbounded);
 }
 
