@@ -53,7 +53,8 @@ AddedMassParts::AddedMassParts(const std::vector<AddedMassPart>& parts)
     const AddedMassPart& part = parts[i];
     PartBlock& block = blocks_[places_[i] / kParts];
     const std::size_t lane = places_[i] % kParts;
-    for (int axis = 0; axis < 3; ++axis) block.centre[axis][lane] = static_cast<float>(part.centre[axis]);
+    for (int axis = 0; axis < 3; ++axis)
+      block.centre[axis][lane] = static_cast<float>(part.centre[axis]);
     block.reach[lane] = static_cast<float>(reachOf(part));
     for (int k = 0; k < 6; ++k) block.spread[k][lane] = static_cast<float>(part.spread[k]);
     int entry = 0;
@@ -67,7 +68,8 @@ AddedMassPart AddedMassParts::operator[](std::size_t i) const {
   const PartBlock& block = blocks_[places_[i] / kParts];
   const std::size_t lane = places_[i] % kParts;
   AddedMassPart part;
-  for (int axis = 0; axis < 3; ++axis) part.centre[axis] = static_cast<double>(block.centre[axis][lane]);
+  for (int axis = 0; axis < 3; ++axis)
+    part.centre[axis] = static_cast<double>(block.centre[axis][lane]);
   for (int k = 0; k < 6; ++k) part.spread[k] = static_cast<double>(block.spread[k][lane]);
   part.inertia = inertiaOf(block, lane);
   return part;

@@ -300,7 +300,8 @@ Frame F: axes of the mesh, origin at the centre of volume unless chosen otherwis
   bindExport(type);
   type.def("__repr__",
            [](const FluidBody& b) {
-             return "<FluidBody \"" + b.name + "\": " + std::to_string(facesOf(b).size()) + " faces>";
+             return "<FluidBody \"" + b.name + "\": " + std::to_string(facesOf(b).size()) +
+                    " faces>";
            })
       .def(py::pickle([](const FluidBody& b) { return py::bytes(encodeFluidBody(b, b.name)); },
                       [](const py::bytes& bytes) {

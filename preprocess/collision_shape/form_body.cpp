@@ -356,7 +356,7 @@ bool mayHaveHolds(const ShapeForm& form, const CollisionShapeSettings& settings)
 /// triangles do; no loads on a sphere come from its own; round bodies of known added mass need them
 /// for the loads alone.
 CollisionShapeSettings withFaces(CollisionShapeSettings settings, const ShapeForm& form) {
-  constexpr int kFaces = 1300, kRoundFaces = 700, kBoxFaces = 350, kSphereFaces = 80;
+  constexpr int kFaces = 1300, kRoundFaces = 500, kBoxFaces = 350, kSphereFaces = 80;
   if (settings.faces > 0) return settings;
   settings.faces = isSphere(form)                 ? kSphereFaces
                    : !isTabulated(form, settings) ? kFaces
@@ -365,11 +365,12 @@ CollisionShapeSettings withFaces(CollisionShapeSettings settings, const ShapeFor
   return settings;
 }
 
-/// Makes the faces of the form law of round shapes that have a rule for them; none of others.
-struct RoundFaces {
+/// Makes the faces of the form law of shapes that have a rule for them; none of others.
+struct RuleFaces {
   const FrameOffset pose;
   const FluidBody& body;
 
+  std::optional<FaceTable> operator()(const Box& s) const { return boxFaces(s.half_sizes, pose); }
   std::optional<FaceTable> operator()(const Cylinder& s) const {
     return cylinderFaces(s.radius, s.height, pose, body);
   }
@@ -388,21 +389,16 @@ struct RoundFaces {
 /// Chooses few faces for the form law: those of a rule, or a level beside all.
 void takeFewFaces(const ShapeForm& form, const CollisionShapeSettings& settings, FluidBody& body) {
   if (settings.load_error == 0 || body.sphere_radius > 0) return;
-  std::optional<FormLevel> level;
   if (form.parts.size() == 1 && settings.load_error >= kRuleError) {
     const PlacedShape& part = form.parts.front();
-    const FrameOffset pose{part.pose.linear(), part.pose.translation()};
-    if (auto faces = std::visit(RoundFaces{pose, body}, part.shape)) {
+    const RuleFaces maker{{part.pose.linear(), part.pose.translation()}, body};
+    if (auto faces = std::visit(maker, part.shape)) {
       body.form.faces = *std::move(faces);
       return;
     }
-    if (const Box* box = std::get_if<Box>(&part.shape)) level = boxLevel(box->half_sizes, pose);
   }
-  if (!level) {
-    tellStage(settings, "choosing few faces");
-    level = smallestFormLevel(body, settings.load_error);
-  }
-  if (level && level->faces.size() < body.form.faces.size())
+  tellStage(settings, "choosing few faces");
+  if (auto level = smallestFormLevel(body, settings.load_error))
     body.form_levels.push_back(*std::move(level));
 }
 

@@ -14,8 +14,9 @@ static_assert(PartBlock::kParts == kLanes, "a block has one part per lane");
 /// Returns the depths of the centres of parts.
 inline Doubles depthOf(const PartBlock& block, int lane, const PartPlane& plane) {
   const double(&s)[3] = plane.normal;
-  return plane.height - (s[0] * loadDoubles(block.centre[0] + lane) + s[1] * loadDoubles(block.centre[1] + lane) +
-                         s[2] * loadDoubles(block.centre[2] + lane));
+  return plane.height -
+         (s[0] * loadDoubles(block.centre[0] + lane) + s[1] * loadDoubles(block.centre[1] + lane) +
+          s[2] * loadDoubles(block.centre[2] + lane));
 }
 
 /// Depths of the three Gauss points of a part. Their weighted mean and mean square along s are
@@ -169,8 +170,8 @@ PartGradient sumGradient(const PartBlocks& parts, const PartPlane& plane,
         Doubles energy[kTogether] = {};
         for (int entry = 0; entry < PartBlock::kEntries; ++entry)
           for (int i = 0; i < kTogether; ++i)
-            energy[i] =
-                energy[i] + products[entry] * loadDoubles(wet.block(first + i).inertia[entry] + lane);
+            energy[i] = energy[i] +
+                        products[entry] * loadDoubles(wet.block(first + i).inertia[entry] + lane);
         for (int i = 0; i < kTogether; ++i) {
           const WetSlope& slope = wet[first + i];
           const PartBlock& block = wet.block(first + i);
@@ -178,8 +179,8 @@ PartGradient sumGradient(const PartBlocks& parts, const PartPlane& plane,
           const Doubles t = slope.by_height * part, apart = slope.by_spread * part;
           sums[0] = sums[0] + t;
           for (int axis = 0; axis < 3; ++axis)
-            sums[axis + 1] =
-                sums[axis + 1] - t * loadDoubles(block.centre[axis] + lane) + apart * slope.spread[axis];
+            sums[axis + 1] = sums[axis + 1] - t * loadDoubles(block.centre[axis] + lane) +
+                             apart * slope.spread[axis];
         }
       }
       for (int i = 0; i < 4; ++i) store(lanes[i] + lane, sums[i]);

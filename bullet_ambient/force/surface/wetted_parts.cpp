@@ -25,7 +25,9 @@ PartPlane planeOf(const Immersion& at) {
 /// Returns the share of a part of the added mass that is between the sides of a pool: of a ball
 /// with the second moment of a disc, whatever its tilt.
 double partInPool(const PartBlock& block, int lane, const PoolSides& sides) {
-  const auto at = [lane](const auto& rows, int row) { return static_cast<double>(rows[row][lane]); };
+  const auto at = [lane](const auto& rows, int row) {
+    return static_cast<double>(rows[row][lane]);
+  };
   const Vector3 centre(at(block.centre, 0), at(block.centre, 1), at(block.centre, 2));
   const double square = at(block.spread, 0) + at(block.spread, 1) + at(block.spread, 2);
   return shareInPool(sides, centre, Vector3::Zero(), 2 * square);

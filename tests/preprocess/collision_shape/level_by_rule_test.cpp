@@ -31,6 +31,7 @@ double errorOf(const FluidBody& body, const FaceTable& few, bool is_cut = false)
   for (std::size_t i = 0; i < all.size(); ++i)
     moment += all.area[i] * (all.centroid(i) - middle).squaredNorm();
   const double length = std::sqrt(moment / body.area);
+  const PackedHull hull(body);
   test::Arbitrary arbitrary(3);
   std::vector<double> errors;
   for (int i = 0; i < 400; ++i) {
@@ -44,7 +45,7 @@ double errorOf(const FluidBody& body, const FaceTable& few, bool is_cut = false)
       plane.normal = arbitrary.vector();
       if (i % 2 == 0) plane.normal = 0.02 * plane.normal + Vector3::Unit(i / 2 % 3);
       plane.normal.normalize();
-      const auto [low, high] = computeExtent(PackedHull(body), plane.normal);
+      const auto [low, high] = computeExtent(hull, plane.normal);
       plane.height = arbitrary.between(low, high);
     }
     const auto loadOn = [&](const FaceTable& faces) {
@@ -62,41 +63,35 @@ double errorOf(const FluidBody& body, const FaceTable& few, bool is_cut = false)
   return errors[396];
 }
 
-TEST(BoxLevel, IsWithinItsErrorForAnySides) {
+TEST(BoxFaces, AreWithinTheirErrorForAnySides) {
   test::Arbitrary arbitrary(5);
   double mean = 0;
   for (int i = 0; i < 40; ++i) {
     const auto side = [&] { return std::pow(10, arbitrary.between(-1.7, 0)); };
-    const Vector3 half_sizes = i == 0 ? Vector3(1, 1, 1) : Vector3(1, side(), side());
-    const FluidBody body = boxOf(half_sizes);
-    const FormLevel level = boxLevel(half_sizes, {});
-    EXPECT_EQ(body.form_levels.size(), level.faces.size() < body.form.faces.size() ? 1u : 0u);
-    EXPECT_LE(level.faces.size(), 96u);
-    EXPECT_EQ(level.p99_error, kRuleError);
-    const double error = errorOf(body, level.faces);
-    EXPECT_LT(error, kRuleError) << half_sizes.transpose();
+    const FluidBody body = boxOf(i == 0 ? Vector3(1, 1, 1) : Vector3(1, side(), side()));
+    EXPECT_TRUE(body.form_levels.empty());
+    EXPECT_LE(body.form.faces.size(), 96u);
+    const double error = errorOf(body, body.form.faces);
+    EXPECT_LT(error, kRuleError) << extentsOf(body).transpose();
     mean += error / 40;
   }
   EXPECT_LT(mean, 0.3 * kRuleError);
 }
 
-TEST(BoxLevel, OfACubeHasFewerFacesThanAFit) {
-  EXPECT_EQ(boxOf({1, 1, 1}).form_levels[0].faces.size(), 54u);
-}
+TEST(BoxFaces, OfACubeAreFewerThanAFit) { EXPECT_EQ(boxOf({1, 1, 1}).form.faces.size(), 54u); }
 
-TEST(BoxLevel, FollowsATurnedBox) {
+TEST(BoxFaces, FollowATurnedBox) {
   btBoxShape box(btVector3(1, btScalar(0.4), btScalar(0.1)));
   btCompoundShape turned;
   const btTransform pose(btQuaternion(btVector3(1, 2, 3).normalized(), btScalar(0.7)),
                          btVector3(1, 0, -2));
   turned.addChildShape(pose, &box);
   const FluidBody body = makeFluidBody(turned, CollisionShapeSettings());
-  ASSERT_EQ(body.form_levels.size(), 1u);
-  EXPECT_LT(errorOf(body, body.form_levels[0].faces), kRuleError);
+  EXPECT_LT(errorOf(body, body.form.faces), kRuleError);
 }
 
-/// Expects the rule's error to be kept by shapes whose height is 1/50 to 50 times their width. Where
-/// a surface cuts them it is kept at ratios up to two, and twice as large beyond.
+/// Expects the rule's error to be kept by shapes whose height is 1/50 to 50 times their width. What
+/// is measured where a surface cuts them: 0.5 to 1.6 % at ratios up to two, 0.5 to 4.6 % beyond.
 template <class MakeShape>
 void expectRule(const MakeShape& make, std::size_t most_faces) {
   test::Arbitrary arbitrary(6);
@@ -105,11 +100,11 @@ void expectRule(const MakeShape& make, std::size_t most_faces) {
   for (int i = 0; i < 14; ++i) {
     const double ratio = i < 2 ? std::pow(50, 2 * i - 1) : std::pow(50, arbitrary.between(-1, 1));
     const FluidBody body = makeFluidBody(make(ratio), fine);
+    const bool is_compact = ratio > 0.5 && ratio < 2;
     EXPECT_TRUE(body.form_levels.empty());
-    EXPECT_LE(body.form.faces.size(), most_faces);
+    EXPECT_LE(body.form.faces.size(), is_compact ? 156u : most_faces);
     EXPECT_LT(errorOf(body, body.form.faces), kRuleError) << ratio;
-    const double compact = ratio >= 0.5 && ratio <= 2 ? 1 : 2.5;
-    EXPECT_LT(errorOf(body, body.form.faces, true), compact * kRuleError) << ratio;
+    EXPECT_LT(errorOf(body, body.form.faces, true), is_compact ? 0.02 : 0.05) << ratio;
   }
 }
 
@@ -118,15 +113,15 @@ TEST(RoundFaces, OfACylinderAreWithinTheirError) {
       [](double ratio) {
         return btCylinderShapeZ(btVector3(btScalar(0.5), btScalar(0.5), btScalar(ratio / 2)));
       },
-      192);
+      288);
 }
 
 TEST(RoundFaces, OfACapsuleAreWithinTheirError) {
-  expectRule([](double ratio) { return btCapsuleShapeZ(btScalar(0.5), btScalar(ratio)); }, 144);
+  expectRule([](double ratio) { return btCapsuleShapeZ(btScalar(0.5), btScalar(ratio)); }, 208);
 }
 
 TEST(RoundFaces, OfAConeAreWithinTheirError) {
-  expectRule([](double ratio) { return btConeShapeZ(btScalar(0.5), btScalar(ratio)); }, 216);
+  expectRule([](double ratio) { return btConeShapeZ(btScalar(0.5), btScalar(ratio)); }, 336);
 }
 
 TEST(RoundFaces, FollowATurnedCylinder) {
@@ -138,7 +133,7 @@ TEST(RoundFaces, FollowATurnedCylinder) {
 }
 
 /// Bytes that a box keeps: what a world of boxes that all differ costs.
-TEST(BoxLevel, ABoxHasFewTriangles) {
+TEST(BoxFaces, OfABoxHaveFewTriangles) {
   const FluidBody body = boxOf({0.5, 0.4, 0.3});
   EXPECT_LE(body.faces.size(), 400u);
   CollisionShapeSettings more;
