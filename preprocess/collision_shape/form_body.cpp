@@ -365,12 +365,11 @@ CollisionShapeSettings withFaces(CollisionShapeSettings settings, const ShapeFor
   return settings;
 }
 
-/// Makes the faces of the form law of shapes that have a rule for them; none of others.
-struct RuleFaces {
+/// Makes the faces of the form law of round shapes that have a rule for them; none of others.
+struct RoundFaces {
   const FrameOffset pose;
   const FluidBody& body;
 
-  std::optional<FaceTable> operator()(const Box& s) const { return boxFaces(s.half_sizes, pose); }
   std::optional<FaceTable> operator()(const Cylinder& s) const {
     return cylinderFaces(s.radius, s.height, pose, body);
   }
@@ -386,13 +385,19 @@ struct RuleFaces {
   }
 };
 
-/// Chooses few faces for the form law: those of a rule, or a level beside all.
+/// Gives a body few faces for the form law, if not all are needed: those of a rule in place of all,
+/// or a level beside them.
 void takeFewFaces(const ShapeForm& form, const CollisionShapeSettings& settings, FluidBody& body) {
   if (settings.load_error == 0 || body.sphere_radius > 0) return;
   if (form.parts.size() == 1 && settings.load_error >= kRuleError) {
     const PlacedShape& part = form.parts.front();
-    const RuleFaces maker{{part.pose.linear(), part.pose.translation()}, body};
-    if (auto faces = std::visit(maker, part.shape)) {
+    const FrameOffset pose{part.pose.linear(), part.pose.translation()};
+    if (const Box* box = std::get_if<Box>(&part.shape)) {
+      FormLevel level = boxLevel(box->half_sizes, pose);
+      if (level.faces.size() < body.form.faces.size()) body.form_levels.push_back(std::move(level));
+      return;
+    }
+    if (auto faces = std::visit(RoundFaces{pose, body}, part.shape)) {
       body.form.faces = *std::move(faces);
       return;
     }
