@@ -185,17 +185,8 @@ Vector3 extentsOf(const FluidBody& body) {
   return vertices.rowwise().maxCoeff() - vertices.rowwise().minCoeff();
 }
 
-namespace {
-
-bool lacksFaces(const FluidBody& body) {
-  return body.faces.size() == 0 && (body.form.faces.size() > 0 || body.sphere_radius > 0) &&
-         !body.surface.triangles.empty();
-}
-
-}  // namespace
-
 FaceTable facesOf(const FluidBody& body) {
-  if (!lacksFaces(body)) return body.faces;
+  if (!body.omits_faces) return body.faces;
   const std::vector<std::int32_t>& triangles = body.surface.triangles;
   const auto corner = [&](std::size_t i) {
     return Vector3(&body.surface.vertices[3 * static_cast<std::size_t>(triangles[i])]);
@@ -211,9 +202,10 @@ FaceTable facesOf(const FluidBody& body) {
 }
 
 std::shared_ptr<const FluidBody> withFaces(const std::shared_ptr<const FluidBody>& body) {
-  if (!lacksFaces(*body)) return body;
+  if (!body->omits_faces) return body;
   FluidBody whole = *body;
   whole.faces = facesOf(*body);
+  whole.omits_faces = false;
   return std::make_shared<const FluidBody>(std::move(whole));
 }
 

@@ -381,6 +381,8 @@ void checkFlow(const FluidBody& body, const FlowSettings& flow) {
 
 using Body = std::shared_ptr<const FluidBody>;
 
+bool hasFaces(const FluidBody& body) { return body.faces.size() > 0 || body.omits_faces; }
+
 // Returns the faces that the form law is summed over: those of the smallest level within the
 // allowed error, or all.
 LoadTables::Faces chooseFormFaces(const Body& body, const ShapeFactors& shape,
@@ -406,13 +408,12 @@ std::shared_ptr<const SurfaceLoads> loadsOn(const Body& body, const LoadTables::
 
 std::shared_ptr<const SurfaceLoads> loadsOnFaces(const Body& body, LoadSettings settings,
                                                  const FlowSettings& flow) {
+  if (!hasFaces(*body)) return nullptr;
   if (settings.law != PressureLaw::kForm) {
     const Body whole = withFaces(body);
-    if (whole->faces.size() == 0) return nullptr;
     return loadsOn(whole, {whole, &whole->faces}, settings, flow.precision);
   }
   requirePrepared(*body);
-  if (body->form.faces.size() == 0) return nullptr;
   const LoadTables::Shape shape = LoadTables(body).shape();
   const LoadTables::Faces faces = chooseFormFaces(body, *shape, flow);
   LoadSettings smooth = settings;  // friction is no sum over faces
@@ -491,8 +492,7 @@ std::shared_ptr<const SurfaceLoads> makeSurfaceLoads(const std::shared_ptr<const
 std::shared_ptr<const SurfaceLoads> makeWaterlineLoads(const std::shared_ptr<const FluidBody>& body,
                                                        const Medium& medium,
                                                        const FlowSettings& flow) {
-  const bool has_faces = body->faces.size() > 0 || body->form.faces.size() > 0;
-  const bool has_places = (has_faces || body->sphere_radius > 0) && !flow.own_law;
+  const bool has_places = (hasFaces(*body) || body->sphere_radius > 0) && !flow.own_law;
   return makeLoads(body, medium, flow, has_places ? LoadPlace::kWaterline : LoadPlace::kUnbounded);
 }
 

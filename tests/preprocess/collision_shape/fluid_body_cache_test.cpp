@@ -83,6 +83,7 @@ TEST(FluidBodyCache, FacesAreThoseOfTheSurface) {
   EXPECT_EQ(loads->faces(), static_cast<int>(faces.size()));
   FluidBody own = *kept;
   own.faces = faces;
+  own.omits_faces = false;
   const auto expected =
       makeSurfaceLoads(std::make_shared<const FluidBody>(own), water(), published);
   EXPECT_EQ(loads->load(x).vector(), expected->load(x).vector());
@@ -91,10 +92,9 @@ TEST(FluidBodyCache, FacesAreThoseOfTheSurface) {
     return nullptr;
   };
   makeSurfaceLoads(kept, water(), published);
-  // A body without a form has the faces that it was given.
-  own.faces = {};
-  own.form = {};
+  own.faces = {};  // not left out: there are none
   EXPECT_EQ(facesOf(own).size(), 0u);
+  EXPECT_FALSE(makeSurfaceLoads(std::make_shared<const FluidBody>(own), water(), FlowSettings()));
 }
 
 // Tables scale with size like the added mass; spheres use a built-in table.
