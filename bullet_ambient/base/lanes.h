@@ -57,6 +57,19 @@ inline Floats load(const float* from) {
   return f;
 }
 
+/// Loads floats, as many as there are doubles in a register. GCC 12 converts vectors half by half.
+inline Doubles loadDoubles(const float* from) {
+#if defined(__AVX512F__)
+  return _mm512_maskz_cvtps_pd(0xff, _mm256_loadu_ps(from));
+#elif defined(__AVX2__)
+  return _mm256_cvtps_pd(_mm_loadu_ps(from));
+#else
+  float __attribute__((vector_size(kRegister / 2))) f;
+  __builtin_memcpy(&f, from, sizeof f);
+  return __builtin_convertvector(f, Doubles);
+#endif
+}
+
 inline void store(double* to, const Doubles& d) { __builtin_memcpy(to, &d, sizeof d); }
 inline void store(float* to, const Floats& f) { __builtin_memcpy(to, &f, sizeof f); }
 

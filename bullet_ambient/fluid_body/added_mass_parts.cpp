@@ -25,7 +25,7 @@ std::vector<std::uint32_t> orderByPlace(const std::vector<AddedMassPart>& parts)
 /// Returns the largest distance from the centre, along any direction, of the Gauss points of a part
 /// [m]; a little more, against rounding.
 double reachOf(const AddedMassPart& part) {
-  constexpr double kNode = 9.0 / 5, kRounding = 1e-9;
+  constexpr double kNode = 9.0 / 5, kRounding = 1e-6;
   const Vector6& c = part.spread;
   Matrix3 spread;
   spread << c[0], c[3], c[4], c[3], c[1], c[5], c[4], c[5], c[2];
@@ -38,7 +38,8 @@ Matrix6 inertiaOf(const PartBlock& block, std::size_t lane) {
   int entry = 0;
   for (int row = 0; row < 6; ++row)
     for (int column = row; column < 6; ++column)
-      inertia(row, column) = inertia(column, row) = block.inertia[entry++][lane];
+      inertia(row, column) = inertia(column, row) =
+          static_cast<double>(block.inertia[entry++][lane]);
   return inertia;
 }
 
@@ -52,13 +53,14 @@ AddedMassParts::AddedMassParts(const std::vector<AddedMassPart>& parts)
     const AddedMassPart& part = parts[i];
     PartBlock& block = blocks_[places_[i] / kParts];
     const std::size_t lane = places_[i] % kParts;
-    for (int axis = 0; axis < 3; ++axis) block.centre[axis][lane] = part.centre[axis];
-    block.reach[lane] = reachOf(part);
-    for (int k = 0; k < 6; ++k) block.spread[k][lane] = part.spread[k];
+    for (int axis = 0; axis < 3; ++axis)
+      block.centre[axis][lane] = static_cast<float>(part.centre[axis]);
+    block.reach[lane] = static_cast<float>(reachOf(part));
+    for (int k = 0; k < 6; ++k) block.spread[k][lane] = static_cast<float>(part.spread[k]);
     int entry = 0;
     for (int row = 0; row < 6; ++row)
       for (int column = row; column < 6; ++column)
-        block.inertia[entry++][lane] = part.inertia(row, column);
+        block.inertia[entry++][lane] = static_cast<float>(part.inertia(row, column));
   }
 }
 
@@ -66,8 +68,9 @@ AddedMassPart AddedMassParts::operator[](std::size_t i) const {
   const PartBlock& block = blocks_[places_[i] / kParts];
   const std::size_t lane = places_[i] % kParts;
   AddedMassPart part;
-  for (int axis = 0; axis < 3; ++axis) part.centre[axis] = block.centre[axis][lane];
-  for (int k = 0; k < 6; ++k) part.spread[k] = block.spread[k][lane];
+  for (int axis = 0; axis < 3; ++axis)
+    part.centre[axis] = static_cast<double>(block.centre[axis][lane]);
+  for (int k = 0; k < 6; ++k) part.spread[k] = static_cast<double>(block.spread[k][lane]);
   part.inertia = inertiaOf(block, lane);
   return part;
 }

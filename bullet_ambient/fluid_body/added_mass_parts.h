@@ -18,7 +18,8 @@ struct AddedMassPart {
   Matrix6 inertia = Matrix6::Zero();   ///< -sym int g phi^T dA about F's origin
 };
 
-/// Parts of a shape's added mass, kept in the blocks that kernels read: 252 bytes per part.
+/// Parts of a shape's added mass, kept in the blocks that kernels read: rounded to single
+/// precision, 128 bytes per part.
 class AddedMassParts {
  public:
   AddedMassParts() = default;

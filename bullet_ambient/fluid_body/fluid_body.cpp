@@ -185,6 +185,30 @@ Vector3 extentsOf(const FluidBody& body) {
   return vertices.rowwise().maxCoeff() - vertices.rowwise().minCoeff();
 }
 
+FaceTable facesOf(const FluidBody& body) {
+  if (!body.omits_faces) return body.faces;
+  const std::vector<std::int32_t>& triangles = body.surface.triangles;
+  const auto corner = [&](std::size_t i) {
+    return Vector3(&body.surface.vertices[3 * static_cast<std::size_t>(triangles[i])]);
+  };
+  FaceTable faces;
+  faces.reserve(triangles.size() / 3);
+  for (std::size_t t = 0; t < triangles.size(); t += 3) {
+    const Vector3 a = corner(t), b = corner(t + 1), c = corner(t + 2);
+    const Vector3 twice_area = (b - a).cross(c - a);
+    faces.add(twice_area.normalized(), (a + b + c) / 3, twice_area.norm() / 2);
+  }
+  return faces;
+}
+
+std::shared_ptr<const FluidBody> withFaces(const std::shared_ptr<const FluidBody>& body) {
+  if (!body->omits_faces) return body;
+  FluidBody whole = *body;
+  whole.faces = facesOf(*body);
+  whole.omits_faces = false;
+  return std::make_shared<const FluidBody>(std::move(whole));
+}
+
 void reject(const FluidBody& body, const std::string& what, double value, const char* limit) {
   std::ostringstream message;
   message << "fluid body '" << body.name << "': " << what << " is " << value << ", must be "

@@ -158,7 +158,8 @@ struct FluidBody {
   Vector3 origin{0, 0, 0};            ///< F's origin in the source mesh's frame [m]
   MassDistribution uniform_mass;      ///< uniform density inside
   MassDistribution surface_mass;      ///< uniform mass per area
-  FaceTable faces;
+  FaceTable faces;                    ///< empty: no loads, unless they are left out
+  bool omits_faces = false;           ///< true: `faces` are left out, `surface` has them: facesOf()
   Surface surface;
   SurfaceForm form;                    ///< made by prepare(); spheres need none
   ViscousForm viscous;                 ///< made by prepare(); spheres need none
@@ -198,6 +199,13 @@ Vector3 axisOfRevolution(const FluidBody& body);
 /// @throws std::invalid_argument if the factor is not positive and finite, or leaves no finite
 /// area, volume and added mass above zero.
 FluidBody scaled(const FluidBody& body, double factor);
+
+/// Returns the faces of a body; if it omits them, those of the triangles of its surface, without
+/// sharpness. Cost then: O(F).
+FaceTable facesOf(const FluidBody& body);
+
+/// Returns the body, or a copy with its faces if it omits them.
+std::shared_ptr<const FluidBody> withFaces(const std::shared_ptr<const FluidBody>& body);
 
 /// Throws std::invalid_argument: one line that names the fluid body, the value and the limit.
 [[noreturn]] void reject(const FluidBody& body, const std::string& what, double value,

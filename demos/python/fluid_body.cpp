@@ -150,20 +150,23 @@ void bindProperties(py::class_<FluidBody, FluidBodyPtr>& type) {
   get(
       "normals",
       [](const FluidBody& b) {
-        return columns(b.faces.normal_x, b.faces.normal_y, b.faces.normal_z);
+        const FaceTable faces = facesOf(b);
+        return columns(faces.normal_x, faces.normal_y, faces.normal_z);
       },
       "Unit normals of the faces (F, 3), into the fluid, in F.");
   get(
       "centroids",
       [](const FluidBody& b) {
-        return columns(b.faces.centroid_x, b.faces.centroid_y, b.faces.centroid_z);
+        const FaceTable faces = facesOf(b);
+        return columns(faces.centroid_x, faces.centroid_y, faces.centroid_z);
       },
       "Centroids of the faces (F, 3) in F [m].");
   get(
       "areas",
       [](const FluidBody& b) {
+        const FaceTable faces = facesOf(b);
         return arrayOf(Eigen::Map<const Eigen::VectorXd>(
-            b.faces.area.data(), static_cast<Eigen::Index>(b.faces.area.size())));
+            faces.area.data(), static_cast<Eigen::Index>(faces.area.size())));
       },
       "Areas of the faces (F,) [m^2].");
   get(
@@ -297,7 +300,8 @@ Frame F: axes of the mesh, origin at the centre of volume unless chosen otherwis
   bindExport(type);
   type.def("__repr__",
            [](const FluidBody& b) {
-             return "<FluidBody \"" + b.name + "\": " + std::to_string(b.faces.size()) + " faces>";
+             return "<FluidBody \"" + b.name + "\": " + std::to_string(facesOf(b).size()) +
+                    " faces>";
            })
       .def(py::pickle([](const FluidBody& b) { return py::bytes(encodeFluidBody(b, b.name)); },
                       [](const py::bytes& bytes) {

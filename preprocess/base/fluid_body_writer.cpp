@@ -148,7 +148,7 @@ void packInto(FlatBufferBuilder& builder, const FluidBody& body) {
   const auto provenance = pack(builder, body.provenance);
   const auto uniform_mass = pack(builder, body.uniform_mass);
   const auto surface_mass = pack(builder, body.surface_mass);
-  const auto faces = pack(builder, body.faces);
+  const auto faces = pack(builder, facesOf(body));
   const auto surface = pack(builder, body.surface);
   const auto form_levels = pack(builder, body.form_levels);
   const auto parts = pack(builder, body.added_mass_parts.all());
@@ -191,7 +191,7 @@ std::size_t boundOf(const Hold& hold) {
 /// Upper bound of the payload's size [bytes].
 std::size_t payloadBound(const FluidBody& body) {
   constexpr std::size_t kFixedPart = 4096;
-  std::size_t doubles = body.surface.vertices.size() + numbersIn(body.faces) +
+  std::size_t doubles = body.surface.vertices.size() + numbersIn(facesOf(body)) +
                         numbersIn(body.form.faces) + FormShape::kNumbers + ViscousForm::kNumbers;
   std::size_t level_bytes = 0;
   for (const FormLevel& level : body.form_levels)

@@ -110,6 +110,8 @@ SharedBody FluidBodyCache::fluidBodyOf(const std::function<std::string()>& whose
     const std::string sized = withSize(content, form.size);
     const SharedBody unit = store.getUnit(content, form, whose);
     FluidBody body = form.size == 1 ? *unit : scaled(*unit, form.size);
+    body.faces = {};
+    body.omits_faces = true;
     // Tells the fluid bodies of one kind of shape apart, the same in all programs.
     body.name = unit->name + " " + hashText(fnv1a64(sized));
     return store.remember(std::make_shared<const FluidBody>(std::move(body)));

@@ -28,11 +28,11 @@ class FluidBodyCache : public FluidBodySource {
   explicit FluidBodyCache(CollisionShapeSettings settings = {}, BodyFolder folder = {});
   ~FluidBodyCache() override;
 
-  /// Returns the fluid body of a shape, in the shape's frame. Its name is the kind of the shape (or
-  /// settings.name) and a number that is unique to the shape and the same in all programs. Equal
-  /// shapes get the same object. If another thread is making the fluid body, waits for it. Cost if
-  /// it is known: that of reading the shape's numbers. @throws std::runtime_error as
-  /// makeFluidBody(), in every call.
+  /// Returns the fluid body of a shape, in the shape's frame, without the faces that follow from
+  /// its surface, see facesOf(). Its name is the kind of the shape (or settings.name) and a number
+  /// that is unique to the shape and the same in all programs. Equal shapes get the same object. If
+  /// another thread is making the fluid body, waits for it. Cost if it is known: that of reading
+  /// the shape's numbers. @throws std::runtime_error as makeFluidBody(), in every call.
   std::shared_ptr<const FluidBody> fluidBody(const btCollisionShape& shape) override;
   std::shared_ptr<const FluidBody> fluidBodyOf(const std::function<std::string()>& whose,
                                                const btCollisionShape& shape) override;

@@ -356,7 +356,7 @@ bool mayHaveHolds(const ShapeForm& form, const CollisionShapeSettings& settings)
 /// triangles do; no loads on a sphere come from its own; round bodies of known added mass need them
 /// for the loads alone.
 CollisionShapeSettings withFaces(CollisionShapeSettings settings, const ShapeForm& form) {
-  constexpr int kFaces = 1300, kRoundFaces = 700, kBoxFaces = 350, kSphereFaces = 80;
+  constexpr int kFaces = 1300, kRoundFaces = 500, kBoxFaces = 350, kSphereFaces = 80;
   if (settings.faces > 0) return settings;
   settings.faces = isSphere(form)                 ? kSphereFaces
                    : !isTabulated(form, settings) ? kFaces
@@ -365,38 +365,46 @@ CollisionShapeSettings withFaces(CollisionShapeSettings settings, const ShapeFor
   return settings;
 }
 
-/// Makes the few faces of shapes that have a rule for them; none of others.
-struct LevelMaker {
+/// Makes the faces of the form law of round shapes that have a rule for them; none of others.
+struct RoundFaces {
   const FrameOffset pose;
   const FluidBody& body;
 
-  std::optional<FormLevel> operator()(const Box& s) const { return boxLevel(s.half_sizes, pose); }
-  std::optional<FormLevel> operator()(const Cylinder& s) const {
-    return cylinderLevel(s.radius, s.height, pose, body);
+  std::optional<FaceTable> operator()(const Cylinder& s) const {
+    return cylinderFaces(s.radius, s.height, pose, body);
   }
-  std::optional<FormLevel> operator()(const Capsule& s) const {
-    return capsuleLevel(s.radius, s.height, pose, body);
+  std::optional<FaceTable> operator()(const Capsule& s) const {
+    return capsuleFaces(s.radius, s.height, pose, body);
   }
-  std::optional<FormLevel> operator()(const Cone& s) const {
-    return coneLevel(s.radius, s.height, pose, body);
+  std::optional<FaceTable> operator()(const Cone& s) const {
+    return coneFaces(s.radius, s.height, pose, body);
   }
   template <class Other>
-  std::optional<FormLevel> operator()(const Other&) const {
+  std::optional<FaceTable> operator()(const Other&) const {
     return std::nullopt;
   }
 };
 
-/// The few faces of a body; none: all are needed.
-std::optional<FormLevel> levelOf(const FluidBody& body, const ShapeForm& form,
-                                 const CollisionShapeSettings& settings) {
-  if (settings.load_error == 0 || body.sphere_radius > 0) return std::nullopt;
+/// Gives a body few faces for the form law, if not all are needed: those of a rule in place of all,
+/// or a level beside them.
+void takeFewFaces(const ShapeForm& form, const CollisionShapeSettings& settings, FluidBody& body) {
+  if (settings.load_error == 0 || body.sphere_radius > 0) return;
   if (form.parts.size() == 1 && settings.load_error >= kRuleError) {
     const PlacedShape& part = form.parts.front();
-    const LevelMaker maker{{part.pose.linear(), part.pose.translation()}, body};
-    if (auto level = std::visit(maker, part.shape)) return level;
+    const FrameOffset pose{part.pose.linear(), part.pose.translation()};
+    if (const Box* box = std::get_if<Box>(&part.shape)) {
+      FormLevel level = boxLevel(box->half_sizes, pose);
+      if (level.faces.size() < body.form.faces.size()) body.form_levels.push_back(std::move(level));
+      return;
+    }
+    if (auto faces = std::visit(RoundFaces{pose, body}, part.shape)) {
+      body.form.faces = *std::move(faces);
+      return;
+    }
   }
   tellStage(settings, "choosing few faces");
-  return smallestFormLevel(body, settings.load_error);
+  if (auto level = smallestFormLevel(body, settings.load_error))
+    body.form_levels.push_back(*std::move(level));
 }
 
 FluidBody bodyOf(const std::vector<Solid>& solids, const ShapeForm& form,
@@ -425,8 +433,7 @@ FluidBody bodyOf(const std::vector<Solid>& solids, const ShapeForm& form,
         solved(settings, build.name, [&] { return resistanceOf(mesh, build.flow); });
   }
   FluidBody body = makeFluidBody(mesh, build);
-  if (std::optional<FormLevel> level = levelOf(body, form, settings))
-    body.form_levels.push_back(*std::move(level));
+  takeFewFaces(form, settings, body);
   if (settings.report) {
     reportSolids(solids, body, settings);
     for (const std::string& line : lines) settings.report(line);

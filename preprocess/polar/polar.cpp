@@ -101,7 +101,7 @@ double frontalArea(const FluidBody& body, const Vector3& axis) {
 
 void setMeasuredDrag(const Vector3& coefficients, FluidBody& body) {
   for (int k = 0; k < 3; ++k) {
-    const double half = halfOfFaces(body.faces, Vector3::Unit(k));
+    const double half = halfOfFaces(facesOf(body), Vector3::Unit(k));
     const double share = half > 0 ? frontalArea(body, Vector3::Unit(k)) / half : 1;
     body.drag[k] = std::min(kLargestDrag, share * coefficients[k]);
   }

@@ -173,23 +173,35 @@ std::vector<CostScene> contactScenes() {
 
 namespace {
 
-using MakeShape = std::function<std::shared_ptr<btCollisionShape>()>;
+using MakeShape = std::function<std::shared_ptr<btCollisionShape>(btScalar stretch)>;
 
-std::shared_ptr<btCollisionShape> box() {
-  return std::make_shared<btBoxShape>(btVector3(btScalar(0.5), btScalar(0.3), btScalar(0.4)));
+std::shared_ptr<btCollisionShape> box(btScalar stretch) {
+  return std::make_shared<btBoxShape>(
+      btVector3(btScalar(0.5), btScalar(0.3), btScalar(0.4) * stretch));
 }
-std::shared_ptr<btCollisionShape> plate() {
-  return std::make_shared<btBoxShape>(btVector3(btScalar(0.5), btScalar(0.05), btScalar(0.4)));
+std::shared_ptr<btCollisionShape> plate(btScalar stretch) {
+  return std::make_shared<btBoxShape>(
+      btVector3(btScalar(0.5), btScalar(0.05), btScalar(0.4) * stretch));
 }
-std::shared_ptr<btCollisionShape> capsule() {
-  return std::make_shared<btCapsuleShape>(btScalar(0.2), btScalar(0.6));
+std::shared_ptr<btCollisionShape> capsule(btScalar stretch) {
+  return std::make_shared<btCapsuleShape>(btScalar(0.2), btScalar(0.6) * stretch);
 }
-std::shared_ptr<btCollisionShape> ball() { return std::make_shared<btSphereShape>(btScalar(0.4)); }
+std::shared_ptr<btCollisionShape> ball(btScalar stretch) {
+  return std::make_shared<btSphereShape>(btScalar(0.4) * stretch);
+}
+
+struct Rows {
+  MakeShape make;
+  bool is_afloat;
+  bool differ = false;  ///< each shape a little longer than the one before
+};
 
 // Bodies in rows, a little turned, at rest; with a surface at height 0, or far below one.
-void fillRows(CostWorld& world, const MakeShape& make, bool is_afloat, int count) {
-  const std::shared_ptr<btCollisionShape> shape = make();
+void fillRows(CostWorld& world, const Rows& rows, int count) {
+  const bool is_afloat = rows.is_afloat;
+  std::shared_ptr<btCollisionShape> shape = rows.make(1);
   for (int i = 0; i < count; ++i) {
+    if (rows.differ) shape = rows.make(1 + btScalar(1e-5) * btScalar(i));
     const auto height = static_cast<btScalar>(is_afloat ? 0.01 * (i % 7) : -50);
     const btVector3 axis = btVector3(1, btScalar(0.3), btScalar(0.2)).normalized();
     const btQuaternion turned(axis, btScalar(0.1) + btScalar(0.01) * btScalar(i % 11));
@@ -210,9 +222,24 @@ std::vector<CostScene> freeScenes() {
                                      {"balls", ball}})
       scenes.push_back({name + (is_afloat ? "_afloat" : "_under_water"), 1000, 30,
                         [make = make, is_afloat](CostWorld& world, int count) {
-                          fillRows(world, make, is_afloat, count);
+                          fillRows(world, {make, is_afloat}, count);
                         }});
   }
+  return scenes;
+}
+
+std::vector<CostScene> differentScenes() {
+  std::vector<CostScene> scenes;
+  for (const int bodies : {300, 1000})
+    for (const auto& [name, make] : {std::pair<std::string, MakeShape>("boxes", box),
+                                     {"capsules", capsule},
+                                     {"balls", ball}}) {
+      const auto filling = [make = make](bool differ) {
+        return [=](CostWorld& world, int count) { fillRows(world, {make, true, differ}, count); };
+      };
+      scenes.push_back({"different_" + name + "_" + std::to_string(bodies), bodies, 30,
+                        filling(true), false, filling(false)});
+    }
   return scenes;
 }
 

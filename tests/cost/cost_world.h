@@ -57,10 +57,15 @@ struct CostScene {
   int warm_up;  ///< steps before its time is taken
   std::function<void(CostWorld&, int bodies)> fill;
   bool has_robots = false;
+  /// Fills the world whose time is taken beside, with a fluid; empty: the same bodies without.
+  std::function<void(CostWorld&, int bodies)> fill_beside = {};
 };
 
 /// Equal bodies without contacts, under water and afloat.
 std::vector<CostScene> freeScenes();
+/// Bodies afloat whose shapes all differ, by so little that they move alike, beside equal ones:
+/// what is longer is the way of their data from memory. Names end in the number of bodies.
+std::vector<CostScene> differentScenes();
 /// Bodies in contacts and joints under water: a pile, and scenes in the manner of Bullet's
 /// examples.
 std::vector<CostScene> contactScenes();

@@ -27,7 +27,7 @@ namespace {
 
 std::vector<CostScene> allScenes(const std::string& folder) {
   std::vector<CostScene> scenes = freeScenes();
-  for (const auto& more : {robotScenes(), contactScenes(), flockScenes(folder)})
+  for (const auto& more : {differentScenes(), robotScenes(), contactScenes(), flockScenes(folder)})
     scenes.insert(scenes.end(), more.begin(), more.end());
   return scenes;
 }
@@ -41,17 +41,20 @@ double secondsFor(const std::function<void()>& action) {
 // Least time of a step of each world.
 void timeScene(const CostScene& scene) {
   constexpr int kRounds = 150;
-  CostWorld stock(scene.has_robots), fluid(scene.has_robots);
-  for (CostWorld* world : {&stock, &fluid}) scene.fill(*world, scene.bodies);
+  CostWorld beside(scene.has_robots), fluid(scene.has_robots);
+  (scene.fill_beside ? scene.fill_beside : scene.fill)(beside, scene.bodies);
+  if (scene.fill_beside) beside.immerse();
+  scene.fill(fluid, scene.bodies);
   const double attach = secondsFor([&] { fluid.immerse(); });
   double least[2] = {1e300, 1e300};
   for (int i = 0; i < scene.warm_up + kRounds; ++i) {
-    const double times[2] = {secondsFor([&] { stock.step(); }), secondsFor([&] { fluid.step(); })};
+    const double times[2] = {secondsFor([&] { beside.step(); }), secondsFor([&] { fluid.step(); })};
     for (int k = 0; k < 2; ++k)
       if (i >= scene.warm_up) least[k] = std::min(least[k], times[k]);
   }
-  std::printf("%-22s stock %.3f us, fluid %+.3f us per body and step: %.2f; attach %.1f ms\n",
-              scene.name.c_str(), least[0] / scene.bodies * 1e6,
+  std::printf("%-22s %s %.3f us, %s %+.3f us per body and step: %.2f; attach %.1f ms\n",
+              scene.name.c_str(), scene.fill_beside ? "equal" : "stock",
+              least[0] / scene.bodies * 1e6, scene.fill_beside ? "different" : "fluid",
               (least[1] - least[0]) / scene.bodies * 1e6, least[1] / least[0], attach * 1e3);
   std::fflush(stdout);
 }

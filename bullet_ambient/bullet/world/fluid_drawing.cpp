@@ -43,7 +43,7 @@ void drawFaces(const AmbientBody& ambient, const Twist& relative, const FluidDra
   const FluidBody& body = *ambient.def->fluid_body;
   const bool is_form = ambient.def->flow.law == PressureLaw::kForm && !(body.sphere_radius > 0);
   const ShapeFactors factors(body.form.shape);
-  const FaceTable& faces = is_form ? body.form.faces : body.faces;
+  const FaceTable faces = is_form ? body.form.faces : facesOf(body);
   const FrameOffset& frame = ambient.def->fluid_frame;
   LoadSettings settings = loadSettings(ambient.medium, ambient.def->flow);
   if (is_form) settings.shape = &factors;

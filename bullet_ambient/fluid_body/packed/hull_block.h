@@ -9,8 +9,7 @@ namespace ambient {
 /// small difference. In frame F. The last block is filled up with triangles of area 0.
 struct alignas(64) HullBlock {
   static constexpr int kTriangles = 8;
-  double corner[3][3][kTriangles];    ///< corner by corner, counter-clockwise from outside [m]
-  double area_normal[3][kTriangles];  ///< A n, out of the body [m^2]
+  double corner[3][3][kTriangles];  ///< corner by corner, counter-clockwise from outside [m]
 };
 
 /// Moments of eight blocks: per block an axis-aligned box around the triangles, and integrals over

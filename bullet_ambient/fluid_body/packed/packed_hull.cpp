@@ -87,14 +87,10 @@ void add(const Triangle& t, Moments& moments) {
 HullBlock blockOf(const Triangle* triangles, std::size_t count) {
   AMBIENT_ASSERT(count > 0 && count <= HullBlock::kTriangles);
   HullBlock block = {};
-  for (std::size_t i = 0; i < count; ++i) {
-    const Vector3 normal = areaNormal(triangles[i]);
-    for (int axis = 0; axis < 3; ++axis) {
+  for (std::size_t i = 0; i < count; ++i)
+    for (int axis = 0; axis < 3; ++axis)
       for (int corner = 0; corner < 3; ++corner)
         block.corner[corner][axis][i] = triangles[i][static_cast<std::size_t>(corner)][axis];
-      block.area_normal[axis][i] = normal[axis];
-    }
-  }
   // Unused lanes repeat one corner of the last triangle: the block stays dry, cut or wet as it is.
   for (std::size_t i = count; i < HullBlock::kTriangles; ++i)
     for (auto& corner : block.corner)

@@ -9,7 +9,7 @@
 namespace ambient {
 
 /// Shape for hydrostatics, in frame F: surface triangles in blocks of neighbours with their
-/// moments, 140 bytes per triangle. The triangles are those of SurfaceForm::hull. A sheet has
+/// moments, 110 bytes per triangle. The triangles are those of SurfaceForm::hull. A sheet has
 /// corners but no triangles: it displaces nothing.
 class PackedHull {
  public:

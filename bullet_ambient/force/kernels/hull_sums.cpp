@@ -72,7 +72,8 @@ struct HullRows {
                   zc = planes.depth(places[2]);
     const WetCorners wet(za, zb, zc);
     if (!anyOf(wet.any())) return;
-    const Doubles flux = -dot(planes.normal, load(block.area_normal, lane));
+    const Vectors twice_area = cross(places[1] - places[0], places[2] - places[0]);
+    const Doubles flux = -dot(planes.normal, twice_area) / 2;
     const Vectors a = planes.seen(places[0], za), b = planes.seen(places[1], zb),
                   c = planes.seen(places[2], zc);
     const Mask most = wet.most();

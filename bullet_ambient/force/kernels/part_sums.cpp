@@ -14,8 +14,9 @@ static_assert(PartBlock::kParts == kLanes, "a block has one part per lane");
 /// Returns the depths of the centres of parts.
 inline Doubles depthOf(const PartBlock& block, int lane, const PartPlane& plane) {
   const double(&s)[3] = plane.normal;
-  return plane.height - (s[0] * load(block.centre[0] + lane) + s[1] * load(block.centre[1] + lane) +
-                         s[2] * load(block.centre[2] + lane));
+  return plane.height -
+         (s[0] * loadDoubles(block.centre[0] + lane) + s[1] * loadDoubles(block.centre[1] + lane) +
+          s[2] * loadDoubles(block.centre[2] + lane));
 }
 
 /// Depths of the three Gauss points of a part. Their weighted mean and mean square along s are
@@ -27,7 +28,7 @@ struct Depths {
 
   Depths(const PartBlock& block, int lane, const PartPlane& plane) {
     const double(&s)[3] = plane.normal;
-    const auto spread = [&](int k) { return load(block.spread[k] + lane); };
+    const auto spread = [&](int k) { return loadDoubles(block.spread[k] + lane); };
     middle = depthOf(block, lane, plane);
     // way^2 = kNode s.C s: Gauss points lie at sqrt(3/5) of the half width sqrt(3 s.C s).
     constexpr double kNode = 9.0 / 5;
@@ -86,10 +87,12 @@ class WetBlocks {
     const PartBlock* const blocks = parts.blocks + begin;
     for (std::size_t i = 0; i < (left < kChunk ? left : kChunk); ++i) {
       const Doubles middle = depthOf(blocks[i], lane, plane);
-      if (!anyOf(middle + load(blocks[i].reach + lane) > Doubles{})) continue;
+      if (!anyOf(middle + loadDoubles(blocks[i].reach + lane) > Doubles{})) continue;
       const Depths depths(blocks[i], lane, plane);
       blocks_[count_] = blocks + i;
-      wet_[count_++] = Wet(depths, plane.reach);
+      wet_[count_] = Wet(depths, plane.reach);
+      if (parts.shares) wet_[count_].scale(load(parts.shares + lane));
+      ++count_;
     }
     for (; count_ % kTogether != 0; ++count_) {
       blocks_[count_] = blocks;
@@ -113,6 +116,7 @@ struct WetShare {
 
   WetShare() = default;
   WetShare(const Depths& depths, double reach) : share(Weights(depths, reach).share()) {}
+  void scale(const Doubles& factor) { share = factor * share; }
 };
 
 PartInertia sumInertia(const PartBlocks& parts, const PartPlane& plane) noexcept {
@@ -124,7 +128,7 @@ PartInertia sumInertia(const PartBlocks& parts, const PartPlane& plane) noexcept
         for (int entry = 0; entry < PartBlock::kEntries; ++entry) {
           Doubles sum = load(lanes[entry] + lane);
           for (int i = first; i < first + kTogether; ++i)
-            sum = sum + wet[i].share * load(wet.block(i).inertia[entry] + lane);
+            sum = sum + wet[i].share * loadDoubles(wet.block(i).inertia[entry] + lane);
           store(lanes[entry] + lane, sum);
         }
     }
@@ -148,6 +152,10 @@ struct WetSlope {
     by_spread = depths.way > zero ? (below - above) / depths.way : zero;
     for (int axis = 0; axis < 3; ++axis) spread[axis] = depths.slope[axis];
   }
+  void scale(const Doubles& factor) {
+    by_height = factor * by_height;
+    by_spread = factor * by_spread;
+  }
 };
 
 PartGradient sumGradient(const PartBlocks& parts, const PartPlane& plane,
@@ -162,8 +170,8 @@ PartGradient sumGradient(const PartBlocks& parts, const PartPlane& plane,
         Doubles energy[kTogether] = {};
         for (int entry = 0; entry < PartBlock::kEntries; ++entry)
           for (int i = 0; i < kTogether; ++i)
-            energy[i] =
-                energy[i] + products[entry] * load(wet.block(first + i).inertia[entry] + lane);
+            energy[i] = energy[i] +
+                        products[entry] * loadDoubles(wet.block(first + i).inertia[entry] + lane);
         for (int i = 0; i < kTogether; ++i) {
           const WetSlope& slope = wet[first + i];
           const PartBlock& block = wet.block(first + i);
@@ -171,8 +179,8 @@ PartGradient sumGradient(const PartBlocks& parts, const PartPlane& plane,
           const Doubles t = slope.by_height * part, apart = slope.by_spread * part;
           sums[0] = sums[0] + t;
           for (int axis = 0; axis < 3; ++axis)
-            sums[axis + 1] =
-                sums[axis + 1] - t * load(block.centre[axis] + lane) + apart * slope.spread[axis];
+            sums[axis + 1] = sums[axis + 1] - t * loadDoubles(block.centre[axis] + lane) +
+                             apart * slope.spread[axis];
         }
       }
       for (int i = 0; i < 4; ++i) store(lanes[i] + lane, sums[i]);

@@ -381,6 +381,8 @@ void checkFlow(const FluidBody& body, const FlowSettings& flow) {
 
 using Body = std::shared_ptr<const FluidBody>;
 
+bool hasFaces(const FluidBody& body) { return body.faces.size() > 0 || body.omits_faces; }
+
 // Returns the faces that the form law is summed over: those of the smallest level within the
 // allowed error, or all.
 LoadTables::Faces chooseFormFaces(const Body& body, const ShapeFactors& shape,
@@ -406,9 +408,11 @@ std::shared_ptr<const SurfaceLoads> loadsOn(const Body& body, const LoadTables::
 
 std::shared_ptr<const SurfaceLoads> loadsOnFaces(const Body& body, LoadSettings settings,
                                                  const FlowSettings& flow) {
-  if (body->faces.size() == 0) return nullptr;
-  if (settings.law != PressureLaw::kForm)
-    return loadsOn(body, {body, &body->faces}, settings, flow.precision);
+  if (!hasFaces(*body)) return nullptr;
+  if (settings.law != PressureLaw::kForm) {
+    const Body whole = withFaces(body);
+    return loadsOn(whole, {whole, &whole->faces}, settings, flow.precision);
+  }
   requirePrepared(*body);
   const LoadTables::Shape shape = LoadTables(body).shape();
   const LoadTables::Faces faces = chooseFormFaces(body, *shape, flow);
@@ -450,7 +454,7 @@ std::shared_ptr<const SurfaceLoads> lawOf(const Body& body, const LoadSettings& 
   checkFaces(*body);
   if (!(settings.density > 0)) return nullptr;
   const bool is_cut = place == LoadPlace::kWaterline;
-  if (flow.own_law && !is_cut) return flow.own_law(body, settings);
+  if (flow.own_law && !is_cut) return flow.own_law(withFaces(body), settings);
   FlowSettings chosen = flow;
   if (is_cut) chosen.maximum_load_error = 0;
   if (body->sphere_radius > 0)
@@ -488,7 +492,7 @@ std::shared_ptr<const SurfaceLoads> makeSurfaceLoads(const std::shared_ptr<const
 std::shared_ptr<const SurfaceLoads> makeWaterlineLoads(const std::shared_ptr<const FluidBody>& body,
                                                        const Medium& medium,
                                                        const FlowSettings& flow) {
-  const bool has_places = (body->faces.size() > 0 || body->sphere_radius > 0) && !flow.own_law;
+  const bool has_places = (hasFaces(*body) || body->sphere_radius > 0) && !flow.own_law;
   return makeLoads(body, medium, flow, has_places ? LoadPlace::kWaterline : LoadPlace::kUnbounded);
 }
 

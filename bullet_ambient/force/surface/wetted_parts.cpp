@@ -25,7 +25,9 @@ PartPlane planeOf(const Immersion& at) {
 /// Returns the share of a part of the added mass that is between the sides of a pool: of a ball
 /// with the second moment of a disc, whatever its tilt.
 double partInPool(const PartBlock& block, int lane, const PoolSides& sides) {
-  const auto at = [lane](const auto& rows, int row) { return rows[row][lane]; };
+  const auto at = [lane](const auto& rows, int row) {
+    return static_cast<double>(rows[row][lane]);
+  };
   const Vector3 centre(at(block.centre, 0), at(block.centre, 1), at(block.centre, 2));
   const double square = at(block.spread, 0) + at(block.spread, 1) + at(block.spread, 2);
   return shareInPool(sides, centre, Vector3::Zero(), 2 * square);
@@ -37,12 +39,10 @@ template <class Visit>
 void forBlocksInPool(const PartBlocks& parts, const PoolSides* sides_F, const Visit& visit) {
   if (!sides_F) return visit(parts);
   for (std::size_t i = 0; i < parts.count; ++i) {
-    PartBlock block = parts.blocks[i];
-    for (int lane = 0; lane < PartBlock::kParts; ++lane) {
-      const double share = partInPool(block, lane, *sides_F);
-      for (auto& entry : block.inertia) entry[lane] *= share;
-    }
-    visit(PartBlocks{&block, 1});
+    double shares[PartBlock::kParts];
+    for (int lane = 0; lane < PartBlock::kParts; ++lane)
+      shares[lane] = partInPool(parts.blocks[i], lane, *sides_F);
+    visit(PartBlocks{parts.blocks + i, 1, shares});
   }
 }
 

@@ -96,7 +96,7 @@ void expectCost(const MakeShape& make, const Cost& most) {
 
 TEST(DifferentShapes, SpheresCostNextToNothing) {
   expectCost([](const Sizes& s) { return std::make_unique<btSphereShape>(toScalar(s.x())); },
-             {18, 20, 96});
+             {12.5, 20, 96});
 }
 
 TEST(DifferentShapes, BoxesCostLittle) {
@@ -105,7 +105,7 @@ TEST(DifferentShapes, BoxesCostLittle) {
         return std::make_unique<btBoxShape>(
             btVector3(toScalar(s.x()), toScalar(s.y()), toScalar(s.z())));
       },
-      {108, 1208, 3230});
+      {69.5, 1208, 3230});
 }
 
 TEST(DifferentShapes, CylindersCostLittle) {
@@ -114,7 +114,7 @@ TEST(DifferentShapes, CylindersCostLittle) {
         return std::make_unique<btCylinderShapeZ>(
             btVector3(toScalar(s.x()), toScalar(s.x()), toScalar(s.y())));
       },
-      {246, 3060, 5470});
+      {76, 1920, 3970});
 }
 
 TEST(DifferentShapes, CapsulesCostLittle) {
@@ -122,7 +122,7 @@ TEST(DifferentShapes, CapsulesCostLittle) {
       [](const Sizes& s) {
         return std::make_unique<btCapsuleShapeZ>(toScalar(s.x()), toScalar(2 * s.y()));
       },
-      {232, 2750, 10500});
+      {95.5, 2170, 8030});
 }
 
 TEST(DifferentShapes, ConesCostLittle) {
@@ -130,7 +130,7 @@ TEST(DifferentShapes, ConesCostLittle) {
       [](const Sizes& s) {
         return std::make_unique<btConeShapeZ>(toScalar(s.x()), toScalar(2 * s.y()));
       },
-      {256, 3160, 8360});
+      {91.5, 2220, 6270});
 }
 
 }  // namespace

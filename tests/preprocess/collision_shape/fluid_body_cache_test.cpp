@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
+#include "bullet_ambient/force/loads/surface_loads.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "preprocess/base/fluid_body_writer.h"
 #include "tests/preprocess/collision_shape/shape_fixtures.h"
@@ -52,6 +53,48 @@ TEST(FluidBodyCache, EqualShapesAreOneWhereverTheyAre) {
   EXPECT_EQ(cache.fluidBody(*wedge()), cache.fluidBody(*wedge()));
   EXPECT_NE(cache.fluidBody(*wedge()), cache.fluidBody(*wedge(1.05)));
   EXPECT_EQ(cache.counts().made, 3);  // the larger wedge is the smaller one, scaled
+}
+
+// Faces that follow from the surface are not kept; whoever reads them gets them.
+TEST(FluidBodyCache, FacesAreThoseOfTheSurface) {
+  const btCylinderShapeZ shape(sizes(0.3, 0.3, 0.5));
+  FluidBodyCache cache;
+  const std::shared_ptr<const FluidBody> kept = cache.fluidBody(shape);
+  EXPECT_EQ(kept->faces.size(), 0u);
+  const FaceTable whole = makeFluidBody(shape).faces, faces = facesOf(*kept);
+  ASSERT_EQ(faces.size(), 2 * kept->surface.vertices.size() / 3 - 4);
+  double area = 0;
+  Vector3 sum(0, 0, 0);
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    area += faces.area[i];
+    sum += faces.area[i] * faces.normal(i);
+    EXPECT_GT(faces.normal(i).dot(faces.centroid(i)), 0);  // convex, about its middle
+  }
+  EXPECT_NEAR(area, kept->area, 1e-12);
+  EXPECT_LT(sum.norm(), 1e-14);
+  EXPECT_EQ(faces.size(), whole.size());
+  EXPECT_EQ(decodeFluidBody(encodeFluidBody(*kept, ""), "").faces.area, faces.area);
+
+  const Twist x{{1, 2, 3}, {3, -1, 2}};
+  FlowSettings published;
+  published.law = PressureLaw::kPublished;
+  const auto loads = makeSurfaceLoads(kept, water(), published);
+  ASSERT_TRUE(loads);
+  EXPECT_EQ(loads->faces(), static_cast<int>(faces.size()));
+  FluidBody own = *kept;
+  own.faces = faces;
+  own.omits_faces = false;
+  const auto expected =
+      makeSurfaceLoads(std::make_shared<const FluidBody>(own), water(), published);
+  EXPECT_EQ(loads->load(x).vector(), expected->load(x).vector());
+  published.own_law = [&](const auto& body, const auto&) {
+    EXPECT_EQ(body->faces.size(), faces.size());
+    return nullptr;
+  };
+  makeSurfaceLoads(kept, water(), published);
+  own.faces = {};  // not left out: there are none
+  EXPECT_EQ(facesOf(own).size(), 0u);
+  EXPECT_FALSE(makeSurfaceLoads(std::make_shared<const FluidBody>(own), water(), FlowSettings()));
 }
 
 // Tables scale with size like the added mass; spheres use a built-in table.
