@@ -139,6 +139,7 @@ struct VesselState {
   std::shared_ptr<const FluidBody> shape;
   bool is_known = false;         ///< false: the body has met no surface yet, and no water was given
   std::vector<HoldState> holds;  ///< as in FluidBody::holds
+  OpeningChanges changes;        ///< of openings while the body is in its fluid
   WaterInside inside;            ///< at FloatingState::stand
   /// Change of the velocity in B by the water that has come in at the start of this step.
   Vector6 change_B = Vector6::Zero();

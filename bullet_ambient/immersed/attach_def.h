@@ -19,6 +19,9 @@ struct HoldSettings {
   /// Water in each of them from the start [m^3]. Empty: a hold is empty, or full if all its
   /// openings are below the surface when the body first meets it.
   std::vector<double> water = {};
+  /// Pressure of the air at the surface, which air that water shuts off in a hold has at first
+  /// [Pa].
+  double atmosphere = 101325;
 };
 
 /// Definition of a body or link in a fluid.

@@ -179,6 +179,11 @@ std::vector<HoldWater> holdsOf(const AmbientBody& ambient, const MotionView& now
   for (std::size_t i = 0; i < ambient.vessel->holds.size(); ++i) {
     HoldWater& water = all.emplace_back(
         waterIn(ambient.def->fluid_body->holds[i], ambient.vessel->holds[i], R.transpose() * up));
+    const HoldState& state = ambient.vessel->holds[i];
+    water.has_trapped_air = state.is_sealed;
+    water.air_pressure = state.is_sealed && water.capacity > state.volume
+                             ? state.air / (water.capacity - state.volume)
+                             : ambient.def->holds.atmosphere;
     water.centre = origin_W + R * water.centre;
     water.level = origin_W + R * water.level;
     water.normal = up;

@@ -15,7 +15,7 @@ AMBIENT_BEGIN
 // All stored fields, listed once for all operations: write, read, check, copy from Bullet and back
 // to Bullet. Their order is that of the bytes. To add a field, add it to the structure and here,
 // and raise the version.
-constexpr std::uint32_t kStateVersion = 16;
+constexpr std::uint32_t kStateVersion = 17;
 
 /// Condition that each number of a field must meet, and the words of the message if one does not.
 /// The message begins with the name of the object; the value follows if the words end with a blank.
@@ -87,7 +87,7 @@ void fields(V& v, AttachDef& s) {
   v.choice(s.flow.precision, kLoadPrecisionNames);
   each(v, kAny, s.flow.maximum_load_error);
   each(v, kAny, s.flight.tolerance, s.flight.max_substeps, s.fluid_frame.rotation,
-       s.fluid_frame.translation, s.holds.are_open);
+       s.fluid_frame.translation, s.holds.are_open, s.holds.atmosphere);
 }
 
 template <class V>
@@ -131,7 +131,8 @@ template <class V>
 void fields(V& v, HoldState& s) {
   v(s.volume, finiteNotNegative("hold has a volume of water that is negative or not finite: "));
   v(s.pump, finite("hold has a pump whose rate is not finite: "));
-  each(v, kAny, s.flooded, s.drained);
+  v(s.air, finiteNotNegative("hold has sealed air that is negative or not finite: "));
+  each(v, kAny, s.flooded, s.drained, s.is_sealed);
 }
 
 template <class V>

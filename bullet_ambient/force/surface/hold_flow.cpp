@@ -6,6 +6,8 @@
 #include <cstddef>
 
 #include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/force/surface/falling_root.h"
 #include "bullet_ambient/spatial/inertia.h"
 
 namespace ambient {
@@ -43,6 +45,20 @@ double overCrest(double from, double to) {
   return from > to ? flow : -flow;
 }
 
+/// Through the pieces of a lid, per C sqrt(2g): eq. (139). `air`: as of sealedFlowThrough().
+BothWays throughPieces(const OpeningShape& opening, const Vector3& normal, double from_height,
+                       double to_height, double air) {
+  BothWays flow;
+  for (const OpeningShape::Piece& piece : opening.pieces()) {
+    const double height = normal.dot(piece.place);
+    const double from = std::max(0.0, from_height - height), to = std::max(0.0, to_height - height),
+                 head = from - to - air;
+    if ((head > 0 ? from : to) > 0)
+      flow.add(std::copysign(piece.area * std::sqrt(std::abs(head)), head));
+  }
+  return flow;
+}
+
 }  // namespace
 
 OpeningShape::OpeningShape(const HoldOpening& opening) {
@@ -75,7 +91,16 @@ OpeningShape::OpeningShape(const HoldOpening& opening) {
     *largest = halves[0];
     triangles.push_back(halves[1]);
   }
-  for (const Corners& t : triangles) pieces_.push_back({(t[0] + t[1] + t[2]) / 3, areaOf(t)});
+  for (const Corners& t : triangles) {
+    pieces_.push_back({(t[0] + t[1] + t[2]) / 3, areaOf(t)});
+    outward_ += (t[1] - t[0]).cross(t[2] - t[0]) / 2;
+  }
+}
+
+double OpeningShape::top(const Vector3& normal) const noexcept {
+  double top = -std::numeric_limits<double>::infinity();
+  for (const Vector3& corner : corners_) top = std::max(top, normal.dot(corner));
+  return top;
 }
 
 double flowThrough(const OpeningShape& opening, const Upward& up, double from_height,
@@ -84,14 +109,11 @@ double flowThrough(const OpeningShape& opening, const Upward& up, double from_he
   const auto depth = [&](double height, const Vector3& place) {
     return std::max(0.0, height - up.normal.dot(place));
   };
-  BothWays weir, orifice;
+  BothWays weir;
   for (const OpeningShape::Edge& edge : opening.edges())
     weir.add(edge.way.cross(up.normal).norm() *
              overCrest(depth(from_height, edge.middle), depth(to_height, edge.middle)));
-  for (const OpeningShape::Piece& piece : opening.pieces()) {
-    const double head = depth(from_height, piece.place) - depth(to_height, piece.place);
-    orifice.add(std::copysign(piece.area * std::sqrt(std::abs(head)), head));
-  }
+  const BothWays orifice = throughPieces(opening, up.normal, from_height, to_height, 0);
   bool is_covered_from = true, is_covered_to = true;
   for (const Vector3& corner : opening.corners()) {
     is_covered_from = is_covered_from && up.normal.dot(corner) < from_height;
@@ -102,9 +124,21 @@ double flowThrough(const OpeningShape& opening, const Upward& up, double from_he
   return kDischarge * std::sqrt(2 * up.gravity) * (weir.forth - weir.back);
 }
 
+double sealedFlowThrough(const OpeningShape& opening, const Upward& up, double from_height,
+                         double to_height, double air) noexcept {
+  AMBIENT_ASSERT(isUnit(up.normal) && up.gravity >= 0);
+  const BothWays flow = throughPieces(opening, up.normal, from_height, to_height, air);
+  return kDischarge * std::sqrt(2 * up.gravity) * (flow.forth - flow.back);
+}
+
+double bubblingFlow(const OpeningShape& opening, const Upward& up) noexcept {
+  constexpr double kBubble = 0.35;  // speed of a bubble that fills a pipe, over sqrt(gD)
+  const double across = std::sqrt(4 * opening.outward().norm() / kPi);
+  return kBubble * std::abs(opening.outward().dot(up.normal)) * std::sqrt(up.gravity * across);
+}
+
 double volumeThrough(const OpeningShape& opening, const Upward& up, const WaterSide& from,
                      const WaterSide& to, double duration) noexcept {
-  constexpr int kMostSteps = 60;
   constexpr double kAccuracy = 1e-12;  // of the explicit step
   AMBIENT_ASSERT(duration >= 0 && from.area > 0 && to.area > 0);
   // Returns the flow at the levels that a volume q leaves, times the duration, less q. Falls with
@@ -118,28 +152,9 @@ double volumeThrough(const OpeningShape& opening, const Upward& up, const WaterS
   const double end =
       std::clamp(first, -std::min(to.volume, from.room), std::min(from.volume, to.room));
   if (end == 0) return 0;
-  double near = 0, at_near = first, far = end, at_far = excess(end);
+  const double at_far = excess(end);
   if (at_far == 0 || (at_far > 0) == (first > 0)) return end;
-  // False position, with half the value at an end that stays (Illinois).
-  int side = 0;
-  double q = end;
-  for (int i = 0; i < kMostSteps; ++i) {
-    q = (near * at_far - far * at_near) / (at_far - at_near);
-    const double at = excess(q);
-    if (std::abs(at) <= kAccuracy * std::abs(first)) break;
-    if ((at > 0) == (at_near > 0)) {
-      near = q;
-      at_near = at;
-      if (side == 1) at_far /= 2;
-      side = 1;
-    } else {
-      far = q;
-      at_far = at;
-      if (side == -1) at_near /= 2;
-      side = -1;
-    }
-  }
-  return q;
+  return fallingRoot({0, first, end, at_far}, kAccuracy * std::abs(first), excess);
 }
 
 }  // namespace ambient

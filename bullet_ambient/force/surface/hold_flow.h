@@ -23,11 +23,16 @@ class OpeningShape {
   const std::vector<Vector3>& corners() const { return corners_; }
   const std::vector<Edge>& edges() const { return edges_; }
   const std::vector<Piece>& pieces() const { return pieces_; }
+  /// Area of the lid along its normal, out of the hold [m^2].
+  const Vector3& outward() const { return outward_; }
+  /// Height of its highest corner along a normal [m].
+  double top(const Vector3& normal) const noexcept;
 
  private:
   std::vector<Vector3> corners_;
   std::vector<Edge> edges_;
   std::vector<Piece> pieces_;
+  Vector3 outward_{0, 0, 0};
 };
 
 /// Water on one side of an opening: the sea by default, whose level does not move.
@@ -50,6 +55,17 @@ struct Upward {
 /// a root for each edge and piece, 0.5 us.
 double flowThrough(const OpeningShape& opening, const Upward& up, double from_height,
                    double to_height) noexcept;
+
+/// Flow through an opening where water shuts off the air on one side, eq. (139) with another
+/// pressure there, positive from one side to the other [m^3/s]. Only water flows: a side gives
+/// where its level is above the place.
+/// @param air pressure of the air at the second side less that at the first, over rho g [m]
+double sealedFlowThrough(const OpeningShape& opening, const Upward& up, double from_height,
+                         double to_height, double air) noexcept;
+
+/// Largest flow of water down through an opening while air rises through it, as large bubbles do,
+/// docs/theory.md eq. (146) [m^3/s].
+double bubblingFlow(const OpeningShape& opening, const Upward& up) noexcept;
 
 /// Volume that flows through an opening in a step, implicit in the levels, docs/theory.md eq.
 /// (140): at any duration these approach and never cross [m^3]. No more flows than there is water

@@ -23,6 +23,7 @@
 namespace ambient::test {
 namespace {
 
+constexpr double kAtmosphere = 101325;
 constexpr double kBarge = 200, kCapacity = 1.96 * 0.96 * 0.48;
 const Vector3 kBargeMoments = kBarge * Vector3(0.13, 0.42, 0.5);
 
@@ -31,6 +32,7 @@ struct Start {
   Quaternion orientation = Quaternion::Identity();
   Twist twist{};             ///< world axes
   double above_keel = 0.13;  ///< of the centre of mass [m]
+  double mass = kBarge;      ///< [kg]
 };
 
 struct Sea {
@@ -46,7 +48,7 @@ struct Sea {
   }
   btRigidBody& add(const OpenBarge& barge, const Start& start, const HoldSettings& holds = {}) {
     const Vector3 centre(0, 0, start.above_keel - 0.25);
-    BodyDef def{kBarge, kBargeMoments, {}, nullptr};
+    BodyDef def{start.mass, start.mass / kBarge * kBargeMoments, {}, nullptr};
     def.start.position = start.position + start.orientation * centre;
     def.start.orientation = start.orientation;
     def.start.twist = start.twist;
@@ -63,7 +65,7 @@ struct Sea {
   }
   double water(const btRigidBody& body) const { return of(body).vessel->holds[0].volume; }
   /// Energy of the body, the water around and that in its holds, docs/theory.md eq. (64) [J].
-  double energy(const btRigidBody& body) const {
+  double energy(const btRigidBody& body, double mass = kBarge) const {
     const AmbientBody& ambient = of(body);
     const SurfaceModel& model = ambient.models->surfaces.at(0).model;
     const RigidState state = readState(body);
@@ -73,9 +75,21 @@ struct Sea {
         standAtSurface(model, seenFrom(still, state.orientation.toRotationMatrix(), state.position),
                        {waterOf(ambient), &inside});
     const Vector6 x = state.twist.vector();
-    return x.dot(stand.inertia.full() * x) / 2 + kBarge * kGravity * state.position.z() +
+    return x.dot(stand.inertia.full() * x) / 2 + mass * kGravity * state.position.z() +
            hydrostaticEnergy(wetVolume(model, stand), stand.plane) +
-           ambient.floating->waves.energy();
+           ambient.floating->waves.energy() + energyOfAirIn(ambient);
+  }
+
+  /// Energy of the air that water shuts off, docs/theory.md eq. (148) [J].
+  static double energyOfAirIn(const AmbientBody& ambient) {
+    const VesselState& vessel = *ambient.vessel;
+    double energy = 0;
+    for (std::size_t i = 0; i < vessel.holds.size(); ++i) {
+      const HoldState& hold = vessel.holds[i];
+      const double room = vessel.shape->holds[i].volume - hold.volume;
+      if (hold.is_sealed) energy += energyOfAir(hold.air, room, kAtmosphere);
+    }
+    return energy;
   }
 
   FluidWorld scene;
@@ -197,6 +211,114 @@ TEST(Vessel, EnergyNeverGrowsInCalmWater) {
       const double next = sea.energy(body);
       EXPECT_LT(next - energy, byPrecision(1e-9, 3e-6) * kBarge * kGravity) << i << ' ' << k;
       energy = next;
+    }
+  }
+}
+
+/// Turned over about x.
+Start capsized() {
+  Start start;
+  start.orientation = rotationFromVector(Vector3(kPi, 0, 0));
+  return start;
+}
+
+// Energies of air are up to 91 kJ: their rounding counts where poses are floats.
+TEST(Vessel, EnergyNeverGrowsWhereWaterShutsOffAir) {
+  Arbitrary arbitrary(12);
+  int sealed = 0;
+  for (int i = 0; i < 16; ++i) {
+    const double hertz = std::array{30.0, 60.0, 120.0, 240.0}[static_cast<std::size_t>(i) % 4];
+    Sea sea;
+    Start start = capsized();
+    start.position.z() = arbitrary.between(-1, 0.3);
+    start.orientation = rotationFromVector(arbitrary.vector().normalized()) * start.orientation;
+    start.twist = {arbitrary.vector().normalized(), arbitrary.vector().normalized()};
+    start.mass = arbitrary.between(150, 1500);
+    OpenBarge barge;
+    barge.holds = 1 + i % 2;
+    barge.door = i % 4 < 2 ? 0.01 : 0;
+    btRigidBody& body = sea.add(barge, start, {true, std::vector<double>(barge.holds, 0.05)});
+    sea.scene.step(1 / hertz);
+    double energy = sea.energy(body, start.mass);
+    for (int k = 0; k < 400; ++k) {
+      sea.scene.step(1 / hertz);
+      const double next = sea.energy(body, start.mass);
+      sealed += sea.of(body).vessel->holds[0].is_sealed;
+      EXPECT_LT(next - energy, byPrecision(1e-9, 3e-6) * start.mass * kGravity) << i << ' ' << k;
+      energy = next;
+    }
+  }
+  EXPECT_GT(sealed, 2000);
+}
+
+/// Column of air in a room of a depth L whose mouth is under by d: p_0 L = (p_0 + rho g (d - L +
+/// x)) x.
+double airColumn(double mouth, double room) {
+  const double head = kAtmosphere / (1000 * kGravity), b = head + mouth - room;
+  return (std::sqrt(b * b + 4 * head * room) - b) / 2;
+}
+
+// A bell sinks on its rail to its stop.
+TEST(Vessel, DivingBellKeepsItsAirUnderPressure) {
+  for (const double hertz : {30.0, 60.0, 240.0}) {
+    Sea sea;
+    Start start = capsized();
+    start.position.z() = 1;
+    start.mass = 2000;
+    btRigidBody& body = sea.add({}, start);
+    Rail rail(sea, body, 4, 0);
+    sea.scene.step(1 / hertz, static_cast<int>(20 * hertz));
+    const double mouth = 0.25 - middleOf(body, 0.37);
+    EXPECT_NEAR(mouth, 3.25, 0.01);
+    const HoldWater hold = sea.scene.of(body).holds().at(0);
+    EXPECT_TRUE(hold.has_trapped_air);
+    const double column = airColumn(mouth, 0.48);
+    EXPECT_NEAR(hold.capacity - hold.volume, 1.96 * 0.96 * column, byPrecision(1e-6, 1e-4))
+        << hertz;
+    EXPECT_NEAR(hold.air_pressure, kAtmosphere * 0.48 / column, byPrecision(1, 30));
+    EXPECT_NEAR(hold.flooded - hold.drained, hold.volume, 1e-9);
+  }
+}
+
+// With a rim at a depth T and water up to w in it: m / rho = L B T - A w, and its air by Boyle.
+TEST(Vessel, BoatThatTurnsOverFloatsOnItsAir) {
+  double low = 0, high = 0.5, rim = 0, water = 0;
+  for (int i = 0; i < 100; ++i) {
+    rim = (low + high) / 2;
+    water = 0.48 - airColumn(rim, 0.48);
+    (2 * rim - 1.96 * 0.96 * water < 0.2 ? low : high) = rim;
+  }
+  for (const double hertz : {30.0, 60.0, 240.0}) {
+    Sea sea;
+    Start start = capsized();
+    start.above_keel = 0.42;
+    start.position.z() = 0.15;
+    btRigidBody& body = sea.add({}, start);
+    sea.scene.step(1 / hertz, static_cast<int>(120 * hertz));
+    EXPECT_GT(heelOf(body), kPi - 0.01) << hertz;
+    EXPECT_NEAR(0.25 - middleOf(body, 0.08), rim, 1e-3) << hertz;
+    EXPECT_NEAR(sea.water(body), 1.96 * 0.96 * water, 1e-3) << hertz;
+  }
+}
+
+// Pushed 1.2 m under and let go: mouth down it comes up again, mouth up it fills and sinks.
+TEST(Vessel, BowlThatIsPushedUnderComesUpOrSinks) {
+  for (const bool is_down : {true, false}) {
+    Sea sea;
+    Start start;
+    if (is_down) start = capsized();
+    start.position.z() = -1.2;
+    start.above_keel = 0.42;
+    btRigidBody& body = sea.add({}, start, {true, {0}});
+    sea.scene.step(1 / 60.0, 60);
+    if (is_down) {
+      EXPECT_LT(sea.water(body), 0.25 * kCapacity);
+      sea.scene.step(1 / 60.0, 240);
+      EXPECT_GT(middleOf(body, 0.08), 0);
+    } else {
+      EXPECT_EQ(sea.water(body), kCapacity);
+      sea.scene.step(1 / 60.0, 240);
+      EXPECT_LT(middleOf(body, 0.42), -3);
     }
   }
 }
