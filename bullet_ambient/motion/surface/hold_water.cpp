@@ -59,14 +59,14 @@ void fillCoveredHolds(const HoldShapes& holds, const OpeningChanges* changes,
                       const SurfacePlane& plane_F, HoldState* states) noexcept {
   for (std::size_t i = 0; i < holds.shapes.size(); ++i) {
     const int hold = static_cast<int>(i);
-    bool has_opening = false, is_covered = true;
+    bool has_opening = false;
     forEachOpening(holds, changes, [&](const HoldShapes::Opening& opening) {
-      if (opening.from != hold && opening.to != hold) return;
-      has_opening = true;
-      for (const Vector3& corner : opening.shape.corners())
-        is_covered = is_covered && plane_F.depth(corner) > 0;
+      has_opening = has_opening || opening.from == hold || opening.to == hold;
     });
-    states[i].volume = has_opening && is_covered ? holds.shapes[i].capacity() : 0;
+    const bool is_covered =
+        has_opening &&
+        computeExtent(holds.shapes[i].hull(), plane_F.normal).second < plane_F.height;
+    states[i].volume = is_covered ? holds.shapes[i].capacity() : 0;
   }
 }
 

@@ -105,7 +105,7 @@ bool areFull(const HoldShapes& holds, const HoldState* states) noexcept;
 /// Tells if all holds are empty.
 bool areEmpty(const HoldShapes& holds, const HoldState* states) noexcept;
 
-/// Fills the holds whose openings are all below a plane, and empties the others.
+/// Fills the holds that have openings and are all below a plane, and empties the others.
 void fillCoveredHolds(const HoldShapes& holds, const OpeningChanges* changes,
                       const SurfacePlane& plane_F, HoldState* states) noexcept;
 

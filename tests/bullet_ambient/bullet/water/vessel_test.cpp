@@ -318,7 +318,7 @@ TEST(Vessel, BowlThatIsPushedUnderComesUpOrSinks) {
     } else {
       EXPECT_EQ(sea.water(body), kCapacity);
       sea.scene.step(1 / 60.0, 240);
-      EXPECT_LT(middleOf(body, 0.42), -3);
+      EXPECT_LT(middleOf(body, 0.42), -2.5);
     }
   }
 }
