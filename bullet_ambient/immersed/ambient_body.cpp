@@ -114,6 +114,9 @@ void takeHolds(AmbientBody& ambient) {
   ambient.vessel = std::make_unique<VesselState>();
   ambient.vessel->shape = def.fluid_body;
   ambient.vessel->holds.resize(holds.size());
+  for (const Hold& hold : holds)
+    ambient.vessel->changes.is_shut.resize(ambient.vessel->changes.is_shut.size() +
+                                           hold.openings.size());
   ambient.vessel->is_known = !def.holds.water.empty();
   for (std::size_t i = 0; i < def.holds.water.size(); ++i)
     ambient.vessel->holds[i].volume = def.holds.water[i];

@@ -32,7 +32,7 @@ struct HoldWater {
   /// Volumes that have come from outside and left since the body was added [m^3].
   double flooded = 0, drained = 0;
   double area = 0;  ///< of its level [m^2]; 0: empty or full
-  /// Height of the lowest corner of its openings above the level [m]; infinite: it has none.
+  /// Height of the lowest corner of its openings above the level [m]; infinite: none is open.
   double freeboard = 0;
   bool has_trapped_air = false;  ///< water shuts off its air from that outside
   double air_pressure = 0;       ///< of its air [Pa]

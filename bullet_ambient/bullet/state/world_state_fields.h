@@ -136,6 +136,21 @@ void fields(V& v, HoldState& s) {
 }
 
 template <class V>
+void fields(V& v, AddedHole& s) {
+  each(v, kAny, s.hold);
+  v(s.area, finiteNotNegative("hold has a hole whose area is negative or not finite: "));
+  each(v, finite("hold has a hole whose place or normal is not finite"), s.place, s.normal);
+  constexpr const char* kFault = "hold has a hole without an area or a normal of length 1";
+  v.check(kFault, [&s] { return s.area > 0 && std::abs(s.normal.squaredNorm() - 1) < 1e-9; });
+}
+
+/// Whether an opening is shut.
+template <class V>
+void fields(V& v, std::uint8_t& s) {
+  v(s, kAny);
+}
+
+template <class V>
 void fields(V& v, AmbientState& s) {
   fields(v, s.def);
   fields(v, s.medium);
@@ -155,6 +170,8 @@ void fields(V& v, AmbientState& s) {
   each(v, kAny, s.wake.velocity_W.angular, s.wake.velocity_W.linear, s.wake.has_begun);
   v(s.has_met_water, kAny);
   v.list(s.holds, kNoName);
+  v.list(s.is_shut, kNoName);
+  v.list(s.holes, kNoName);
   each(v, kAny, s.left_W.angular, s.left_W.linear);
   // Flights take energies of both.
   v.check("flight has a load or velocity that is not finite, or its square is not", [&s] {

@@ -7,6 +7,7 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/force/medium/surface_plane.h"
 #include "bullet_ambient/force/surface/falling_root.h"
 #include "bullet_ambient/spatial/inertia.h"
 
@@ -101,6 +102,22 @@ double OpeningShape::top(const Vector3& normal) const noexcept {
   double top = -std::numeric_limits<double>::infinity();
   for (const Vector3& corner : corners_) top = std::max(top, normal.dot(corner));
   return top;
+}
+
+HoldOpening openingOf(const WallHole& hole) {
+  AMBIENT_ASSERT(isUnit(hole.normal) && hole.area > 0);
+  constexpr int kCorners = 8;
+  const double half = std::sqrt(0.5), radius = std::sqrt(hole.area / (4 * half));
+  const double cosines[kCorners] = {1, half, 0, -half, -1, -half, 0, half};
+  const PlaneAxes axes(hole.normal);
+  HoldOpening opening;
+  for (int i = 0; i < kCorners; ++i) {
+    const Vector3 corner =
+        hole.place + radius * (cosines[i] * axes.first + cosines[(i + 6) % kCorners] * axes.second);
+    opening.outline.insert(opening.outline.end(), corner.data(), corner.data() + 3);
+    if (i > 1) opening.lid.insert(opening.lid.end(), {0, i - 1, i});
+  }
+  return opening;
 }
 
 double flowThrough(const OpeningShape& opening, const Upward& up, double from_height,

@@ -35,6 +35,15 @@ class OpeningShape {
   Vector3 outward_{0, 0, 0};
 };
 
+/// A hole in a wall of a hold.
+struct WallHole {
+  Vector3 place{0, 0, 0};   ///< of its middle, in F [m]
+  Vector3 normal{0, 0, 1};  ///< out of the hold, in F; unit
+  double area = 0;          ///< [m^2]
+};
+/// Returns a hole as an opening to the fluid outside: an octagon, which is nearly round.
+HoldOpening openingOf(const WallHole& hole);
+
 /// Water on one side of an opening: the sea by default, whose level does not move.
 struct WaterSide {
   double height = 0;                                        ///< of its level along the normal [m]

@@ -28,6 +28,12 @@ HoldShapes::HoldShapes(const std::vector<Hold>& holds) {
   }
 }
 
+void OpeningChanges::add(const AddedHole& hole) {
+  holes.push_back(hole);
+  added.push_back({OpeningShape(openingOf(hole)), hole.hold, -1});
+  is_shut.push_back(0);
+}
+
 WaterInside waterInside(const HoldShapes& holds, const HoldState* states,
                         const SurfacePlane& plane_F) noexcept {
   WaterInside all;

@@ -26,10 +26,18 @@ struct HoldShapes {
   std::vector<Opening> openings;  ///< those of the first hold first
 };
 
-/// Openings of one body that are not those of its shape.
+/// A hole in a wall that one body has got while it is in its fluid.
+struct AddedHole : WallHole {
+  int hold = 0;
+};
+
+/// What one body has of other openings than its shape.
 struct OpeningChanges {
   std::vector<std::uint8_t> is_shut;       ///< of HoldShapes::openings, and then of those added
-  std::vector<HoldShapes::Opening> added;  ///< holes in walls
+  std::vector<AddedHole> holes;            ///< those added
+  std::vector<HoldShapes::Opening> added;  ///< their shapes
+
+  void add(const AddedHole& hole);
 };
 
 /// Calls a function for each opening that is not shut. `changes`: null: none.

@@ -253,6 +253,9 @@ void fill(Numbers& n, AmbientState& s) {
     s.memory.has_load, s.memory.substep, s.wake.velocity_W.angular, s.wake.velocity_W.linear,
     s.wake.has_begun, s.has_met_water, s.left_W.angular, s.left_W.linear);
   s.holds.resize(2);
+  s.is_shut.assign(3, 1);
+  for (AddedHole& hole : s.holes = std::vector<AddedHole>(1))
+    n(hole.hold, hole.area, hole.place, hole.normal);
   for (HoldState& hold : s.holds)
     n(hold.volume, hold.pump, hold.flooded, hold.drained, hold.is_sealed, hold.air);
   AmbientCounters& c = s.counters;

@@ -5,6 +5,8 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "bullet_ambient/base/pi.h"
@@ -398,6 +400,153 @@ TEST(Vessel, StateGoesOnBitForBit) {
   EXPECT_TRUE(run(other, same) == first);
 }
 
+// A hole shot into the floor floods as one that the shape has; shut, it does not; open again, it
+// does.
+TEST(Vessel, HoleThatIsShotIntoAHullSinksIt) {
+  Sea sea;
+  btRigidBody& body = sea.add({}, {});
+  const Immersed barge = sea.scene.of(body);
+  sea.scene.step(1 / 60.0, 600);
+  EXPECT_EQ(sea.water(body), 0);
+  EXPECT_EQ(barge.addOpening(0, {0.3, 0, -0.23}, {0, 0, -2}, 0.01), 1);
+  const double level = barge.holds().at(0).freeboard;
+  EXPECT_NEAR(level, 0, 1e-6) << "its lowest opening is in the floor";
+  sea.scene.step(1 / 60.0, 60);
+  const double flooded = sea.water(body);
+  EXPECT_NEAR(flooded, 0.6 * 0.01 * std::sqrt(2 * kGravity * 0.08), 4e-4) << "at 0.08 m of head";
+  barge.setOpening(0, 1, false);
+  sea.scene.step(1 / 60.0, 600);
+  EXPECT_EQ(sea.water(body), flooded);
+  EXPECT_NEAR(barge.holds().at(0).freeboard, 0.48 - flooded / (1.96 * 0.96), 2e-3);
+  barge.setOpening(0, 1, true);
+  const double exact = exactTimeToDip();
+  EXPECT_NEAR(timeToDip(sea, body, 60), exact - 1, 0.01 * exact);
+}
+
+// A hatch over the rim: awash, a barge takes no water before it opens.
+TEST(Vessel, HatchKeepsTheSeaOut) {
+  Sea sea;
+  Start start;
+  start.mass = 900;
+  btRigidBody& body = sea.add({}, start, {true, {0}});
+  const Immersed barge = sea.scene.of(body);
+  barge.setOpening(0, 0, false);
+  for (int i = 0; i < 20; ++i) {
+    body.applyCentralForce({0, 0, bt(-150 * kGravity)});
+    sea.scene.step(1 / 60.0);
+  }
+  sea.scene.step(1 / 60.0, 600);
+  EXPECT_EQ(sea.water(body), 0);
+  EXPECT_GT(middleOf(body), -0.25);
+  barge.setOpening(0, 0, true);
+  barge.addOpening(0, {0, 0.48, -0.1}, {0, 1, 0}, 0.01);  // a scupper under water
+  sea.scene.step(1 / 60.0, 600);
+  EXPECT_DOUBLE_EQ(sea.water(body), kCapacity);
+}
+
+// What a shut door keeps apart comes level when it opens.
+TEST(Vessel, DoorBetweenHoldsIsShutAndOpened) {
+  OpenBarge barge;
+  barge.holds = 2;
+  barge.door = 0.01;
+  Sea sea;
+  btRigidBody& body = sea.add(barge, {}, {true, {0.05, 0}});
+  const Immersed boat = sea.scene.of(body);
+  boat.setOpening(0, 1, false);
+  sea.scene.step(1 / 60.0, 120);
+  EXPECT_EQ(sea.water(body), 0.05);
+  boat.setOpening(0, 1, true);
+  sea.scene.step(1 / 60.0, 1200);
+  EXPECT_LT(sea.water(body), 0.04);
+  EXPECT_NEAR(sea.water(body) + boat.holds().at(1).volume, 0.05, 1e-12);
+}
+
+TEST(Vessel, StateHasHolesAndShutDoors) {
+  const auto start = [](Sea& sea) -> btRigidBody& {
+    OpenBarge barge;
+    barge.hole = 0.01;
+    return sea.add(barge, {}, {});
+  };
+  Sea sea;
+  btRigidBody& body = start(sea);
+  sea.scene.of(body).setOpening(0, 1, false);
+  sea.scene.of(body).addOpening(0, {0.5, 0.2, -0.23}, {0, 0, -1}, 0.002);
+  sea.scene.step(1 / 60.0, 100);
+  const WorldState state = sea.scene.fluid.save();
+  const auto run = [](Sea& world, btRigidBody& of) {
+    world.scene.step(1 / 60.0, 200);
+    return std::pair(of.getWorldTransform(), world.water(of));
+  };
+  const auto first = run(sea, body);
+  const std::shared_ptr<const FluidBody> shape = sea.scene.of(body).fluidBody();
+  Sea other;
+  btRigidBody& same = start(other);
+  other.scene.fluid.restore(
+      decodeState(encodeState(state), "state", [&](const std::string&) { return shape; }));
+  EXPECT_TRUE(run(other, same) == first);
+  EXPECT_EQ(other.of(same).vessel->changes.holes.size(), 1u);
+  other.scene.of(same).setOpening(0, 2, false);
+  const double water = other.water(same);
+  other.scene.step(1 / 60.0, 60);
+  EXPECT_EQ(other.water(same), water);
+}
+
+// A bell that hangs in its joint under pressure goes on with the bits of its air.
+TEST(Vessel, StateHasTheAirThatWaterShutsOff) {
+  const auto start = [](Sea& sea) -> btRigidBody& {
+    Start at = capsized();
+    at.mass = 1000;
+    at.position.z() = 0.2;
+    return sea.add({}, at, {});
+  };
+  Sea sea;
+  btRigidBody& body = start(sea);
+  sea.scene.step(1 / 60.0, 60);
+  ASSERT_TRUE(sea.of(body).vessel->holds[0].is_sealed);
+  const WorldState state = sea.scene.fluid.save();
+  const auto run = [](Sea& world, btRigidBody& of) {
+    world.scene.step(1 / 60.0, 200);
+    return std::tuple(of.getWorldTransform(), world.water(of), world.of(of).vessel->holds[0].air);
+  };
+  const auto first = run(sea, body);
+  const std::shared_ptr<const FluidBody> shape = sea.scene.of(body).fluidBody();
+  Sea other;
+  btRigidBody& same = start(other);
+  other.scene.fluid.restore(
+      decodeState(encodeState(state), "state", [&](const std::string&) { return shape; }));
+  EXPECT_TRUE(run(other, same) == first);
+}
+
+// A vessel afloat with water becomes another vessel, a body without holds, and a vessel again.
+TEST(Vessel, FluidBodyIsReplacedAfloat) {
+  Sea sea;
+  btRigidBody& body = sea.add({}, {}, {true, {0.1}});
+  const Immersed boat = sea.scene.of(body);
+  sea.scene.step(1 / 60.0, 30);
+  OpenBarge two;
+  two.holds = 2;
+  boat.setFluidBody(std::make_shared<FluidBody>(openBarge(two)));
+  EXPECT_EQ(boat.holds().size(), 2u);
+  EXPECT_EQ(boat.holds().at(0).volume, 0);
+  EXPECT_GT(boat.kineticEnergy(), 0);
+  sea.scene.step(1 / 60.0, 30);
+  FluidBody closed = openBarge({});
+  closed.holds.clear();
+  boat.setFluidBody(std::make_shared<FluidBody>(closed));
+  EXPECT_TRUE(boat.holds().empty());
+  EXPECT_GT(boat.wet().volume, 0);
+  sea.scene.step(1 / 60.0, 30);
+  boat.setFluidBody(std::make_shared<FluidBody>(openBarge({})));
+  boat.setWater(0, 0.05);
+  boat.addOpening(0, {0, 0, -0.23}, {0, 0, -1}, 1e-3);
+  sea.scene.step(1 / 60.0, 30);
+  EXPECT_GT(sea.water(body), 0.05);
+  boat.setFluidBody(std::make_shared<FluidBody>(openBarge(two)));
+  EXPECT_TRUE(sea.of(body).vessel->changes.holes.empty());
+  sea.scene.step(1 / 60.0, 600);
+  EXPECT_NEAR(middleOf(body), 0.25 - 0.1, 2e-3);
+}
+
 TEST(Vessel, DryBargeSleepsAndALeakingOneDoesNot) {
   for (const double hole : {0.0, 1e-4}) {
     Sea sea;
@@ -468,6 +617,23 @@ TEST(Vessel, WhatDoesNotFitIsRefusedInOneLine) {
   EXPECT_EQ(refusal([&] { barge.setWater(0, -1); }),
             "setWater: body with fluid body 'barge' has -1.000000 m^3 of water in hold 0, which "
             "must be zero to 0.903168");
+  EXPECT_EQ(refusal([&] { barge.setOpening(0, 1, false); }),
+            "setOpening: hold 0 of body with fluid body 'barge' has no opening with the number 1");
+  EXPECT_EQ(refusal([&] {
+              barge.addOpening(0, {0, 0, 0}, {0, 0, -1}, 0);
+            }),
+            "addOpening: body with fluid body 'barge' would have a hole of 0.000000 m^2, which "
+            "must be positive and finite");
+  EXPECT_EQ(refusal([&] {
+              barge.addOpening(0, {0, 0, 0}, {0, 0, 0}, 1);
+            }),
+            "addOpening: body with fluid body 'barge' would have a hole without a direction out "
+            "of the hold");
+  EXPECT_EQ(refusal([&] {
+              barge.addOpening(0, {0, 3, 0}, {0, 0, 1}, 1);
+            }),
+            "addOpening: body with fluid body 'barge' would have a hole at (0.000000, 3.000000, "
+            "0.000000) m in the frame of its fluid body, which is not at the body");
   EXPECT_EQ(refusal([&] { barge.pump(0, INFINITY); }),
             "pump: the rate [m^3/s] is inf, must be finite");
 }
