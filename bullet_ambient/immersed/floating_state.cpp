@@ -207,7 +207,8 @@ void exchangeWater(AmbientBody& ambient, const MotionView& now, double duration)
   const Vector6 x = twistInWater(ambient, now.state);
   const double twice_before = x.dot(stand.inertia.full() * x);
   const HoldSettings& settings = ambient.def->holds;
-  const Passage passage{settings.are_open, duration, settings.atmosphere, &vessel.changes};
+  const Passage passage{settings.are_open, duration, settings.atmosphere, &vessel.changes,
+                        vessel.has_waves ? &vessel.rises : nullptr};
   const Matrix6 come =
       exchangeWater(*model.holds, stand.immersion_F.plane, passage, vessel.holds.data());
   vessel.change_B.setZero();
@@ -225,6 +226,24 @@ void exchangeWater(AmbientBody& ambient, const MotionView& now, double duration)
   const Matrix6 come_B = model.excess_density * model.fluid_frame.inertiaToB(come);
   const Vector6 end = x - stand.inverse.full() * (come_B * x);
   vessel.change_B = scaledWithin(end, end.dot(stand.inertia.full() * end), twice_before).twist - x;
+}
+
+void saySunk(AmbientBody& ambient, Complaints& complaints) noexcept {
+  constexpr double kFull = 1 - 1e-9;  // of a hold
+  VesselState& vessel = *ambient.vessel;
+  if (vessel.has_sunk) return;
+  const SurfaceModel& model = *ambient.surface();
+  double water = 0;
+  std::size_t filled = vessel.holds.size();
+  for (std::size_t i = 0; i < vessel.holds.size(); ++i) {
+    const HoldState& hold = vessel.holds[i];
+    water += hold.volume;
+    if (hold.change > 0 && hold.volume >= kFull * vessel.shape->holds[i].volume) filled = i;
+  }
+  if (filled == vessel.holds.size()) return;
+  const double most = model.excess_density * (vessel.shape->volume - water);
+  vessel.has_sunk = model.above.mass - model.above.displaced_mass > most;
+  if (vessel.has_sunk) complaints.saySunk(*ambient.def, filled);
 }
 
 StepModel::StepModel(const AmbientBody& ambient, double duration) noexcept {

@@ -52,6 +52,7 @@ AmbientState saveAmbient(const AmbientBody& ambient, const InverseMass& mass) {
                      lastPlane(ambient),
                      ambient.wake ? *ambient.wake : Wake{},
                      false,
+                     false,
                      {},
                      {},
                      {},
@@ -59,6 +60,7 @@ AmbientState saveAmbient(const AmbientBody& ambient, const InverseMass& mass) {
                      ambient.counters};
   if (ambient.vessel) {
     state.has_met_water = ambient.vessel->is_known;
+    state.has_sunk = ambient.vessel->has_sunk;
     state.holds = ambient.vessel->holds;
     state.is_shut = ambient.vessel->changes.is_shut;
     state.holes = ambient.vessel->changes.holes;
@@ -101,10 +103,10 @@ void fillHolds(const AmbientState& saved, AmbientBody& ambient) {
                                 std::string(fits ? " and openings" : "") + ", than fluid body '" +
                                 ambient.def->fluid_body->name + "' has room for");
   if (!ambient.vessel) return;
-  OpeningChanges& changes = ambient.vessel->changes;
-  for (const AddedHole& hole : saved.holes) changes.add(hole);
-  changes.is_shut = saved.is_shut;
+  for (const AddedHole& hole : saved.holes) addHole(hole, *ambient.vessel);
+  ambient.vessel->changes.is_shut = saved.is_shut;
   ambient.vessel->is_known = saved.has_met_water;
+  ambient.vessel->has_sunk = saved.has_sunk;
   ambient.vessel->holds = saved.holds;
 }
 

@@ -168,7 +168,7 @@ void fields(V& v, AmbientState& s) {
        s.memory.growth.rotation, s.memory.growth.translation);
   v(s.memory.substep, finiteNotNegative("flight has a substep that is negative or not finite: "));
   each(v, kAny, s.wake.velocity_W.angular, s.wake.velocity_W.linear, s.wake.has_begun);
-  v(s.has_met_water, kAny);
+  each(v, kAny, s.has_met_water, s.has_sunk);
   v.list(s.holds, kNoName);
   v.list(s.is_shut, kNoName);
   v.list(s.holes, kNoName);

@@ -297,7 +297,7 @@ int Immersed::addOpening(int hold, const Vector3& place, const Vector3& normal, 
   hole.place = place;
   hole.normal = normal.normalized();
   hole.area = area;
-  vessel.changes.add(hole);
+  addHole(hole, vessel);
   wakeUp(held.member);
   const auto& holes = vessel.changes.holes;
   const auto added = std::count_if(holes.begin(), holes.end(),

@@ -15,7 +15,7 @@ namespace ambient {
 namespace {
 
 constexpr double kDischarge = 0.6;  // C: 0.58 of a broad crest, 0.61 of a sharp one
-constexpr std::size_t kEdges = 16, kPieces = 64;
+constexpr std::size_t kEdges = 32, kPieces = 64;
 
 using Corners = std::array<Vector3, 3>;
 
@@ -46,14 +46,22 @@ double overCrest(double from, double to) {
   return from > to ? flow : -flow;
 }
 
+/// Heights on both sides of an opening [m].
+struct Levels {
+  double from, to;
+  const double* rises;  ///< WaterSide::rises of the first side
+
+  double fromAt(std::size_t edge) const { return rises ? from + rises[edge] : from; }
+};
+
 /// Through the pieces of a lid, per C sqrt(2g): eq. (139). `air`: as of sealedFlowThrough().
-BothWays throughPieces(const OpeningShape& opening, const Vector3& normal, double from_height,
-                       double to_height, double air) {
+BothWays throughPieces(const OpeningShape& opening, const Vector3& normal, const Levels& levels,
+                       double air) {
   BothWays flow;
   for (const OpeningShape::Piece& piece : opening.pieces()) {
     const double height = normal.dot(piece.place);
-    const double from = std::max(0.0, from_height - height), to = std::max(0.0, to_height - height),
-                 head = from - to - air;
+    const double from = std::max(0.0, levels.fromAt(piece.edge) - height),
+                 to = std::max(0.0, levels.to - height), head = from - to - air;
     if ((head > 0 ? from : to) > 0)
       flow.add(std::copysign(piece.area * std::sqrt(std::abs(head)), head));
   }
@@ -93,7 +101,12 @@ OpeningShape::OpeningShape(const HoldOpening& opening) {
     triangles.push_back(halves[1]);
   }
   for (const Corners& t : triangles) {
-    pieces_.push_back({(t[0] + t[1] + t[2]) / 3, areaOf(t)});
+    const Vector3 place = (t[0] + t[1] + t[2]) / 3;
+    const auto nearest =
+        std::min_element(edges_.begin(), edges_.end(), [&](const Edge& a, const Edge& b) {
+          return (a.middle - place).squaredNorm() < (b.middle - place).squaredNorm();
+        });
+    pieces_.push_back({place, areaOf(t), static_cast<std::size_t>(nearest - edges_.begin())});
     outward_ += (t[1] - t[0]).cross(t[2] - t[0]) / 2;
   }
 }
@@ -121,20 +134,23 @@ HoldOpening openingOf(const WallHole& hole) {
 }
 
 double flowThrough(const OpeningShape& opening, const Upward& up, double from_height,
-                   double to_height) noexcept {
+                   double to_height, const double* from_rises) noexcept {
   AMBIENT_ASSERT(isUnit(up.normal) && up.gravity >= 0);
-  const auto depth = [&](double height, const Vector3& place) {
-    return std::max(0.0, height - up.normal.dot(place));
-  };
+  const Levels levels{from_height, to_height, from_rises};
   BothWays weir;
-  for (const OpeningShape::Edge& edge : opening.edges())
-    weir.add(edge.way.cross(up.normal).norm() *
-             overCrest(depth(from_height, edge.middle), depth(to_height, edge.middle)));
-  const BothWays orifice = throughPieces(opening, up.normal, from_height, to_height, 0);
   bool is_covered_from = true, is_covered_to = true;
+  for (std::size_t i = 0; i < opening.edges().size(); ++i) {
+    const OpeningShape::Edge& edge = opening.edges()[i];
+    const double height = up.normal.dot(edge.middle), from = levels.fromAt(i) - height;
+    weir.add(edge.way.cross(up.normal).norm() *
+             overCrest(std::max(0.0, from), std::max(0.0, to_height - height)));
+    is_covered_from = is_covered_from && from > 0;
+  }
+  const BothWays orifice = throughPieces(opening, up.normal, levels, 0);
   for (const Vector3& corner : opening.corners()) {
-    is_covered_from = is_covered_from && up.normal.dot(corner) < from_height;
-    is_covered_to = is_covered_to && up.normal.dot(corner) < to_height;
+    const double height = up.normal.dot(corner);
+    is_covered_from = is_covered_from && (from_rises || height < from_height);
+    is_covered_to = is_covered_to && height < to_height;
   }
   if (is_covered_from) weir.forth = std::min(weir.forth, orifice.forth);
   if (is_covered_to) weir.back = std::min(weir.back, orifice.back);
@@ -144,7 +160,7 @@ double flowThrough(const OpeningShape& opening, const Upward& up, double from_he
 double sealedFlowThrough(const OpeningShape& opening, const Upward& up, double from_height,
                          double to_height, double air) noexcept {
   AMBIENT_ASSERT(isUnit(up.normal) && up.gravity >= 0);
-  const BothWays flow = throughPieces(opening, up.normal, from_height, to_height, air);
+  const BothWays flow = throughPieces(opening, up.normal, {from_height, to_height, nullptr}, air);
   return kDischarge * std::sqrt(2 * up.gravity) * (flow.forth - flow.back);
 }
 
@@ -161,8 +177,8 @@ double volumeThrough(const OpeningShape& opening, const Upward& up, const WaterS
   // Returns the flow at the levels that a volume q leaves, times the duration, less q. Falls with
   // q.
   const auto excess = [&](double q) {
-    return duration *
-               flowThrough(opening, up, from.height - q / from.area, to.height + q / to.area) -
+    return duration * flowThrough(opening, up, from.height - q / from.area, to.height + q / to.area,
+                                  from.rises) -
            q;
   };
   const double first = excess(0);

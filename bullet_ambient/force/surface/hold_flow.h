@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <limits>
 #include <vector>
 
@@ -17,8 +18,9 @@ class OpeningShape {
     Vector3 middle, way;  ///< [m]
   };
   struct Piece {
-    Vector3 place;    ///< centroid [m]
-    double area = 0;  ///< [m^2]
+    Vector3 place;         ///< centroid [m]
+    double area = 0;       ///< [m^2]
+    std::size_t edge = 0;  ///< the nearest one
   };
   const std::vector<Vector3>& corners() const { return corners_; }
   const std::vector<Edge>& edges() const { return edges_; }
@@ -50,6 +52,8 @@ struct WaterSide {
   double area = std::numeric_limits<double>::infinity();    ///< of its level [m^2]
   double volume = std::numeric_limits<double>::infinity();  ///< [m^3]
   double room = std::numeric_limits<double>::infinity();    ///< for more [m^3]
+  /// Heights of the water at each edge of the opening above that level [m]; null: it is a plane.
+  const double* rises = nullptr;
 };
 
 /// Which way is up, and how strong gravity is.
@@ -62,8 +66,9 @@ struct Upward {
 /// to the other; negative: back [m^3/s]. Water goes over the outline as over a weir, and, where the
 /// whole outline lies below the level of the side that gives, at most as through an orifice. Cost:
 /// a root for each edge and piece, 0.5 us.
+/// @param from_rises WaterSide::rises of the first side
 double flowThrough(const OpeningShape& opening, const Upward& up, double from_height,
-                   double to_height) noexcept;
+                   double to_height, const double* from_rises = nullptr) noexcept;
 
 /// Flow through an opening where water shuts off the air on one side, eq. (139) with another
 /// pressure there, positive from one side to the other [m^3/s]. Only water flows: a side gives

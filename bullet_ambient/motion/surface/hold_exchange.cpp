@@ -22,19 +22,46 @@ WaterSide sideOf(const HoldShape& shape, const HoldState& state, double level, d
           std::min(shape.capacity() - state.volume, std::max(0.0, change))};
 }
 
-bool isClearOf(const OpeningShape& opening, const SurfacePlane& plane_F) {
-  const auto& corners = opening.corners();
-  return std::none_of(corners.begin(), corners.end(),
-                      [&](const Vector3& corner) { return plane_F.depth(corner) > 0; });
+/// The sea at an opening.
+struct SeaAt {
+  const OpeningShape& opening;
+  const SurfacePlane& plane_F;
+  const std::vector<double>* rises;  ///< at its edges [m]; null: none
+
+  const double* data() const { return rises ? rises->data() : nullptr; }
+};
+
+bool isClear(const SeaAt& sea) {
+  const auto& corners = sea.opening.corners();
+  bool is_clear = std::none_of(corners.begin(), corners.end(), [&](const Vector3& corner) {
+    return sea.plane_F.depth(corner) > 0;
+  });
+  if (sea.rises)
+    for (std::size_t i = 0; i < sea.rises->size(); ++i)
+      is_clear =
+          is_clear && !(sea.plane_F.depth(sea.opening.edges()[i].middle) + (*sea.rises)[i] > 0);
+  return is_clear;
 }
 
-void exchangeWithSea(const HoldShape& shape, const OpeningShape& opening,
-                     const SurfacePlane& plane_F, double duration, HoldState& state) {
-  if (!(state.volume > 0) && isClearOf(opening, plane_F)) return;
-  const Vector3& normal = plane_F.normal;
-  const double level = levelOf(shape, normal, state), sea = plane_F.height;
-  const double in = volumeThrough(opening, {normal, plane_F.gravity}, WaterSide{sea},
-                                  sideOf(shape, state, level, sea, normal), duration);
+/// Height to which the level in a hold may go: that of the sea, of waves the highest if water comes
+/// in, else the lowest.
+double aimOf(const SeaAt& sea, double level) {
+  const double height = sea.plane_F.height;
+  if (!sea.rises) return height;
+  const double flow = flowThrough(sea.opening, {sea.plane_F.normal, sea.plane_F.gravity}, height,
+                                  level, sea.data());
+  const auto [low, high] = std::minmax_element(sea.rises->begin(), sea.rises->end());
+  return height + (flow > 0 ? *high : *low);
+}
+
+void exchangeWithSea(const HoldShape& shape, const SeaAt& sea, double duration, HoldState& state) {
+  if (!(state.volume > 0) && isClear(sea)) return;
+  const Vector3& normal = sea.plane_F.normal;
+  const double level = levelOf(shape, normal, state);
+  WaterSide outside{sea.plane_F.height};
+  outside.rises = sea.data();
+  const double in = volumeThrough(sea.opening, {normal, sea.plane_F.gravity}, outside,
+                                  sideOf(shape, state, level, aimOf(sea, level), normal), duration);
   addWater(in, state);
   state.inflow += in;
 }
@@ -60,13 +87,21 @@ bool hasOneAir(const HoldShapes::Opening& opening, const HoldState* states) {
   return states[opening.from].air_group == there;
 }
 
-void exchangeThrough(const HoldShapes& holds, const HoldShapes::Opening& opening,
-                     const SurfacePlane& plane_F, const Passage& passage, HoldState* states) {
+/// An opening that is not shut, and its number among all.
+struct Numbered {
+  const HoldShapes::Opening& opening;
+  std::size_t number;
+};
+
+void exchangeThrough(const HoldShapes& holds, const Numbered& at, const SurfacePlane& plane_F,
+                     const Passage& passage, HoldState* states) {
+  const HoldShapes::Opening& opening = at.opening;
   if (!hasOneAir(opening, states)) {
     exchangeSealed(holds, opening, plane_F, passage, states);
   } else if (opening.to < 0) {
-    exchangeWithSea(holds.shapes[static_cast<std::size_t>(opening.from)], opening.shape, plane_F,
-                    passage.duration, states[opening.from]);
+    const SeaAt sea{opening.shape, plane_F, passage.rises ? &(*passage.rises)[at.number] : nullptr};
+    exchangeWithSea(holds.shapes[static_cast<std::size_t>(opening.from)], sea, passage.duration,
+                    states[opening.from]);
   } else {
     exchangeBetween(holds, opening, plane_F, passage.duration, states);
     shareAir(holds, states[opening.from].air_group, states);
@@ -102,9 +137,10 @@ Matrix6 exchangeWater(const HoldShapes& holds, const SurfacePlane& plane_F, cons
     runPump(holds.shapes[i], passage.duration, states[i]);
   if (passage.are_open) {
     sealHolds(holds, plane_F, passage, states);
-    forEachOpening(holds, passage.changes, [&](const HoldShapes::Opening& opening) {
-      exchangeThrough(holds, opening, plane_F, passage, states);
-    });
+    forEachOpening(holds, passage.changes,
+                   [&](const HoldShapes::Opening& opening, std::size_t number) {
+                     exchangeThrough(holds, {opening, number}, plane_F, passage, states);
+                   });
   }
   Matrix6 come = Matrix6::Zero();
   for (std::size_t i = 0; i < holds.shapes.size(); ++i) {

@@ -66,7 +66,7 @@ void fillCoveredHolds(const HoldShapes& holds, const OpeningChanges* changes,
   for (std::size_t i = 0; i < holds.shapes.size(); ++i) {
     const int hold = static_cast<int>(i);
     bool has_opening = false;
-    forEachOpening(holds, changes, [&](const HoldShapes::Opening& opening) {
+    forEachOpening(holds, changes, [&](const HoldShapes::Opening& opening, std::size_t) {
       has_opening = has_opening || opening.from == hold || opening.to == hold;
     });
     const bool is_covered =

@@ -40,12 +40,17 @@ struct OpeningChanges {
   void add(const AddedHole& hole);
 };
 
-/// Calls a function for each opening that is not shut. `changes`: null: none.
+/// Heights of a sea with waves above its plane, at the edges of each opening [m], in the order of
+/// forEachOpening().
+using RimRises = std::vector<std::vector<double>>;
+
+/// Calls a function for each opening that is not shut, with its number among all. `changes`: null:
+/// none.
 template <class Function>
 void forEachOpening(const HoldShapes& holds, const OpeningChanges* changes,
                     const Function& function) {
   const auto visit = [&](const HoldShapes::Opening& opening, std::size_t i) {
-    if (!changes || i >= changes->is_shut.size() || !changes->is_shut[i]) function(opening);
+    if (!changes || i >= changes->is_shut.size() || !changes->is_shut[i]) function(opening, i);
   };
   std::size_t i = 0;
   for (const HoldShapes::Opening& opening : holds.openings) visit(opening, i++);
@@ -74,6 +79,7 @@ struct Passage {
   double duration = 0;                      ///< [s]
   double atmosphere = 101325;               ///< pressure of the air at the surface [Pa]
   const OpeningChanges* changes = nullptr;  ///< null: none
+  const RimRises* rises = nullptr;          ///< null: the sea is a plane at the openings
 };
 
 /// Water in all holds of a body at one pose, in F: what it adds to the closed vessel.

@@ -52,12 +52,25 @@ bool passesAir(const Holds& h, const OpeningShape& opening, double from, double 
                      [&](const Vector3& corner) { return h.height(corner) > high; });
 }
 
+/// Whether an edge of an opening is above a height and the waves there.
+bool passesAirOverWaves(const Holds& h, const OpeningShape& opening,
+                        const std::vector<double>& rises, double from) {
+  for (std::size_t i = 0; i < rises.size(); ++i) {
+    const double height = h.height(opening.edges()[i].middle);
+    if (height > h.plane_F.height + rises[i] && height > from) return true;
+  }
+  return false;
+}
+
 /// Whether air passes from outside through an opening of a hold.
-bool isVented(const Holds& h, const HoldShapes::Opening& opening) {
-  const double sea = h.plane_F.height;
-  if (!passesAir(h, opening.shape, sea, sea)) return false;
+bool isVented(const Holds& h, const HoldShapes::Opening& opening, std::size_t number) {
+  const auto passes = [&](double from) {
+    return h.passage.rises ? passesAirOverWaves(h, opening.shape, (*h.passage.rises)[number], from)
+                           : passesAir(h, opening.shape, h.plane_F.height, from);
+  };
+  if (!passes(-kInfinite)) return false;
   return !(h.states[opening.from].volume > kEmpty * h.shape(opening.from).capacity()) ||
-         passesAir(h, opening.shape, sea, airFrom(h, opening.from));
+         passes(airFrom(h, opening.from));
 }
 
 /// Air of a group of holds: products and volumes add up.
@@ -88,14 +101,14 @@ void joinGroups(const Holds& h, int one, int two) {
 /// Sets the groups: a number for each sealed hold, that of the first with the same air.
 void findGroups(const Holds& h) {
   for (int i = 0; i < h.count(); ++i) h.states[i].air_group = i;
-  h.forEach([&](const HoldShapes::Opening& opening) {
+  h.forEach([&](const HoldShapes::Opening& opening, std::size_t number) {
     const int group = h.states[opening.from].air_group;
-    if (opening.to < 0 && group >= 0 && isVented(h, opening)) joinGroups(h, -1, group);
+    if (opening.to < 0 && group >= 0 && isVented(h, opening, number)) joinGroups(h, -1, group);
   });
   if (std::all_of(h.states, h.states + h.count(),
                   [](const HoldState& state) { return state.air_group < 0; }))
     return;
-  h.forEach([&](const HoldShapes::Opening& door) {
+  h.forEach([&](const HoldShapes::Opening& door, std::size_t) {
     if (door.to < 0) return;
     const int one = h.states[door.from].air_group, two = h.states[door.to].air_group;
     if (one != two && passesAir(h, door.shape, airFrom(h, door.from), airFrom(h, door.to)))
@@ -106,7 +119,7 @@ void findGroups(const Holds& h) {
 /// Sets what bounds the pressure of the air in a hold by its openings to the sea.
 void bound(const Holds& h, int hold, SealedAir& air) {
   double top = -kInfinite;
-  h.forEach([&](const HoldShapes::Opening& opening) {
+  h.forEach([&](const HoldShapes::Opening& opening, std::size_t) {
     if (opening.from == hold && opening.to < 0)
       top = std::max(top, opening.shape.top(h.plane_F.normal));
   });

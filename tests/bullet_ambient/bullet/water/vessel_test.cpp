@@ -368,6 +368,50 @@ TEST(Vessel, WavesNeitherMakeNorLoseWater) {
   EXPECT_NEAR(hold.drained, gone, 1e-9);
 }
 
+/// What comes over the rim of an empty barge in waves along x, by Poleni's formula at each place
+/// [m^3].
+double overRim(const WaveComponent& wave, double freeboard, double time) {
+  constexpr int kSteps = 2000, kPlaces = 400;
+  const double k = 4 * kPi * kPi / (wave.period * wave.period * kGravity);
+  double sum = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double phase = 2 * kPi / wave.period * (i + 0.5) / kSteps * time - wave.phase;
+    const auto over = [&](double x) {
+      return std::pow(std::max(0.0, wave.amplitude * std::cos(k * x - phase) - freeboard), 1.5);
+    };
+    for (int j = 0; j < kPlaces; ++j)
+      sum += 2 * over(1.96 * ((j + 0.5) / kPlaces - 0.5)) * 1.96 / kPlaces;
+    sum += 0.96 * (over(0.98) + over(-0.98));
+  }
+  return 0.6 * std::sqrt(2 * kGravity) * 2 / 3 * sum * time / kSteps;
+}
+
+// Waves half as long as a barge that is held slop over its rim, where it meets them.
+TEST(Vessel, WavesShorterThanTheHullComeOverItsRim) {
+  for (const double length : {1.0, 2.0}) {
+    const WaveComponent wave{0.04, std::sqrt(2 * kPi * length / kGravity), {1, 0, 0}, 0.3};
+    Sea sea(std::make_shared<AiryWaves>(CalmSea{}, std::vector<WaveComponent>{wave}));
+    Start start;
+    start.position.z() = -0.23;
+    btRigidBody& body = sea.add({}, start, {true, {0}});
+    Rail rail(sea, body, 0, 0);
+    const double time = 6 * wave.period;
+    sea.scene.step(1 / 240.0, static_cast<int>(std::lround(time * 240)));
+    const double exact = overRim(wave, 0.02, time);
+    EXPECT_NEAR(sea.water(body), exact, 0.1 * exact) << length;
+    EXPECT_TRUE(sea.of(body).vessel->has_waves);
+  }
+}
+
+// Nothing is asked for where the sea is still, or the waves are long.
+TEST(Vessel, RimIsThatOfThePlaneInLongWaves) {
+  const WaveComponent swell{0.04, 12, {1, 0, 0}, 0};
+  Sea sea(std::make_shared<AiryWaves>(CalmSea{}, std::vector<WaveComponent>{swell}));
+  btRigidBody& body = sea.add({}, {});
+  sea.scene.step(1 / 60.0);
+  EXPECT_FALSE(sea.of(body).vessel->has_waves);
+}
+
 TEST(Vessel, StateGoesOnBitForBit) {
   const auto start = [](Sea& sea) -> btRigidBody& {
     OpenBarge barge;
@@ -421,6 +465,41 @@ TEST(Vessel, HoleThatIsShotIntoAHullSinksIt) {
   barge.setOpening(0, 1, true);
   const double exact = exactTimeToDip();
   EXPECT_NEAR(timeToDip(sea, body, 60), exact - 1, 0.01 * exact);
+}
+
+// It is said once, in this step and after a restored one; of another vessel once more. What stays
+// afloat or begins as a wreck is not spoken of.
+TEST(Vessel, SaysOnceThatItSinks) {
+  Sea sea;
+  OpenBarge barge;
+  barge.hole = 0.05;
+  btRigidBody& body = sea.add(barge, {});
+  Start beside;
+  beside.position.y() = 20;
+  beside.mass = 500;
+  sea.add(barge, beside);
+  Start wreck;
+  wreck.position = {20, 0, -3};
+  sea.add(barge, wreck);
+  Start light;
+  light.position = {20, 20, 0};
+  light.mass = 60;
+  btRigidBody& afloat = sea.add(barge, light);
+  const WorldState before = sea.scene.fluid.save();
+  const std::string sentence =
+      "bullet_ambient: a body with fluid body 'barge' sinks: its hold 'hold' of 0.9032 m^3 is full "
+      "of water";
+  sea.scene.step(1 / 60.0, 60 * 60);
+  EXPECT_EQ(sea.scene.said, (std::vector<std::string>{sentence, sentence}));
+  // Floor and walls displace 60 l where it is 0.189 m deep.
+  EXPECT_NEAR(sea.water(afloat), 1.96 * 0.96 * 0.169, 5e-3);
+  EXPECT_GT(middleOf(afloat), -0.5);
+  EXPECT_TRUE(sea.of(body).vessel->has_sunk);
+  sea.scene.fluid.restore(sea.scene.fluid.save());
+  sea.scene.step(1 / 60.0, 60);
+  EXPECT_EQ(sea.scene.said.size(), 2u);
+  sea.scene.fluid.restore(before);
+  EXPECT_FALSE(sea.of(body).vessel->has_sunk);
 }
 
 // A hatch over the rim: awash, a barge takes no water before it opens.
