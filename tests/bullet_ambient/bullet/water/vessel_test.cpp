@@ -398,7 +398,7 @@ TEST(Vessel, WavesShorterThanTheHullComeOverItsRim) {
     const double time = 6 * wave.period;
     sea.scene.step(1 / 240.0, static_cast<int>(std::lround(time * 240)));
     const double exact = overRim(wave, 0.02, time);
-    EXPECT_NEAR(sea.water(body), exact, 0.1 * exact) << length;
+    EXPECT_NEAR(sea.water(body), exact, 0.02 * exact) << length;
     EXPECT_TRUE(sea.of(body).vessel->has_waves);
   }
 }
