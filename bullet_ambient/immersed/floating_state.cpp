@@ -228,24 +228,6 @@ void exchangeWater(AmbientBody& ambient, const MotionView& now, double duration)
   vessel.change_B = scaledWithin(end, end.dot(stand.inertia.full() * end), twice_before).twist - x;
 }
 
-void saySunk(AmbientBody& ambient, Complaints& complaints) noexcept {
-  constexpr double kFull = 1 - 1e-9;  // of a hold
-  VesselState& vessel = *ambient.vessel;
-  if (vessel.has_sunk) return;
-  const SurfaceModel& model = *ambient.surface();
-  double water = 0;
-  std::size_t filled = vessel.holds.size();
-  for (std::size_t i = 0; i < vessel.holds.size(); ++i) {
-    const HoldState& hold = vessel.holds[i];
-    water += hold.volume;
-    if (hold.change > 0 && hold.volume >= kFull * vessel.shape->holds[i].volume) filled = i;
-  }
-  if (filled == vessel.holds.size()) return;
-  const double most = model.excess_density * (vessel.shape->volume - water);
-  vessel.has_sunk = model.above.mass - model.above.displaced_mass > most;
-  if (vessel.has_sunk) complaints.saySunk(*ambient.def, filled);
-}
-
 StepModel::StepModel(const AmbientBody& ambient, double duration) noexcept {
   if (ambient.surface()) {
     freeze(ambient);

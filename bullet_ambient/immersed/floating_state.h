@@ -72,10 +72,6 @@ const SurfaceStand& standNow(AmbientBody& ambient, const MotionView& now) noexce
 /// @pre it has holds, and a surface is near
 void exchangeWater(AmbientBody& ambient, const MotionView& now, double duration) noexcept;
 
-/// Says once of a vessel that water has come into one of its holds until that was full, and that
-/// the body is then too heavy to float. Apart from that allocates nothing. @pre as exchangeWater()
-void saySunk(AmbientBody& ambient, Complaints& complaints) noexcept;
-
 /// Loads on the wet part of a body at one moment.
 class LoadsAtSurface final : public SurfaceLoads {
  public:

@@ -117,7 +117,7 @@ py::dict wetOf(const PythonBody& body) {
   return state;
 }
 
-py::list holdsOf(const PythonBody& body) {
+py::list waterInHolds(const PythonBody& body) {
   py::list holds;
   for (const HoldWater& hold : body.world->simulation().holds(body.index)) {
     py::dict facts;
@@ -144,7 +144,7 @@ const Immersed& vesselOf(const PythonBody& body) {
 
 void bindHolds(py::class_<PythonBody>& type) {
   type.def_property_readonly(
-          "holds", &holdsOf,
+          "holds", &waterInHolds,
           R"(Water in the holds of a vessel, a list of dicts; empty for other bodies.
 
 "volume" and "capacity" [m^3], "inflow" from outside in the last step, "flooded" and "drained" in all [m^3], "area" of the

@@ -6,8 +6,8 @@
 #include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/immersed/region_following.h"
-#include "bullet_ambient/immersed/rim_waves.h"
 #include "bullet_ambient/immersed/station_samples.h"
+#include "bullet_ambient/immersed/vessel_step.h"
 #include "bullet_ambient/motion/flight/flight_group.h"
 
 AMBIENT_BEGIN

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/motion/surface/sealed_holds.h"
@@ -31,10 +32,12 @@ struct SeaAt {
   const double* data() const { return rises ? rises->data() : nullptr; }
 };
 
-bool isClear(const SeaAt& sea) {
+/// Whether an opening is above a height and the sea, so that nothing flows.
+bool isClear(const SeaAt& sea, double height) {
   const auto& corners = sea.opening.corners();
+  const double reach = std::max(height, sea.plane_F.height);
   bool is_clear = std::none_of(corners.begin(), corners.end(), [&](const Vector3& corner) {
-    return sea.plane_F.depth(corner) > 0;
+    return sea.plane_F.normal.dot(corner) < reach;
   });
   if (sea.rises)
     for (std::size_t i = 0; i < sea.rises->size(); ++i)
@@ -55,9 +58,10 @@ double aimOf(const SeaAt& sea, double level) {
 }
 
 void exchangeWithSea(const HoldShape& shape, const SeaAt& sea, double duration, HoldState& state) {
-  if (!(state.volume > 0) && isClear(sea)) return;
   const Vector3& normal = sea.plane_F.normal;
+  if (!(state.volume > 0) && isClear(sea, -std::numeric_limits<double>::infinity())) return;
   const double level = levelOf(shape, normal, state);
+  if (isClear(sea, level)) return;
   WaterSide outside{sea.plane_F.height};
   outside.rises = sea.data();
   const double in = volumeThrough(sea.opening, {normal, sea.plane_F.gravity}, outside,
@@ -74,6 +78,7 @@ void exchangeBetween(const HoldShapes& holds, const HoldShapes::Opening& door,
   const HoldShape& there = holds.shapes[static_cast<std::size_t>(door.to)];
   const Vector3& normal = plane_F.normal;
   const double level = levelOf(here, normal, from), other = levelOf(there, normal, to);
+  if (!(-door.shape.top(-normal) < std::max(level, other))) return;
   const double passed =
       volumeThrough(door.shape, {normal, plane_F.gravity}, sideOf(here, from, level, other, normal),
                     sideOf(there, to, other, level, normal), duration);

@@ -1,4 +1,4 @@
-#include "bullet_ambient/immersed/rim_waves.h"
+#include "bullet_ambient/immersed/vessel_step.h"
 
 #include <algorithm>
 #include <cmath>
@@ -68,6 +68,24 @@ void findRimWaves(AmbientBody& ambient, const MotionView& now,
                    for (std::size_t i = 0; i < rises.size(); ++i)
                      rises[i] = riseAt(at, opening.shape.edges()[i].middle);
                  });
+}
+
+void saySunk(AmbientBody& ambient, Complaints& complaints) noexcept {
+  constexpr double kFull = 1 - 1e-9;  // of a hold
+  VesselState& vessel = *ambient.vessel;
+  if (vessel.has_sunk) return;
+  const SurfaceModel& model = *ambient.surface();
+  double water = 0;
+  std::size_t filled = vessel.holds.size();
+  for (std::size_t i = 0; i < vessel.holds.size(); ++i) {
+    const HoldState& hold = vessel.holds[i];
+    water += hold.volume;
+    if (hold.change > 0 && hold.volume >= kFull * vessel.shape->holds[i].volume) filled = i;
+  }
+  if (filled == vessel.holds.size()) return;
+  const double most = model.excess_density * (vessel.shape->volume - water);
+  vessel.has_sunk = model.above.mass - model.above.displaced_mass > most;
+  if (vessel.has_sunk) complaints.saySunk(*ambient.def, filled);
 }
 
 }  // namespace ambient

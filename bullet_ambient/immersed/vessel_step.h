@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bullet_ambient/immersed/ambient_body.h"
+#include "bullet_ambient/immersed/complaints.h"
 #include "bullet_ambient/immersed/fluid_regions.h"
 
 namespace ambient {
@@ -12,5 +13,10 @@ namespace ambient {
 /// surface
 void findRimWaves(AmbientBody& ambient, const MotionView& now,
                   const FluidRegions& regions) noexcept;
+
+/// Says once of a vessel that water has come into one of its holds until that was full, and that
+/// the body is then too heavy to float. Apart from that allocates nothing. @pre exchangeWater() has
+/// let water pass
+void saySunk(AmbientBody& ambient, Complaints& complaints) noexcept;
 
 }  // namespace ambient
