@@ -296,7 +296,8 @@ TEST(BargeFloods, DipsItsRimInItsTimeAndSinks) {
   double dips = 0;
   for (const MotionSample& sample : motion)  // the rim is 0.37 m above the centre of mass
     if (dips == 0 && sample.position.z() < -0.37) dips = sample.time;
-  EXPECT_NEAR(dips, 116.447, 0.006 * 116.447);
+  // The air of the scene has some weight; it is told every 0.1 s.
+  EXPECT_NEAR(dips, 116.447, 0.004 * 116.447);
   EXPECT_LT(motion.back().position.z(), -1);
 }
 
