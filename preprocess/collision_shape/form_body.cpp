@@ -457,14 +457,17 @@ FluidBody makeFormBody(const ShapeForm& form, const CollisionShapeSettings& want
   const std::string& name = nameOf(form, settings);
   const std::vector<Solid> parts = solidsOf(form, settings);
   if (parts.size() > 1) tellStage(settings, "uniting " + std::to_string(parts.size()) + " shapes");
-  const SeparateSolids separate = uniteSolids(parts, settings.faces, name);
-  try {
-    return bodyOf(separate.solids, form, settings);
-  } catch (const std::runtime_error& error) {
-    if (!separate.has_unions) throw;
-    const SeparateSolids hulls = uniteSolids(parts, settings.faces, name, error.what());
-    return bodyOf(hulls.solids, form, settings);
+  std::string reason;
+  for (const JoinedBy by : {JoinedBy::kUnion, JoinedBy::kWrap, JoinedBy::kHull}) {
+    const SeparateSolids separate = uniteSolids(parts, settings.faces, name, by, reason);
+    try {
+      return bodyOf(separate.solids, form, settings);
+    } catch (const std::runtime_error& error) {
+      if (!separate.are_joined) throw;
+      reason = error.what();
+    }
   }
+  throw std::runtime_error(reason);
 }
 
 Provenance describeForm(const ShapeForm& form, const CollisionShapeSettings& wanted) {

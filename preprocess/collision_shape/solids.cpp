@@ -257,40 +257,37 @@ std::optional<CheckedMesh> wrapOf(const Meshes& parts, const std::string& name) 
   }
 }
 
-/// The union of a group, or a wrap around it: for round parts of many triangles, which seldom can
-/// be united, before the tries that take seconds.
-Solid unitedOrWrapped(const Meshes& parts, bool polyhedra, const std::string& name) {
+/// The union of a group, or a wrap around it. Round parts of many triangles, which seldom can be
+/// united, are wrapped before the tries that take seconds.
+CheckedMesh unitedOrWrapped(const Meshes& parts, JoinedBy by, const std::string& name) {
   constexpr Eigen::Index kFewTriangles = 1500;
   const bool are_few = joinMeshes(parts).triangleCount() <= kFewTriangles;
-  Solid solid;
-  solid.is_polyhedron = polyhedra;
-  CheckedMesh surface;
-  try {
-    surface = uniteMeshes(parts, name, are_few ? UnionTries::kAll : UnionTries::kOne);
-  } catch (const std::runtime_error&) {
-    const std::optional<CheckedMesh> wrap = wrapOf(parts, name);
-    if (!wrap && are_few) throw;
-    surface = wrap ? *wrap : uniteMeshes(parts, name);
-    solid.is_polyhedron = polyhedra && !wrap;
+  std::string reason;
+  if (by == JoinedBy::kUnion) {
+    try {
+      return uniteMeshes(parts, name, are_few ? UnionTries::kAll : UnionTries::kOne);
+    } catch (const std::runtime_error& error) {
+      reason = error.what();
+    }
   }
-  solid.mesh = std::move(surface.mesh);
-  solid.cavities = std::move(surface.cavities);
-  return solid;
+  if (std::optional<CheckedMesh> wrap = wrapOf(parts, name)) return *std::move(wrap);
+  if (by == JoinedBy::kWrap || are_few) throw std::runtime_error(reason);
+  return uniteMeshes(parts, name);
 }
 
-Solid uniteGroup(const std::vector<Solid>& group, int faces, const std::string& name) {
+Solid uniteGroup(const std::vector<Solid>& group, int faces, JoinedBy by, const std::string& name) {
+  Solid solid;
   Meshes parts, cavities;
-  std::vector<std::string> warnings;
   for (const Solid& own : group) {
     parts.push_back(own.is_polyhedron ? mergePolyhedronSides(own.mesh)
                                       : mergeFlatTriangles(own.mesh, false, kDefaultPanels));
     cavities.push_back(own.cavities);
-    warnings.insert(warnings.end(), own.warnings.begin(), own.warnings.end());
+    solid.warnings.insert(solid.warnings.end(), own.warnings.begin(), own.warnings.end());
   }
-  Solid solid = unitedOrWrapped(parts, arePolyhedra(group), name);
-  solid.warnings = std::move(warnings);
-  cavities.push_back(solid.cavities);
-  solid.mesh = evenlyDivided(solid.mesh, faces);
+  const CheckedMesh surface = unitedOrWrapped(parts, by, name);
+  cavities.push_back(surface.cavities);
+  solid.is_polyhedron = arePolyhedra(group);
+  solid.mesh = evenlyDivided(surface.mesh, faces);
   solid.cavities = joinMeshes(cavities);
   return solid;
 }
@@ -330,24 +327,24 @@ bool arePolyhedra(const std::vector<Solid>& solids) {
 }
 
 SeparateSolids uniteSolids(const std::vector<Solid>& solids, int faces, const std::string& name,
-                           const std::string& no_flow) {
+                           JoinedBy by, const std::string& reason) {
   SeparateSolids result;
   for (const std::vector<Solid>& group : contactGroups(solids)) {
-    std::string reason = no_flow;
     if (group.size() == 1) {
       result.solids.push_back(group.front());
       continue;
     }
+    std::string why = reason;
     try {
-      if (reason.empty()) {
-        result.solids.push_back(uniteGroup(group, facesOf(group, solids.size(), faces), name));
-        result.has_unions = true;
+      if (by != JoinedBy::kHull) {
+        result.solids.push_back(uniteGroup(group, facesOf(group, solids.size(), faces), by, name));
+        result.are_joined = true;
         continue;
       }
     } catch (const std::runtime_error& error) {
-      reason = error.what();
+      if (why.empty()) why = error.what();
     }
-    result.solids.push_back(hullOf(group, faces, reason, name));
+    result.solids.push_back(hullOf(group, faces, why, name));
   }
   return result;
 }

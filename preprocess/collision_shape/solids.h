@@ -61,10 +61,13 @@ std::vector<Solid> makeSolids(const std::vector<PlacedShape>& parts,
 /// make more than twice as many triangles.
 TriangleMesh evenlyDivided(const TriangleMesh& mesh, int faces);
 
+/// What stands for solids that touch. Each is asked for what the ones before could not do.
+enum class JoinedBy { kUnion, kWrap, kHull };
+
 /// Solids with gaps between them, made of the solids of one shape.
 struct SeparateSolids {
   std::vector<Solid> solids;
-  bool has_unions = false;  ///< true: some of them are unions
+  bool are_joined = false;  ///< true: some of them are unions of solids, or wraps around them
 };
 
 /// Returns true if all of them are polyhedra.
@@ -72,15 +75,16 @@ bool arePolyhedra(const std::vector<Solid>& solids);
 
 /// Unites solids that touch or overlap, or leave gaps too narrow for the flow (kLeastGap). Each
 /// keeps what of its surface lies outside the others; where that leaves no closed surface, as when
-/// they touch in an edge, they are blown up about their centres by 0.03 %, then by 0.12 %. The
-/// convex hull of those that cannot be united stands for them, with a warning. Cost O(T P) for
-/// triangles T of one and planes P of the other.
+/// they touch in an edge, they are blown up about their centres by 0.03 %, then by 0.12 %. For
+/// those that cannot be united stands a surface wrapped around them, if it has the volume of the
+/// union within 1 %, else their convex hull, with a warning. Cost O(T P) for triangles T of one and
+/// planes P of the other.
 /// @param solids of one shape, in its frame
 /// @param faces triangles aimed at
 /// @param name begins the warnings, which name two of them
-/// @param no_flow why the flow around their union could not be solved: none is united; empty: it
-/// was not tried
+/// @param by the first of the three to try
+/// @param reason why what comes before `by` did not serve
 SeparateSolids uniteSolids(const std::vector<Solid>& solids, int faces, const std::string& name,
-                           const std::string& no_flow = {});
+                           JoinedBy by = JoinedBy::kUnion, const std::string& reason = {});
 
 }  // namespace ambient

@@ -146,10 +146,10 @@ void AmbientBodies::noteSolved(AmbientBody& ambient) noexcept {
 
 // Between steps the list is empty, unless there is no action to take it.
 void AmbientBodies::forgetSolved(const AmbientBody& ambient) noexcept {
-  AmbientBody* solved = solved_list_.load();
-  if (solved == &ambient) solved_list_ = ambient.next_solved;
-  for (; solved; solved = solved->next_solved) {
-    if (solved->next_solved == &ambient) solved->next_solved = ambient.next_solved;
+  AmbientBody* other = solved_list_.load();
+  if (other == &ambient) solved_list_ = ambient.next_solved;
+  for (; other; other = other->next_solved) {
+    if (other->next_solved == &ambient) other->next_solved = ambient.next_solved;
   }
 }
 

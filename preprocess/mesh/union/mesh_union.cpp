@@ -23,6 +23,7 @@
 #include "preprocess/mesh/mend/mesh_mending.h"
 #include "preprocess/mesh/triangle_mesh.h"
 #include "preprocess/mesh/union/solid_tree.h"
+#include "preprocess/mesh/wrap/grid_crossings.h"
 
 namespace ambient {
 namespace {
@@ -398,15 +399,52 @@ CheckedMesh uniteMeshes(const Meshes& parts, const std::string& name, UnionTries
   throw std::runtime_error(reason);
 }
 
+namespace {
+
+/// An end of what a line has in a part.
+struct LineEnd {
+  double height = 0;  ///< [steps]
+  int depth = 0;      ///< 1: the part begins there, -1: it ends
+};
+
+/// Returns the length of a line in any part [steps].
+double lengthInside(std::vector<LineEnd>& ends) {
+  std::sort(ends.begin(), ends.end(),
+            [](const LineEnd& a, const LineEnd& b) { return a.height < b.height; });
+  double length = 0;
+  int depth = 0;
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+    depth += ends[i].depth;
+    if (depth > 0) length += ends[i + 1].height - ends[i].height;
+  }
+  return length;
+}
+
+}  // namespace
+
 double volumeOfUnion(const Meshes& parts) {
-  TriangleMesh surface = unionSurface(parts, joinMeshes(parts).extents().norm(), kOfForms);
-  // The surface may have gaps: the error by one grows with its distance from the origin.
-  const Eigen::Vector3d centre = surface.bounds().center();
-  surface.vertices.colwise() -= centre;
-  double six_volumes = 0;
-  for (Eigen::Index t = 0; t < surface.triangleCount(); ++t)
-    six_volumes += surface.corner(t, 0).dot(surface.corner(t, 1).cross(surface.corner(t, 2)));
-  return six_volumes / 6;
+  constexpr int kLines = 300;          // across the longest side
+  const Vector3d turn(0.3, 0.7, 0.5);  // of the parts: no side of a box is along the lines
+  TriangleMesh all = joinMeshes(parts);
+  all.vertices = rotationFromVector(turn).toRotationMatrix() * all.vertices;
+  CubicGrid grid;
+  grid.origin = all.bounds().min();
+  grid.step = all.extents().maxCoeff() / kLines;
+  for (int axis = 0; axis < 3; ++axis)
+    grid.counts[axis] = static_cast<std::int64_t>(all.extents()[axis] / grid.step) + 2;
+  std::vector<std::vector<LineEnd>> ends(static_cast<std::size_t>(grid.stride(2)));
+  for (int t = 0; t < static_cast<int>(all.triangleCount()); ++t) {
+    const TriangleCorners corners = inStepsOf(grid, all, t);
+    const Vector3d normal = normalOf(corners);
+    forEachLine(grid, 2, boxAround(corners, 0), corners.col(0), normal,
+                [&](std::int64_t node, const Vector3d& x) {
+                  if (isIn(corners, normal, x))
+                    ends[node % grid.stride(2)].push_back({x.z(), normal.z() < 0 ? 1 : -1});
+                });
+  }
+  double length = 0;
+  for (std::vector<LineEnd>& line : ends) length += lengthInside(line);
+  return length * grid.step * grid.step * grid.step;
 }
 
 std::optional<CheckedMesh> uniteClosedParts(const TriangleMesh& mesh, const std::string& name) {
