@@ -11,6 +11,8 @@
 namespace ambient {
 namespace {
 
+constexpr double kNoWater = -std::numeric_limits<double>::infinity();  // height of its level
+
 /// Returns what is on the side of a hold whose level moves towards another height: the area is the
 /// mean on the way, so that the level does not pass it, whatever the shape.
 WaterSide sideOf(const HoldShape& shape, const HoldState& state, double level, double towards,
@@ -59,7 +61,7 @@ double aimOf(const SeaAt& sea, double level) {
 
 void exchangeWithSea(const HoldShape& shape, const SeaAt& sea, double duration, HoldState& state) {
   const Vector3& normal = sea.plane_F.normal;
-  if (!(state.volume > 0) && isClear(sea, -std::numeric_limits<double>::infinity())) return;
+  if (!(state.volume > 0) && isClear(sea, kNoWater)) return;
   const double level = levelOf(shape, normal, state);
   if (isClear(sea, level)) return;
   WaterSide outside{sea.plane_F.height};
@@ -113,6 +115,20 @@ void exchangeThrough(const HoldShapes& holds, const Numbered& at, const SurfaceP
   }
 }
 
+/// Whether the holds are empty and the sea is below their openings.
+bool areDryAndClear(const HoldShapes& holds, const SurfacePlane& plane_F, const Passage& passage,
+                    const HoldState* states) {
+  bool are_clear = areEmpty(holds, states);
+  if (!are_clear) return false;
+  forEachOpening(
+      holds, passage.changes, [&](const HoldShapes::Opening& opening, std::size_t number) {
+        const auto* rises = passage.rises ? &(*passage.rises)[number] : nullptr;
+        are_clear =
+            are_clear && (opening.to >= 0 || isClear({opening.shape, plane_F, rises}, kNoWater));
+      });
+  return are_clear;
+}
+
 /// Lets the pump of a hold run. Sealed air is pressed together to a half in a step at most.
 void runPump(const HoldShape& shape, double duration, HoldState& state) {
   const double room = std::max(0.0, shape.capacity() - state.volume);
@@ -140,7 +156,9 @@ Matrix6 exchangeWater(const HoldShapes& holds, const SurfacePlane& plane_F, cons
   AMBIENT_ASSERT(passage.duration >= 0 && passage.atmosphere > 0);
   for (std::size_t i = 0; i < holds.shapes.size(); ++i)
     runPump(holds.shapes[i], passage.duration, states[i]);
-  if (passage.are_open) {
+  if (passage.are_open && areDryAndClear(holds, plane_F, passage, states)) {
+    for (std::size_t i = 0; i < holds.shapes.size(); ++i) states[i].is_sealed = false;
+  } else if (passage.are_open) {
     sealHolds(holds, plane_F, passage, states);
     forEachOpening(holds, passage.changes,
                    [&](const HoldShapes::Opening& opening, std::size_t number) {
