@@ -101,6 +101,20 @@ class Immersed {
   /// hold, or if the rate is not finite.
   void pump(int hold, double rate) const;
 
+  /// Shuts or opens an opening of a hold: doors, hatches, valves, ramps. Its number is that in
+  /// Hold::openings, and those that addOpening() has returned follow. Wakes the body.
+  /// @throws std::invalid_argument if there is no such hold or opening
+  void setOpening(int hold, int opening, bool is_open) const;
+  /// Makes a round hole from a hold to the fluid outside: damage, scuppers. Returns its number
+  /// among the openings of the hold. It stays until setFluidBody(), shape and mass do not change.
+  /// Wakes the body.
+  /// @param place of its middle, in the frame of the fluid body [m]
+  /// @param normal out of the hold, in that frame; of any length
+  /// @param area [m^2]
+  /// @throws std::invalid_argument if there is no such hold, or if place, normal or area are no
+  /// place of the body, direction and area
+  int addOpening(int hold, const Vector3& place, const Vector3& normal, double area) const;
+
   /// Changes the velocity by an impulse at the centre of mass, world axes: torque part [N m s],
   /// force part [N s]. Uses the inverse of the total inertia, as contacts and joints do; for a
   /// link, that of its whole btMultiBody. Wakes the body.

@@ -114,9 +114,19 @@ void takeHolds(AmbientBody& ambient) {
   ambient.vessel = std::make_unique<VesselState>();
   ambient.vessel->shape = def.fluid_body;
   ambient.vessel->holds.resize(holds.size());
+  for (const Hold& hold : holds)
+    for (const HoldOpening& opening : hold.openings) {
+      ambient.vessel->changes.is_shut.push_back(0);
+      ambient.vessel->rises.emplace_back(OpeningShape(opening).edges().size());
+    }
   ambient.vessel->is_known = !def.holds.water.empty();
   for (std::size_t i = 0; i < def.holds.water.size(); ++i)
     ambient.vessel->holds[i].volume = def.holds.water[i];
+}
+
+void addHole(const AddedHole& hole, VesselState& vessel) {
+  vessel.changes.add(hole);
+  vessel.rises.emplace_back(vessel.changes.added.back().shape.edges().size());
 }
 
 void rebuildModels(AmbientBody& ambient, const InverseMass& mass) {

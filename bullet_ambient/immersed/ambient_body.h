@@ -138,7 +138,11 @@ struct FloatingState {
 struct VesselState {
   std::shared_ptr<const FluidBody> shape;
   bool is_known = false;         ///< false: the body has met no surface yet, and no water was given
+  bool has_sunk = false;         ///< true: it was said that the body sinks
   std::vector<HoldState> holds;  ///< as in FluidBody::holds
+  RimRises rises;                ///< of waves at the openings in this step
+  bool has_waves = false;        ///< true: `rises` counts
+  OpeningChanges changes;        ///< of openings while the body is in its fluid
   WaterInside inside;            ///< at FloatingState::stand
   /// Change of the velocity in B by the water that has come in at the start of this step.
   Vector6 change_B = Vector6::Zero();
@@ -206,6 +210,8 @@ inline VesselWater waterAtStand(AmbientBody& ambient) noexcept {
 /// Gives a body the holds of its definition, and the water from the start; it keeps what it has if
 /// they are the same.
 void takeHolds(AmbientBody& ambient);
+/// Gives a vessel a hole that its shape has not.
+void addHole(const AddedHole& hole, VesselState& vessel);
 
 /// Surface loads of the fluid around a body; at a water surface those of the fluid below. Null:
 /// there are none.

@@ -16,9 +16,12 @@ struct FluidBody;
 /// Holds of a vessel, FluidBody::holds, at a surface of water.
 struct HoldSettings {
   bool are_open = true;  ///< false: no water passes through their openings
-  /// Water in each of them from the start [m^3]. Empty: a hold is empty, or full if all its
-  /// openings are below the surface when the body first meets it.
+  /// Water in each of them from the start [m^3]. Empty: a hold is empty, or full if it has openings
+  /// and is all below the surface when the body first meets it.
   std::vector<double> water = {};
+  /// Pressure of the air at the surface, which air that water shuts off in a hold has at first
+  /// [Pa].
+  double atmosphere = 101325;
 };
 
 /// Definition of a body or link in a fluid.

@@ -96,6 +96,14 @@ std::string gapingJoint(const AttachDef& def, const AttachDef* other) {
          "btContactSolverInfo::m_numIterations, shorter steps, or a btMultiBody";
 }
 
+std::string sunk(const AttachDef& def, std::size_t hold) {
+  const Hold& filled = def.fluid_body->holds[hold];
+  char volume[32];
+  std::snprintf(volume, sizeof volume, "%.4g m^3", filled.volume);
+  return "bullet_ambient: a " + nameOf(def) + " sinks: its hold '" + filled.name + "' of " +
+         volume + " is full of water";
+}
+
 }  // namespace
 
 std::string nameOf(const AttachDef& def) {
@@ -138,6 +146,14 @@ void Complaints::sayGaping(const AttachDef& def, const AttachDef* other) noexcep
 
 void Complaints::sayFastJoint(const AttachDef& def, double turns, double step) noexcept {
   sayMade(Complaint::kFastJoint, [&] { return fastJoint(def, turns, step); });
+}
+
+void Complaints::saySunk(const AttachDef& def, std::size_t hold) noexcept {
+  try {
+    tell(sunk(def, hold));
+  } catch (...) {
+    // A failure to make the sentence must not unwind through the step.
+  }
 }
 
 void Complaints::sayTooLong(const AttachDef& def) noexcept {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <functional>
 #include <mutex>
 #include <string>
@@ -57,6 +58,9 @@ class Complaints {
   /// Names a body whose joint comes apart, and the other body of the joint; null: that one has no
   /// fluid.
   void sayGaping(const AttachDef& def, const AttachDef* other) noexcept;
+  /// Names a vessel that is too heavy to float, and its hold of a number that has filled. Said as
+  /// often as it is called.
+  void saySunk(const AttachDef& def, std::size_t hold) noexcept;
 
   /// Passes a sentence to the report function, every time. Drops exceptions of that function, which
   /// must not unwind through Bullet's step.

@@ -7,6 +7,7 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/motion/surface/body_waves.h"
+#include "bullet_ambient/motion/surface/hold_exchange.h"
 #include "bullet_ambient/motion/surface/stand_lanes.h"
 #include "bullet_ambient/spatial/cholesky.h"
 
@@ -138,7 +139,7 @@ void meetHolds(AmbientBody& ambient, const MotionView& now, const NearSurface& n
   if (!ambient.def->holds.are_open) return;
   const SurfaceModel& model = ambient.models->surfaces[static_cast<std::size_t>(near.media)].model;
   const SurfacePlane plane_B = seenFrom(near.plane_W, now.rotation(), now.state.position);
-  fillCoveredHolds(*model.holds, seenFrom(plane_B, model.fluid_frame),
+  fillCoveredHolds(*model.holds, &ambient.vessel->changes, seenFrom(plane_B, model.fluid_frame),
                    ambient.vessel->holds.data());
 }
 
@@ -205,8 +206,11 @@ void exchangeWater(AmbientBody& ambient, const MotionView& now, double duration)
   const SurfaceStand& stand = standNow(ambient, now);
   const Vector6 x = twistInWater(ambient, now.state);
   const double twice_before = x.dot(stand.inertia.full() * x);
-  const Matrix6 come = exchangeWater(*model.holds, stand.immersion_F.plane,
-                                     ambient.def->holds.are_open, duration, vessel.holds.data());
+  const HoldSettings& settings = ambient.def->holds;
+  const Passage passage{settings.are_open, duration, settings.atmosphere, &vessel.changes,
+                        vessel.has_waves ? &vessel.rises : nullptr};
+  const Matrix6 come =
+      exchangeWater(*model.holds, stand.immersion_F.plane, passage, vessel.holds.data());
   vessel.change_B.setZero();
   bool has_changed = false;
   for (std::size_t i = 0; i < vessel.holds.size(); ++i) {

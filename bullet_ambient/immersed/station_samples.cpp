@@ -14,17 +14,13 @@ constexpr double kWeight = BodyStations::kWeight;
 // Largest k L of a body that takes a wave at one place: its heave errs by (k L)^2 / 24.
 constexpr double kSmallAgainstWave = 0.3;
 
-bool isSmall(const FluidRegion& region, double length) {
-  return !region.surface || !(region.surface->waveNumber() * length > kSmallAgainstWave);
-}
-
 // True if the velocity along a body may change by jumps or in any other way, not by waves alone.
 bool mayDiffer(const RegionsAround& around) {
   return !around.is_alone || (around.entry && around.entry->region.flow);
 }
 
 bool isTaken(const RegionsAround& around, double length) {
-  return length > 0 && (mayDiffer(around) || !isSmall(around.entry->region, length));
+  return length > 0 && (mayDiffer(around) || isLargeAgainstWaves(around.entry->region, length));
 }
 
 // Returns the surface of a region if it is no plane; null: there is none.
@@ -43,6 +39,10 @@ double lesserOf(double a, double b) {
 Vector3 upOf(const Vector3& gravity) { return -gravity.normalized(); }
 
 }  // namespace
+
+bool isLargeAgainstWaves(const FluidRegion& region, double length) noexcept {
+  return region.surface && region.surface->waveNumber() * length > kSmallAgainstWave;
+}
 
 bool needsStations(const AmbientBody& ambient, const RegionsAround& around) noexcept {
   if (!ambient.flow_along || (around.is_alone && !around.entry)) return false;

@@ -8,6 +8,10 @@
 
 namespace ambient {
 
+/// True if a body of a length [m] is not small against the waves of a region, docs/theory.md eq.
+/// (83), and may meet different heights of the surface along it.
+bool isLargeAgainstWaves(const FluidRegion& region, double length) noexcept;
+
 /// True if the fluid may differ along a body: the bounds of a region cross it, its region has a
 /// flow, or it is not small against the waves; docs/theory.md eq. (83). Cost: some comparisons.
 bool needsStations(const AmbientBody& ambient, const RegionsAround& around) noexcept;

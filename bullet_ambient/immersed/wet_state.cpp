@@ -143,18 +143,37 @@ WetState inRegion(const AmbientBody& ambient, const MotionView& now, const Regio
 
 namespace {
 
-HoldWater waterIn(const Hold& hold, const HoldState& state, const Vector3& up_F) {
+/// Height above zero of the lowest corner of what is open of a hold; infinite: nothing is.
+double lowestCorner(const VesselState& vessel, std::size_t hold, const Vector3& up_F) {
+  double lowest = std::numeric_limits<double>::infinity();
+  const auto look = [&](const HoldOpening& opening, std::size_t number) {
+    if (vessel.changes.is_shut[number]) return;
+    for (std::size_t i = 0; i < opening.outline.size(); i += 3)
+      lowest = std::min(lowest, up_F.dot(Vector3(opening.outline[i], opening.outline[i + 1],
+                                                 opening.outline[i + 2])));
+  };
+  std::size_t number = 0;
+  for (std::size_t i = 0; i < vessel.shape->holds.size(); ++i)
+    for (const HoldOpening& opening : vessel.shape->holds[i].openings) {
+      if (i == hold) look(opening, number);
+      ++number;
+    }
+  for (const AddedHole& hole : vessel.changes.holes) {
+    if (hole.hold == static_cast<int>(hold)) look(openingOf(hole), number);
+    ++number;
+  }
+  return lowest;
+}
+
+HoldWater waterIn(const VesselState& vessel, std::size_t i, const Vector3& up_F) {
+  const Hold& hold = vessel.shape->holds[i];
+  const HoldState& state = vessel.holds[i];
   const HoldFill fill =
       fillHold(HoldShape(hold), up_F, state.volume, std::numeric_limits<double>::quiet_NaN());
   const WetVolume& wet = fill.water;
   HoldWater water{state.volume,  hold.volume,   state.inflow,
                   state.flooded, state.drained, wet.waterplane.area};
-  water.freeboard = std::numeric_limits<double>::infinity();
-  for (const HoldOpening& opening : hold.openings)
-    for (std::size_t i = 0; i < opening.outline.size(); i += 3) {
-      const Vector3 corner(opening.outline[i], opening.outline[i + 1], opening.outline[i + 2]);
-      water.freeboard = std::min(water.freeboard, up_F.dot(corner) - fill.height);
-    }
+  water.freeboard = lowestCorner(vessel, i, up_F) - fill.height;
   water.centre = wet.volume > 0 ? Vector3(wet.moment / wet.volume) : hold.centre;
   water.level = wet.waterplane.area > 0
                     ? wet.waterplane.centroid
@@ -177,8 +196,12 @@ std::vector<HoldWater> holdsOf(const AmbientBody& ambient, const MotionView& now
     up = -now.gravity.normalized();
   }
   for (std::size_t i = 0; i < ambient.vessel->holds.size(); ++i) {
-    HoldWater& water = all.emplace_back(
-        waterIn(ambient.def->fluid_body->holds[i], ambient.vessel->holds[i], R.transpose() * up));
+    HoldWater& water = all.emplace_back(waterIn(*ambient.vessel, i, R.transpose() * up));
+    const HoldState& state = ambient.vessel->holds[i];
+    water.has_trapped_air = state.is_sealed;
+    water.air_pressure = state.is_sealed && water.capacity > state.volume
+                             ? state.air / (water.capacity - state.volume)
+                             : ambient.def->holds.atmosphere;
     water.centre = origin_W + R * water.centre;
     water.level = origin_W + R * water.level;
     water.normal = up;

@@ -32,11 +32,13 @@ struct HoldWater {
   /// Volumes that have come from outside and left since the body was added [m^3].
   double flooded = 0, drained = 0;
   double area = 0;  ///< of its level [m^2]; 0: empty or full
-  /// Height of the lowest corner of its openings above the level [m]; infinite: it has none.
+  /// Height of the lowest corner of its openings above the level [m]; infinite: none is open.
   double freeboard = 0;
-  Vector3 centre{0, 0, 0};  ///< of the water in W [m]; of an empty hold, that of the hold
-  Vector3 level{0, 0, 0};   ///< a point of the level in W [m]
-  Vector3 normal{0, 0, 1};  ///< of the level in W, out of the water; unit
+  bool has_trapped_air = false;  ///< water shuts off its air from that outside
+  double air_pressure = 0;       ///< of its air [Pa]
+  Vector3 centre{0, 0, 0};       ///< of the water in W [m]; of an empty hold, that of the hold
+  Vector3 level{0, 0, 0};        ///< a point of the level in W [m]
+  Vector3 normal{0, 0, 1};       ///< of the level in W, out of the water; unit
 };
 
 /// Computes the water in the holds at the present pose.

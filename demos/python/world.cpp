@@ -117,6 +117,68 @@ py::dict wetOf(const PythonBody& body) {
   return state;
 }
 
+py::list waterInHolds(const PythonBody& body) {
+  py::list holds;
+  for (const HoldWater& hold : body.world->simulation().holds(body.index)) {
+    py::dict facts;
+    facts["volume"] = hold.volume;
+    facts["capacity"] = hold.capacity;
+    facts["inflow"] = hold.inflow;
+    facts["flooded"] = hold.flooded;
+    facts["drained"] = hold.drained;
+    facts["area"] = hold.area;
+    facts["freeboard"] = hold.freeboard;
+    facts["has_trapped_air"] = hold.has_trapped_air;
+    facts["air_pressure"] = hold.air_pressure;
+    facts["centre"] = arrayOf(hold.centre);
+    facts["level"] = arrayOf(hold.level);
+    facts["normal"] = arrayOf(hold.normal);
+    holds.append(facts);
+  }
+  return holds;
+}
+
+const Immersed& vesselOf(const PythonBody& body) {
+  return body.world->simulation().vessel(body.index);
+}
+
+void bindHolds(py::class_<PythonBody>& type) {
+  type.def_property_readonly(
+          "holds", &waterInHolds,
+          R"(Water in the holds of a vessel, a list of dicts; empty for other bodies.
+
+"volume" and "capacity" [m^3], "inflow" from outside in the last step, "flooded" and "drained" in all [m^3], "area" of the
+level [m^2], "freeboard" of the lowest opening above it [m] (inf: none is open), "has_trapped_air", "air_pressure" [Pa],
+"centre" (3,) of the water, "level" (3,), a point of it [m], and its "normal" (3,); world axes.)")
+      .def(
+          "set_water",
+          [](const PythonBody& b, int hold, double volume) { vesselOf(b).setWater(hold, volume); },
+          py::arg("hold"), py::arg("volume"),
+          "Fills or empties a hold [m^3]; ValueError if the water does not fit.")
+      .def(
+          "pump", [](const PythonBody& b, int hold, double rate) { vesselOf(b).pump(hold, rate); },
+          py::arg("hold"), py::arg("rate"),
+          "Pumps water from the sea into a hold, or out of it (negative), until another rate is "
+          "set [m^3/s].")
+      .def(
+          "set_opening",
+          [](const PythonBody& b, int hold, int opening, bool is_open) {
+            vesselOf(b).setOpening(hold, opening, is_open);
+          },
+          py::arg("hold"), py::arg("opening"), py::arg("is_open"),
+          "Shuts or opens an opening of a hold: its own in their order, then those added.")
+      .def(
+          "add_opening",
+          [](const PythonBody& b, int hold, const InputArray& place, const InputArray& normal,
+             double area) {
+            return vesselOf(b).addOpening(hold, vectorFrom(place, "place"),
+                                          vectorFrom(normal, "normal"), area);
+          },
+          py::arg("hold"), py::arg("place"), py::arg("normal"), py::arg("area"),
+          "Makes a round hole at a place (3,) [m] with a direction (3,) out of the hold, both in "
+          "the frame of the fluid body, and an area [m^2]. Returns its number for set_opening().");
+}
+
 void bindForces(py::class_<PythonBody>& type) {
   type.def(
           "apply_force", &applyForce, py::arg("force"), py::arg("at") = py::none(),
@@ -152,6 +214,7 @@ void bindBody(py::module_& module) {
   py::class_<PythonBody> type(module, "Body",
                               "One body of a world in its present state; world axes.");
   bindForces(type);
+  bindHolds(type);
   type.def_property_readonly(
           "position", [](const PythonBody& b) { return arrayOf(b.sample().position); },
           "Position (3,) of the centre of mass [m].")

@@ -163,6 +163,13 @@ void readMotion(const json& from, BodyDef& body) {
   body.angular_velocity = vectorOr(from, "angular_velocity", Vector3::Zero());
 }
 
+HoldSettings toHolds(const json& from) {
+  HoldSettings holds;
+  holds.are_open = from.value("are_open", holds.are_open);
+  holds.water = from.value("water", holds.water);
+  return holds;
+}
+
 BodyDef toBody(const json& from, const Scene& scene, const std::filesystem::path& file) {
   const std::size_t index = scene.bodies.size();
   BodyDef body;
@@ -182,6 +189,7 @@ BodyDef toBody(const json& from, const Scene& scene, const std::filesystem::path
   body.attach.medium = scene.medium;
   body.attach.medium.density = from.value("fluid_density", scene.medium.density);
   body.attach.wave_damping = from.value("wave_damping", body.attach.wave_damping);
+  if (from.contains("holds")) body.attach.holds = toHolds(from.at("holds"));
   body.restitution = from.value("restitution", body.restitution);
   body.friction = from.value("friction", body.friction);
   return body;

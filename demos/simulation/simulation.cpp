@@ -265,6 +265,17 @@ WetState Simulation::wet(std::size_t body) const {
   return immersed ? immersed->wet() : WetState{};
 }
 
+std::vector<HoldWater> Simulation::holds(std::size_t body) const {
+  const auto& immersed = bodies_.at(body).immersed;
+  return immersed ? immersed->holds() : std::vector<HoldWater>{};
+}
+
+const Immersed& Simulation::vessel(std::size_t body) const {
+  const WorldBody& of = bodies_.at(body);
+  if (!of.immersed) throw std::invalid_argument(of.name + " has no holds: no fluid acts on it");
+  return *of.immersed;
+}
+
 void Simulation::apply(const WorldBody& to, const Wrench& wrench) {
   const btVector3 force = toBullet(wrench.force), torque = toBullet(wrench.torque);
   if (!to.link) {

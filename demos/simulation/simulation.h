@@ -70,6 +70,11 @@ class Simulation {
   FluidWrench wrench(std::size_t body) const;
   /// Returns Immersed::wet(); nothing for a body without fluid.
   WetState wet(std::size_t body) const;
+  /// Returns Immersed::holds(); none of a body without fluid.
+  std::vector<HoldWater> holds(std::size_t body) const;
+  /// Handle of a body in its fluid, to fill its holds and change their openings.
+  /// @throws std::invalid_argument naming the body if the fluid does not act on it
+  const Immersed& vessel(std::size_t body) const;
 
   /// Adds a force [N] that acts at a point [m] during the next step; world axes.
   void applyForce(std::size_t body, const Vector3& force, const Vector3& point);

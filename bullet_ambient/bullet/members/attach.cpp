@@ -57,6 +57,10 @@ void checkChoice(const std::string& who, const char* what, Choice choice, const 
 void checkHolds(const std::string& who, const AttachDef& def) {
   const std::vector<double>& water = def.holds.water;
   const std::vector<Hold>& holds = def.fluid_body->holds;
+  if (!(def.holds.atmosphere > 0) || !std::isfinite(def.holds.atmosphere))
+    throw std::invalid_argument(who + " has air at the surface of " +
+                                std::to_string(def.holds.atmosphere) +
+                                " Pa, which must be positive and finite");
   if (water.empty()) return;
   if (water.size() != holds.size())
     throw std::invalid_argument(who + " has water for " + std::to_string(water.size()) +

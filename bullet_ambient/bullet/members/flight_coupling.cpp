@@ -7,6 +7,7 @@
 #include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/immersed/region_following.h"
 #include "bullet_ambient/immersed/station_samples.h"
+#include "bullet_ambient/immersed/vessel_step.h"
 #include "bullet_ambient/motion/flight/flight_group.h"
 
 AMBIENT_BEGIN
@@ -85,7 +86,11 @@ bool prepareFluid(AmbientBody& ambient, const StepStart& start, AmbientBodies& b
     return false;
   }
   followWake(ambient, start.twist_W, time_step);
-  if (ambient.vessel && ambient.surface()) exchangeWater(ambient, *start.now, time_step);
+  if (ambient.vessel && ambient.surface()) {
+    findRimWaves(ambient, *start.now, bodies.regions);
+    exchangeWater(ambient, *start.now, time_step);
+    saySunk(ambient, bodies.complaints);
+  }
   if (may_be_in_region) findPushes(ambient, *start.now, time_step);
   return true;
 }

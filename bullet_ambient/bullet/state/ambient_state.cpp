@@ -52,12 +52,18 @@ AmbientState saveAmbient(const AmbientBody& ambient, const InverseMass& mass) {
                      lastPlane(ambient),
                      ambient.wake ? *ambient.wake : Wake{},
                      false,
+                     false,
+                     {},
+                     {},
                      {},
                      flight.left_W,
                      ambient.counters};
   if (ambient.vessel) {
     state.has_met_water = ambient.vessel->is_known;
+    state.has_sunk = ambient.vessel->has_sunk;
     state.holds = ambient.vessel->holds;
+    state.is_shut = ambient.vessel->changes.is_shut;
+    state.holes = ambient.vessel->changes.holes;
   }
   if (isModelStale(ambient, mass)) state.memory = {};  // as the next step will do
   return state;
@@ -82,15 +88,25 @@ namespace {
 void fillHolds(const AmbientState& saved, AmbientBody& ambient) {
   const std::vector<Hold>& holds = ambient.def->fluid_body->holds;
   bool fits = saved.holds.size() == holds.size();
-  for (std::size_t i = 0; i < holds.size() && fits; ++i)
+  std::size_t openings = saved.holes.size();
+  for (std::size_t i = 0; i < holds.size() && fits; ++i) {
     fits = saved.holds[i].volume <= holds[i].volume;
-  if (!fits)
-    throw std::invalid_argument(
-        "restoreState: the state has more water, or more holds, than "
-        "fluid body '" +
-        ambient.def->fluid_body->name + "' has room for");
+    openings += holds[i].openings.size();
+  }
+  const auto isOther = [&](const AddedHole& hole) {
+    return hole.hold < 0 || static_cast<std::size_t>(hole.hold) >= holds.size();
+  };
+  const bool opens = saved.is_shut.size() == openings &&
+                     std::none_of(saved.holes.begin(), saved.holes.end(), isOther);
+  if (!fits || !opens)
+    throw std::invalid_argument("restoreState: the state has more water, or more holds" +
+                                std::string(fits ? " and openings" : "") + ", than fluid body '" +
+                                ambient.def->fluid_body->name + "' has room for");
   if (!ambient.vessel) return;
+  for (const AddedHole& hole : saved.holes) addHole(hole, *ambient.vessel);
+  ambient.vessel->changes.is_shut = saved.is_shut;
   ambient.vessel->is_known = saved.has_met_water;
+  ambient.vessel->has_sunk = saved.has_sunk;
   ambient.vessel->holds = saved.holds;
 }
 

@@ -87,7 +87,7 @@ void fields(V& v, AttachDef& s) {
   v.choice(s.flow.precision, kLoadPrecisionNames);
   each(v, kAny, s.flow.maximum_load_error);
   each(v, kAny, s.flight.tolerance, s.flight.max_substeps, s.fluid_frame.rotation,
-       s.fluid_frame.translation, s.holds.are_open);
+       s.fluid_frame.translation, s.holds.are_open, s.holds.atmosphere);
 }
 
 template <class V>
@@ -131,7 +131,23 @@ template <class V>
 void fields(V& v, HoldState& s) {
   v(s.volume, finiteNotNegative("hold has a volume of water that is negative or not finite: "));
   v(s.pump, finite("hold has a pump whose rate is not finite: "));
-  each(v, kAny, s.flooded, s.drained);
+  v(s.air, finiteNotNegative("hold has sealed air that is negative or not finite: "));
+  each(v, kAny, s.flooded, s.drained, s.is_sealed);
+}
+
+template <class V>
+void fields(V& v, AddedHole& s) {
+  each(v, kAny, s.hold);
+  v(s.area, finiteNotNegative("hold has a hole whose area is negative or not finite: "));
+  each(v, finite("hold has a hole whose place or normal is not finite"), s.place, s.normal);
+  constexpr const char* kFault = "hold has a hole without an area or a normal of length 1";
+  v.check(kFault, [&s] { return s.area > 0 && std::abs(s.normal.squaredNorm() - 1) < 1e-9; });
+}
+
+/// Whether an opening is shut.
+template <class V>
+void fields(V& v, std::uint8_t& s) {
+  v(s, kAny);
 }
 
 template <class V>
@@ -152,8 +168,10 @@ void fields(V& v, AmbientState& s) {
        s.memory.growth.rotation, s.memory.growth.translation);
   v(s.memory.substep, finiteNotNegative("flight has a substep that is negative or not finite: "));
   each(v, kAny, s.wake.velocity_W.angular, s.wake.velocity_W.linear, s.wake.has_begun);
-  v(s.has_met_water, kAny);
+  each(v, kAny, s.has_met_water, s.has_sunk);
   v.list(s.holds, kNoName);
+  v.list(s.is_shut, kNoName);
+  v.list(s.holes, kNoName);
   each(v, kAny, s.left_W.angular, s.left_W.linear);
   // Flights take energies of both.
   v.check("flight has a load or velocity that is not finite, or its square is not", [&s] {

@@ -31,8 +31,11 @@ struct AmbientState {
   WaveMemory waves;
   std::optional<SurfacePlane> met_B;  ///< lastPlane()
   Wake wake;
-  bool has_met_water = false;    ///< VesselState::is_known
-  std::vector<HoldState> holds;  ///< as in FluidBody::holds
+  bool has_met_water = false;         ///< VesselState::is_known
+  bool has_sunk = false;              ///< VesselState::has_sunk
+  std::vector<HoldState> holds;       ///< as in FluidBody::holds
+  std::vector<std::uint8_t> is_shut;  ///< OpeningChanges::is_shut
+  std::vector<AddedHole> holes;       ///< OpeningChanges::holes
   Twist left_W;
   AmbientCounters counters;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -97,6 +98,49 @@ HoldState& holdOf(const char* function, const AmbientBody& ambient, int hold) {
                                 std::to_string(count) + " holds, and none has the number " +
                                 std::to_string(hold));
   return ambient.vessel->holds[static_cast<std::size_t>(hold)];
+}
+
+// Returns the number of an opening among all of the body: those of the shape, then those added;
+// -1: there is none.
+int findOpening(const VesselState& vessel, int hold, int opening) {
+  int of_shapes = 0, of_hold = 0, found = -1;
+  for (int i = 0; i < static_cast<int>(vessel.shape->holds.size()); ++i) {
+    const int count =
+        static_cast<int>(vessel.shape->holds[static_cast<std::size_t>(i)].openings.size());
+    if (i == hold && opening < count) found = of_shapes + opening;
+    if (i == hold) of_hold = count;
+    of_shapes += count;
+  }
+  for (std::size_t i = 0; i < vessel.changes.holes.size(); ++i)
+    if (vessel.changes.holes[i].hold == hold && of_hold++ == opening)
+      found = of_shapes + static_cast<int>(i);
+  return opening < 0 ? -1 : found;
+}
+
+// Whether a place is in the box around a body, or by its rounding beside it.
+bool isAtBody(const FluidBody& body, const Vector3& place) {
+  constexpr double kBeside = 0.01;  // of the diagonal
+  const std::vector<double>& v = body.surface.vertices;
+  Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (std::size_t i = 0; i + 2 < v.size(); i += 3) {
+    low = low.cwiseMin(Vector3(v[i], v[i + 1], v[i + 2]));
+    high = high.cwiseMax(Vector3(v[i], v[i + 1], v[i + 2]));
+  }
+  const double beside = kBeside * (high - low).norm();
+  return ((place - low).array() >= -beside).all() && ((high - place).array() >= -beside).all();
+}
+
+void checkHole(const AttachDef& def, const Vector3& place, const Vector3& normal, double area) {
+  const std::string who = "addOpening: " + nameOf(def) + " would have a hole ";
+  if (!(area > 0) || !std::isfinite(area))
+    throw std::invalid_argument(who + "of " + std::to_string(area) +
+                                " m^2, which must be positive and finite");
+  if (!normal.allFinite() || normal.isZero(0))
+    throw std::invalid_argument(who + "without a direction out of the hold");
+  if (!place.allFinite() || !isAtBody(*def.fluid_body, place))
+    throw std::invalid_argument(who + "at (" + std::to_string(place.x()) + ", " +
+                                std::to_string(place.y()) + ", " + std::to_string(place.z()) +
+                                ") m in the frame of its fluid body, which is not at the body");
 }
 
 void wakeUp(const Member& member) {
@@ -210,6 +254,7 @@ void Immersed::setWater(int hold, double volume) const {
   checkWater("setWater: " + nameOf(*ambient.def), hold, volume,
              ambient.vessel->shape->holds[static_cast<std::size_t>(hold)].volume);
   state.volume = volume;
+  state.is_sealed = false;
   ambient.vessel->is_known = true;
   if (ambient.floating) ambient.floating->is_valid = false;
   wakeUp(held.member);
@@ -224,6 +269,41 @@ void Immersed::pump(int hold, double rate) const {
                                 ", must be finite");
   state.pump = rate;
   wakeUp(held.member);
+}
+
+void Immersed::setOpening(int hold, int opening, bool is_open) const {
+  const Held held = require("setOpening");
+  held.bodies->requireChangeable("setOpening");
+  const AmbientBody& ambient = *held.member.ambient;
+  holdOf("setOpening", ambient, hold);
+  const int found = findOpening(*ambient.vessel, hold, opening);
+  if (found < 0)
+    throw std::invalid_argument("setOpening: hold " + std::to_string(hold) + " of " +
+                                nameOf(*ambient.def) + " has no opening with the number " +
+                                std::to_string(opening));
+  ambient.vessel->changes.is_shut[static_cast<std::size_t>(found)] = !is_open;
+  wakeUp(held.member);
+}
+
+int Immersed::addOpening(int hold, const Vector3& place, const Vector3& normal, double area) const {
+  const Held held = require("addOpening");
+  held.bodies->requireChangeable("addOpening");
+  const AmbientBody& ambient = *held.member.ambient;
+  holdOf("addOpening", ambient, hold);
+  checkHole(*ambient.def, place, normal, area);
+  VesselState& vessel = *ambient.vessel;
+  AddedHole hole;
+  hole.hold = hold;
+  hole.place = place;
+  hole.normal = normal.normalized();
+  hole.area = area;
+  addHole(hole, vessel);
+  wakeUp(held.member);
+  const auto& holes = vessel.changes.holes;
+  const auto added = std::count_if(holes.begin(), holes.end(),
+                                   [&](const AddedHole& other) { return other.hold == hold; });
+  const auto own = vessel.shape->holds[static_cast<std::size_t>(hold)].openings.size();
+  return static_cast<int>(own) + static_cast<int>(added) - 1;
 }
 
 void Immersed::applyImpulse(const Wrench& impulse) const {

@@ -6,13 +6,16 @@
 #include <cstddef>
 
 #include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/force/medium/surface_plane.h"
+#include "bullet_ambient/force/surface/falling_root.h"
 #include "bullet_ambient/spatial/inertia.h"
 
 namespace ambient {
 namespace {
 
 constexpr double kDischarge = 0.6;  // C: 0.58 of a broad crest, 0.61 of a sharp one
-constexpr std::size_t kEdges = 16, kPieces = 64;
+constexpr std::size_t kEdges = 32, kPieces = 64;
 
 using Corners = std::array<Vector3, 3>;
 
@@ -41,6 +44,28 @@ double overCrest(double from, double to) {
   const double head = std::abs(from - to), root = std::sqrt(head);
   const double flow = root * (2.0 / 3 * head + std::min(from, to));
   return from > to ? flow : -flow;
+}
+
+/// Heights on both sides of an opening [m].
+struct Levels {
+  double from, to;
+  const double* rises;  ///< WaterSide::rises of the first side
+
+  double fromAt(std::size_t edge) const { return rises ? from + rises[edge] : from; }
+};
+
+/// Through the pieces of a lid, per C sqrt(2g): eq. (139). `air`: as of sealedFlowThrough().
+BothWays throughPieces(const OpeningShape& opening, const Vector3& normal, const Levels& levels,
+                       double air) {
+  BothWays flow;
+  for (const OpeningShape::Piece& piece : opening.pieces()) {
+    const double height = normal.dot(piece.place);
+    const double from = std::max(0.0, levels.fromAt(piece.edge) - height),
+                 to = std::max(0.0, levels.to - height), head = from - to - air;
+    if ((head > 0 ? from : to) > 0)
+      flow.add(std::copysign(piece.area * std::sqrt(std::abs(head)), head));
+  }
+  return flow;
 }
 
 }  // namespace
@@ -75,71 +100,94 @@ OpeningShape::OpeningShape(const HoldOpening& opening) {
     *largest = halves[0];
     triangles.push_back(halves[1]);
   }
-  for (const Corners& t : triangles) pieces_.push_back({(t[0] + t[1] + t[2]) / 3, areaOf(t)});
+  for (const Corners& t : triangles) {
+    const Vector3 place = (t[0] + t[1] + t[2]) / 3;
+    const auto nearest =
+        std::min_element(edges_.begin(), edges_.end(), [&](const Edge& a, const Edge& b) {
+          return (a.middle - place).squaredNorm() < (b.middle - place).squaredNorm();
+        });
+    pieces_.push_back({place, areaOf(t), static_cast<std::size_t>(nearest - edges_.begin())});
+    outward_ += (t[1] - t[0]).cross(t[2] - t[0]) / 2;
+  }
+}
+
+double OpeningShape::top(const Vector3& normal) const noexcept {
+  double top = -std::numeric_limits<double>::infinity();
+  for (const Vector3& corner : corners_) top = std::max(top, normal.dot(corner));
+  return top;
+}
+
+HoldOpening openingOf(const WallHole& hole) {
+  AMBIENT_ASSERT(isUnit(hole.normal) && hole.area > 0);
+  constexpr int kCorners = 8;
+  const double half = std::sqrt(0.5), radius = std::sqrt(hole.area / (4 * half));
+  const double cosines[kCorners] = {1, half, 0, -half, -1, -half, 0, half};
+  const PlaneAxes axes(hole.normal);
+  HoldOpening opening;
+  for (int i = 0; i < kCorners; ++i) {
+    const Vector3 corner =
+        hole.place + radius * (cosines[i] * axes.first + cosines[(i + 6) % kCorners] * axes.second);
+    opening.outline.insert(opening.outline.end(), corner.data(), corner.data() + 3);
+    if (i > 1) opening.lid.insert(opening.lid.end(), {0, i - 1, i});
+  }
+  return opening;
 }
 
 double flowThrough(const OpeningShape& opening, const Upward& up, double from_height,
-                   double to_height) noexcept {
+                   double to_height, const double* from_rises) noexcept {
   AMBIENT_ASSERT(isUnit(up.normal) && up.gravity >= 0);
-  const auto depth = [&](double height, const Vector3& place) {
-    return std::max(0.0, height - up.normal.dot(place));
-  };
-  BothWays weir, orifice;
-  for (const OpeningShape::Edge& edge : opening.edges())
-    weir.add(edge.way.cross(up.normal).norm() *
-             overCrest(depth(from_height, edge.middle), depth(to_height, edge.middle)));
-  for (const OpeningShape::Piece& piece : opening.pieces()) {
-    const double head = depth(from_height, piece.place) - depth(to_height, piece.place);
-    orifice.add(std::copysign(piece.area * std::sqrt(std::abs(head)), head));
-  }
+  const Levels levels{from_height, to_height, from_rises};
+  BothWays weir;
   bool is_covered_from = true, is_covered_to = true;
+  for (std::size_t i = 0; i < opening.edges().size(); ++i) {
+    const OpeningShape::Edge& edge = opening.edges()[i];
+    const double height = up.normal.dot(edge.middle), from = levels.fromAt(i) - height;
+    weir.add(edge.way.cross(up.normal).norm() *
+             overCrest(std::max(0.0, from), std::max(0.0, to_height - height)));
+    is_covered_from = is_covered_from && from > 0;
+  }
+  const BothWays orifice = throughPieces(opening, up.normal, levels, 0);
   for (const Vector3& corner : opening.corners()) {
-    is_covered_from = is_covered_from && up.normal.dot(corner) < from_height;
-    is_covered_to = is_covered_to && up.normal.dot(corner) < to_height;
+    const double height = up.normal.dot(corner);
+    is_covered_from = is_covered_from && (from_rises || height < from_height);
+    is_covered_to = is_covered_to && height < to_height;
   }
   if (is_covered_from) weir.forth = std::min(weir.forth, orifice.forth);
   if (is_covered_to) weir.back = std::min(weir.back, orifice.back);
   return kDischarge * std::sqrt(2 * up.gravity) * (weir.forth - weir.back);
 }
 
+double sealedFlowThrough(const OpeningShape& opening, const Upward& up, double from_height,
+                         double to_height, double air) noexcept {
+  AMBIENT_ASSERT(isUnit(up.normal) && up.gravity >= 0);
+  const BothWays flow = throughPieces(opening, up.normal, {from_height, to_height, nullptr}, air);
+  return kDischarge * std::sqrt(2 * up.gravity) * (flow.forth - flow.back);
+}
+
+double bubblingFlow(const OpeningShape& opening, const Upward& up) noexcept {
+  constexpr double kBubble = 0.35;  // speed of a bubble that fills a pipe, over sqrt(gD)
+  const double across = std::sqrt(4 * opening.outward().norm() / kPi);
+  return kBubble * std::abs(opening.outward().dot(up.normal)) * std::sqrt(up.gravity * across);
+}
+
 double volumeThrough(const OpeningShape& opening, const Upward& up, const WaterSide& from,
                      const WaterSide& to, double duration) noexcept {
-  constexpr int kMostSteps = 60;
   constexpr double kAccuracy = 1e-12;  // of the explicit step
   AMBIENT_ASSERT(duration >= 0 && from.area > 0 && to.area > 0);
   // Returns the flow at the levels that a volume q leaves, times the duration, less q. Falls with
   // q.
   const auto excess = [&](double q) {
-    return duration *
-               flowThrough(opening, up, from.height - q / from.area, to.height + q / to.area) -
+    return duration * flowThrough(opening, up, from.height - q / from.area, to.height + q / to.area,
+                                  from.rises) -
            q;
   };
   const double first = excess(0);
   const double end =
       std::clamp(first, -std::min(to.volume, from.room), std::min(from.volume, to.room));
   if (end == 0) return 0;
-  double near = 0, at_near = first, far = end, at_far = excess(end);
+  const double at_far = excess(end);
   if (at_far == 0 || (at_far > 0) == (first > 0)) return end;
-  // False position, with half the value at an end that stays (Illinois).
-  int side = 0;
-  double q = end;
-  for (int i = 0; i < kMostSteps; ++i) {
-    q = (near * at_far - far * at_near) / (at_far - at_near);
-    const double at = excess(q);
-    if (std::abs(at) <= kAccuracy * std::abs(first)) break;
-    if ((at > 0) == (at_near > 0)) {
-      near = q;
-      at_near = at;
-      if (side == 1) at_far /= 2;
-      side = 1;
-    } else {
-      far = q;
-      at_far = at;
-      if (side == -1) at_near /= 2;
-      side = -1;
-    }
-  }
-  return q;
+  return fallingRoot({0, first, end, at_far}, kAccuracy * std::abs(first), excess);
 }
 
 }  // namespace ambient

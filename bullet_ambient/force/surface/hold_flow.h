@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <limits>
 #include <vector>
 
@@ -17,18 +18,33 @@ class OpeningShape {
     Vector3 middle, way;  ///< [m]
   };
   struct Piece {
-    Vector3 place;    ///< centroid [m]
-    double area = 0;  ///< [m^2]
+    Vector3 place;         ///< centroid [m]
+    double area = 0;       ///< [m^2]
+    std::size_t edge = 0;  ///< the nearest one
   };
   const std::vector<Vector3>& corners() const { return corners_; }
   const std::vector<Edge>& edges() const { return edges_; }
   const std::vector<Piece>& pieces() const { return pieces_; }
+  /// Area of the lid along its normal, out of the hold [m^2].
+  const Vector3& outward() const { return outward_; }
+  /// Height of its highest corner along a normal [m].
+  double top(const Vector3& normal) const noexcept;
 
  private:
   std::vector<Vector3> corners_;
   std::vector<Edge> edges_;
   std::vector<Piece> pieces_;
+  Vector3 outward_{0, 0, 0};
 };
+
+/// A hole in a wall of a hold.
+struct WallHole {
+  Vector3 place{0, 0, 0};   ///< of its middle, in F [m]
+  Vector3 normal{0, 0, 1};  ///< out of the hold, in F; unit
+  double area = 0;          ///< [m^2]
+};
+/// Returns a hole as an opening to the fluid outside: an octagon, which is nearly round.
+HoldOpening openingOf(const WallHole& hole);
 
 /// Water on one side of an opening: the sea by default, whose level does not move.
 struct WaterSide {
@@ -36,6 +52,8 @@ struct WaterSide {
   double area = std::numeric_limits<double>::infinity();    ///< of its level [m^2]
   double volume = std::numeric_limits<double>::infinity();  ///< [m^3]
   double room = std::numeric_limits<double>::infinity();    ///< for more [m^3]
+  /// Heights of the water at each edge of the opening above that level [m]; null: it is a plane.
+  const double* rises = nullptr;
 };
 
 /// Which way is up, and how strong gravity is.
@@ -48,8 +66,20 @@ struct Upward {
 /// to the other; negative: back [m^3/s]. Water goes over the outline as over a weir, and, where the
 /// whole outline lies below the level of the side that gives, at most as through an orifice. Cost:
 /// a root for each edge and piece, 0.5 us.
+/// @param from_rises WaterSide::rises of the first side
 double flowThrough(const OpeningShape& opening, const Upward& up, double from_height,
-                   double to_height) noexcept;
+                   double to_height, const double* from_rises = nullptr) noexcept;
+
+/// Flow through an opening where water shuts off the air on one side, eq. (139) with another
+/// pressure there, positive from one side to the other [m^3/s]. Only water flows: a side gives
+/// where its level is above the place.
+/// @param air pressure of the air at the second side less that at the first, over rho g [m]
+double sealedFlowThrough(const OpeningShape& opening, const Upward& up, double from_height,
+                         double to_height, double air) noexcept;
+
+/// Largest flow of water down through an opening while air rises through it, as large bubbles do,
+/// docs/theory.md eq. (146) [m^3/s].
+double bubblingFlow(const OpeningShape& opening, const Upward& up) noexcept;
 
 /// Volume that flows through an opening in a step, implicit in the levels, docs/theory.md eq.
 /// (140): at any duration these approach and never cross [m^3]. No more flows than there is water

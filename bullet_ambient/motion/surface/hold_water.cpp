@@ -17,51 +17,6 @@ HoldFill levelIn(const HoldShape& shape, const HoldState& state, const SurfacePl
   return fillHold(shape, plane_F.normal, state.volume, kNoGuess);
 }
 
-/// Returns what is on the side of a hold whose level moves towards another height: the area is the
-/// mean on the way, so that the level does not pass it, whatever the shape.
-WaterSide sideOf(const HoldShape& shape, const HoldState& state, double level, double towards,
-                 const Vector3& normal) {
-  const auto [low, high] = computeExtent(shape.hull(), normal);
-  const double end = std::clamp(towards, low, high), head = end - level;
-  const double change = computeWetVolume(shape.hull(), {normal, end, 0, 0}).volume - state.volume;
-  const double area = head * change > 0 ? change / head : 1;  // else nothing flows
-  return {level, area, std::min(state.volume, std::max(0.0, -change)),
-          std::min(shape.capacity() - state.volume, std::max(0.0, change))};
-}
-
-bool isClearOf(const OpeningShape& opening, const SurfacePlane& plane_F) {
-  const auto& corners = opening.corners();
-  return std::none_of(corners.begin(), corners.end(),
-                      [&](const Vector3& corner) { return plane_F.depth(corner) > 0; });
-}
-
-void exchangeWithSea(const HoldShape& shape, const OpeningShape& opening,
-                     const SurfacePlane& plane_F, double duration, HoldState& state) {
-  if (!(state.volume > 0) && isClearOf(opening, plane_F)) return;
-  const Vector3& normal = plane_F.normal;
-  const double level = levelIn(shape, state, plane_F).height, sea = plane_F.height;
-  const double in = volumeThrough(opening, {normal, plane_F.gravity}, WaterSide{sea},
-                                  sideOf(shape, state, level, sea, normal), duration);
-  state.volume = std::max(0.0, state.volume + in);
-  state.inflow += in;
-}
-
-void exchangeBetween(const HoldShapes& holds, const HoldShapes::Opening& door,
-                     const SurfacePlane& plane_F, double duration, HoldState* states) {
-  HoldState &from = states[door.from], &to = states[door.to];
-  if (!(from.volume > 0) && !(to.volume > 0)) return;
-  const HoldShape& here = holds.shapes[static_cast<std::size_t>(door.from)];
-  const HoldShape& there = holds.shapes[static_cast<std::size_t>(door.to)];
-  const Vector3& normal = plane_F.normal;
-  const double level = levelIn(here, from, plane_F).height;
-  const double other = levelIn(there, to, plane_F).height;
-  const double passed =
-      volumeThrough(door.shape, {normal, plane_F.gravity}, sideOf(here, from, level, other, normal),
-                    sideOf(there, to, other, level, normal), duration);
-  from.volume = std::max(0.0, from.volume - passed);
-  to.volume = std::max(0.0, to.volume + passed);
-}
-
 }  // namespace
 
 HoldShapes::HoldShapes(const std::vector<Hold>& holds) {
@@ -71,6 +26,12 @@ HoldShapes::HoldShapes(const std::vector<Hold>& holds) {
     for (const HoldOpening& opening : hold.openings)
       openings.push_back({OpeningShape(opening), from, opening.to});
   }
+}
+
+void OpeningChanges::add(const AddedHole& hole) {
+  holes.push_back(hole);
+  added.push_back({OpeningShape(openingOf(hole)), hole.hold, -1});
+  is_shut.push_back(0);
 }
 
 WaterInside waterInside(const HoldShapes& holds, const HoldState* states,
@@ -100,49 +61,24 @@ bool areEmpty(const HoldShapes& holds, const HoldState* states) noexcept {
                       [](const HoldState& state) { return state.volume > 0; });
 }
 
-void fillCoveredHolds(const HoldShapes& holds, const SurfacePlane& plane_F,
-                      HoldState* states) noexcept {
+void fillCoveredHolds(const HoldShapes& holds, const OpeningChanges* changes,
+                      const SurfacePlane& plane_F, HoldState* states) noexcept {
   for (std::size_t i = 0; i < holds.shapes.size(); ++i) {
     const int hold = static_cast<int>(i);
-    bool has_opening = false, is_covered = true;
-    for (const HoldShapes::Opening& opening : holds.openings) {
-      if (opening.from != hold && opening.to != hold) continue;
-      has_opening = true;
-      for (const Vector3& corner : opening.shape.corners())
-        is_covered = is_covered && plane_F.depth(corner) > 0;
-    }
-    states[i].volume = has_opening && is_covered ? holds.shapes[i].capacity() : 0;
+    bool has_opening = false;
+    forEachOpening(holds, changes, [&](const HoldShapes::Opening& opening, std::size_t) {
+      has_opening = has_opening || opening.from == hold || opening.to == hold;
+    });
+    const bool is_covered =
+        has_opening &&
+        computeExtent(holds.shapes[i].hull(), plane_F.normal).second < plane_F.height;
+    states[i].volume = is_covered ? holds.shapes[i].capacity() : 0;
   }
 }
 
-Matrix6 exchangeWater(const HoldShapes& holds, const SurfacePlane& plane_F, bool are_open,
-                      double duration, HoldState* states) noexcept {
-  AMBIENT_ASSERT(duration >= 0);
-  for (std::size_t i = 0; i < holds.shapes.size(); ++i) {
-    HoldState& state = states[i];
-    state.inflow = std::clamp(duration * state.pump, -state.volume,
-                              std::max(0.0, holds.shapes[i].capacity() - state.volume));
-    state.change = -state.volume;
-    state.volume += state.inflow;
-  }
-  for (const HoldShapes::Opening& opening : holds.openings) {
-    if (!are_open) break;
-    const auto from = static_cast<std::size_t>(opening.from);
-    if (opening.to < 0) {
-      exchangeWithSea(holds.shapes[from], opening.shape, plane_F, duration, states[from]);
-    } else {
-      exchangeBetween(holds, opening, plane_F, duration, states);
-    }
-  }
-  Matrix6 come = Matrix6::Zero();
-  for (std::size_t i = 0; i < holds.shapes.size(); ++i) {
-    states[i].change += states[i].volume;
-    if (!(states[i].inflow > 0) || !(states[i].volume > 0)) continue;
-    const HoldFill fill = levelIn(holds.shapes[i], states[i], plane_F);
-    come += std::min(1.0, states[i].inflow / states[i].volume) *
-            carriedInertia(holds.shapes[i], fill.water);
-  }
-  return come;
+double levelOf(const HoldShape& shape, const Vector3& normal, HoldState& state) noexcept {
+  if (std::isnan(state.level)) state.level = fillHold(shape, normal, state.volume, kNoGuess).height;
+  return state.level;
 }
 
 }  // namespace ambient

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "bullet_ambient/force/surface/hold_flow.h"
@@ -20,8 +23,40 @@ struct HoldShapes {
   explicit HoldShapes(const std::vector<Hold>& holds);
 
   std::vector<HoldShape> shapes;
-  std::vector<Opening> openings;
+  std::vector<Opening> openings;  ///< those of the first hold first
 };
+
+/// A hole in a wall that one body has got while it is in its fluid.
+struct AddedHole : WallHole {
+  int hold = 0;
+};
+
+/// What one body has of other openings than its shape.
+struct OpeningChanges {
+  std::vector<std::uint8_t> is_shut;       ///< of HoldShapes::openings, and then of those added
+  std::vector<AddedHole> holes;            ///< those added
+  std::vector<HoldShapes::Opening> added;  ///< their shapes
+
+  void add(const AddedHole& hole);
+};
+
+/// Heights of a sea with waves above its plane, at the edges of each opening [m], in the order of
+/// forEachOpening().
+using RimRises = std::vector<std::vector<double>>;
+
+/// Calls a function for each opening that is not shut, with its number among all. `changes`: null:
+/// none.
+template <class Function>
+void forEachOpening(const HoldShapes& holds, const OpeningChanges* changes,
+                    const Function& function) {
+  const auto visit = [&](const HoldShapes::Opening& opening, std::size_t i) {
+    if (!changes || i >= changes->is_shut.size() || !changes->is_shut[i]) function(opening, i);
+  };
+  std::size_t i = 0;
+  for (const HoldShapes::Opening& opening : holds.openings) visit(opening, i++);
+  if (!changes) return;
+  for (const HoldShapes::Opening& opening : changes->added) visit(opening, i++);
+}
 
 /// Water in one hold of a body, from step to step.
 struct HoldState {
@@ -30,6 +65,21 @@ struct HoldState {
   double inflow = 0;                ///< the part of it from outside; negative: out [m^3]
   double pump = 0;                  ///< from outside by a pump; negative: out [m^3/s]
   double flooded = 0, drained = 0;  ///< what has come from outside and left in all [m^3]
+  bool is_sealed = false;           ///< true: water shuts off its air from that outside
+  double air = 0;                   ///< pressure times volume of that air [J]
+  /// While water flows: height of its level along the normal in F, NaN: not known [m]; and the
+  /// number of the first hold with the same sealed air, -1: that outside.
+  double level = std::numeric_limits<double>::quiet_NaN();
+  int air_group = -1;
+};
+
+/// Air around the holds and a duration in which water flows.
+struct Passage {
+  bool are_open = true;                     ///< false: nothing passes through openings
+  double duration = 0;                      ///< [s]
+  double atmosphere = 101325;               ///< pressure of the air at the surface [Pa]
+  const OpeningChanges* changes = nullptr;  ///< null: none
+  const RimRises* rises = nullptr;          ///< null: the sea is a plane at the openings
 };
 
 /// Water in all holds of a body at one pose, in F: what it adds to the closed vessel.
@@ -69,15 +119,11 @@ bool areFull(const HoldShapes& holds, const HoldState* states) noexcept;
 /// Tells if all holds are empty.
 bool areEmpty(const HoldShapes& holds, const HoldState* states) noexcept;
 
-/// Fills the holds whose openings are all below a plane, and empties the others.
-void fillCoveredHolds(const HoldShapes& holds, const SurfacePlane& plane_F,
-                      HoldState* states) noexcept;
+/// Fills the holds that have openings and are all below a plane, and empties the others.
+void fillCoveredHolds(const HoldShapes& holds, const OpeningChanges* changes,
+                      const SurfacePlane& plane_F, HoldState* states) noexcept;
 
-/// Lets water pass through the openings, one after the other, and the pumps run, for a duration
-/// [s]; docs/theory.md eq. (138) to (140). No level passes that of the sea. Where the holds are not
-/// open nothing passes through the openings. Returns the inertia in F of the water that has come
-/// from outside, per unit density; it was at rest there.
-Matrix6 exchangeWater(const HoldShapes& holds, const SurfacePlane& plane_F, bool are_open,
-                      double duration, HoldState* states) noexcept;
+/// Returns the height of the level in a hold along a normal in F; keeps it in the state.
+double levelOf(const HoldShape& shape, const Vector3& normal, HoldState& state) noexcept;
 
 }  // namespace ambient

@@ -405,6 +405,34 @@ class WorldTest(Temporary):
         with self.assertRaisesRegex(ValueError, r"density \[kg/m\^3\] is -1"):
             world.bodies["ball"].set_medium(ba.Medium(density=-1))
 
+    def test_holds_are_read_filled_pumped_and_opened(self):
+        scene = ba.Scene("barge_floods", {"bodies.0.holds": {"water": [0.1]}})
+        with ba.World(scene) as world:
+            barge = world.bodies["barge"]
+            (hold,) = barge.holds
+            self.assertAlmostEqual(hold["capacity"], 1.96 * 0.96 * 0.48, places=9)
+            self.assertEqual(hold["volume"], 0.1)
+            world.run(1)
+            self.assertGreater(barge.holds[0]["volume"], 0.1)
+            self.assertFalse(barge.holds[0]["has_trapped_air"])
+            openings = [0, 1]
+            for opening in openings:
+                barge.set_opening(0, opening, False)
+            barge.set_water(0, 0.2)
+            barge.pump(0, -0.01)
+            world.run(5)
+            self.assertAlmostEqual(barge.holds[0]["volume"], 0.15, places=9)
+            barge.pump(0, 0)
+            hole = barge.add_opening(0, [0.5, 0, -0.23], [0, 0, -1], 0.01)
+            self.assertEqual(hole, 2)
+            world.run(1)
+            self.assertGreater(barge.holds[0]["volume"], 0.152)
+            with self.assertRaisesRegex(ValueError, "body 'barge' has 1 holds, and none has the number 3"):
+                barge.set_water(3, 0)
+            with self.assertRaisesRegex(ValueError, "has no opening with the number 7"):
+                barge.set_opening(0, 7, True)
+            self.assertEqual(ba.World(ba.Scene("duck_dive")).bodies["ball_0.3"].holds, [])
+
     def test_the_wrench_of_the_fluid_is_the_change_of_momentum(self):
         scene = ba.Scene(STILL, {"gravity": [0, 0, -9.81], "water": {"level": 100}, "bodies.0.linear_velocity": [1, 0, 0]})
         world = ba.World(scene)

@@ -85,4 +85,11 @@ inline FluidBody openBarge(const OpenBarge& barge = {}) {
   return body;
 }
 
+/// Work that sealed air gives when it comes to the pressure outside at constant temperature,
+/// docs/theory.md eq. (148) [J]. Never negative.
+inline double energyOfAir(double product, double volume, double atmosphere) {
+  if (!(product > 0)) return atmosphere * volume;
+  return product * std::log(product / (volume * atmosphere)) + atmosphere * volume - product;
+}
+
 }  // namespace ambient::test

@@ -241,7 +241,8 @@ void fill(Numbers& n, AmbientState& s) {
   n(def.medium.density, def.medium.viscosity, def.medium.velocity, def.medium.acceleration,
     def.follow_regions, def.wave_damping, def.flow.separation_angle, def.flow.skin_friction,
     def.flow.stall_lag, def.flow.maximum_load_error, def.flight.tolerance, def.flight.max_substeps,
-    def.fluid_frame.rotation, def.fluid_frame.translation, def.holds.are_open);
+    def.fluid_frame.rotation, def.fluid_frame.translation, def.holds.are_open,
+    def.holds.atmosphere);
   n(s.medium.density, s.medium.viscosity, s.medium.velocity, s.medium.acceleration, s.place.region,
     s.place.is_above, s.place.is_at_surface, s.flow.until, s.flow.position, s.flow.velocity,
     s.flow.change, s.flow.parts, s.flow.region, s.flow.is_above);
@@ -250,9 +251,13 @@ void fill(Numbers& n, AmbientState& s) {
   n(s.waves.heave.first, s.waves.tilt_W[0], s.waves.heave.second, s.waves.tilt_W[1],
     s.waves.heave_energy, s.waves.tilt_energy, s.memory.load_W.torque, s.memory.load_W.force,
     s.memory.has_load, s.memory.substep, s.wake.velocity_W.angular, s.wake.velocity_W.linear,
-    s.wake.has_begun, s.has_met_water, s.left_W.angular, s.left_W.linear);
+    s.wake.has_begun, s.has_met_water, s.has_sunk, s.left_W.angular, s.left_W.linear);
   s.holds.resize(2);
-  for (HoldState& hold : s.holds) n(hold.volume, hold.pump, hold.flooded, hold.drained);
+  s.is_shut.assign(3, 1);
+  for (AddedHole& hole : s.holes = std::vector<AddedHole>(1))
+    n(hole.hold, hole.area, hole.place, hole.normal);
+  for (HoldState& hold : s.holds)
+    n(hold.volume, hold.pump, hold.flooded, hold.drained, hold.is_sealed, hold.air);
   AmbientCounters& c = s.counters;
   n(c.substeps, c.load_evaluations, c.faces, c.guarded, c.coarse, c.halted, c.energy_removed,
     c.rows, c.joint_rows, c.rejected, c.regions_asked, c.medium_changes, c.too_long);
@@ -313,8 +318,8 @@ WorldState filledState() {
 TEST(StateFormat, HasTheBytesOfVersion17) {
   const std::string bytes = encodeState(filledState());
   const bool in_double = sizeof(btScalar) == 8;
-  EXPECT_EQ(bytes.size(), in_double ? 5317u : 4045u);
-  EXPECT_EQ(fnv1a64(bytes), in_double ? 16662657421908548097u : 18196258705813044636u);
+  EXPECT_EQ(bytes.size(), in_double ? 5611u : 4339u);
+  EXPECT_EQ(fnv1a64(bytes), in_double ? 8800320092258800488u : 2134957104340977576u);
 }
 
 }  // namespace

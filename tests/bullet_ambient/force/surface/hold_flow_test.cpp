@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 namespace ambient {
 namespace {
@@ -59,6 +60,46 @@ TEST(HoldFlow, HoleInTheSideIsRightAtAnyCover) {
     const double exact = 2.0 / 3 * kFall * 0.2 * (std::pow(h, 1.5) - std::pow(above, 1.5));
     EXPECT_NEAR(flowThrough(hole, {}, h, -1), exact, 1e-3 * exact) << cover;
   }
+}
+
+// A wave at one long side alone: its part of the weir.
+TEST(HoldFlow, WaterStandsHigherWhereTheWaveIs) {
+  const OpeningShape opening = rim();
+  std::vector<double> rises(opening.edges().size(), 0.02);
+  EXPECT_NEAR(flowThrough(opening, {}, 0.5, 0, rises.data()), flowThrough(opening, {}, 0.52, 0),
+              1e-15);
+  EXPECT_NEAR(flowThrough(opening, {}, 1.48, 0, rises.data()), flowThrough(opening, {}, 1.5, 0),
+              1e-14);
+  for (std::size_t i = 0; i < rises.size(); ++i)
+    rises[i] = opening.edges()[i].middle.y() < -0.479 ? 0.02 : -0.1;
+  const double side = 2.0 / 3 * kFall * 1.96 * std::pow(0.02, 1.5);
+  EXPECT_NEAR(flowThrough(opening, {}, 0.5, 0, rises.data()), side, 1e-14);
+}
+
+// An octagon of the area, which looks out.
+TEST(HoldFlow, HoleInAWallHasItsAreaAndDirection) {
+  const Vector3 normal = Vector3(1, 2, -2) / 3, place(0.3, -0.2, 0.1);
+  const OpeningShape hole(openingOf({place, normal, 0.01}));
+  EXPECT_LT((hole.outward() - 0.01 * normal).norm(), 1e-16);
+  double area = 0;
+  for (const auto& piece : hole.pieces()) {
+    area += piece.area;
+    EXPECT_NEAR((piece.place - place).dot(normal), 0, 1e-15);
+  }
+  EXPECT_NEAR(area, 0.01, 1e-16);
+  EXPECT_NEAR((hole.corners()[0] - place).norm(), std::sqrt(0.01 / std::sqrt(8)), 1e-15);
+}
+
+// Pressure of the air on one side drives water as a head does, and only water flows.
+TEST(HoldFlow, AirPressureDrivesWaterThroughALid) {
+  const OpeningShape opening = rim();
+  EXPECT_NEAR(sealedFlowThrough(opening, {}, 1.5, 1.2, 0.1), kFall * 1.96 * 0.96 * std::sqrt(0.2),
+              1e-12);
+  EXPECT_NEAR(sealedFlowThrough(opening, {}, 1.5, 1.2, 0.4), -kFall * 1.96 * 0.96 * std::sqrt(0.1),
+              1e-12);
+  EXPECT_NEAR(sealedFlowThrough(opening, {}, 1.5, 0.4, 0.7), kFall * 1.96 * 0.96 * std::sqrt(0.3),
+              1e-12);
+  EXPECT_EQ(sealedFlowThrough(opening, {}, 1.5, 0.4, 1.2), 0) << "air, which no opening gives way";
 }
 
 TEST(HoldFlow, DrownedWeirSlowsDown) {

@@ -190,7 +190,7 @@ TEST(WindZone, BlowsWhereItIsAndMoreTheLighterTheBall) {
 }
 
 // Bodies at the surface of water: the scenes floating_cube, heave_decay, wedge_drop, boat_in_waves,
-// duck_dive and pool.
+// duck_dive, barge_floods, diving_bell and pool.
 
 double meanHeight(const std::vector<MotionSample>& motion, double from) {
   double sum = 0, count = 0;
@@ -288,6 +288,26 @@ TEST(DuckDive, LightBallsJump) {
   EXPECT_GT(highest(0), highest(1));
   EXPECT_LT(highest(2), 0.1);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_LT(run.motion[i].back().twist.linear.norm(), 0.5) << i;
+}
+
+// Torricelli's law, as in vessel_test: the rim dips after 116.447 s.
+TEST(BargeFloods, DipsItsRimInItsTimeAndSinks) {
+  const auto motion = run(readNamedScene("barge_floods")).motion[0];
+  double dips = 0;
+  for (const MotionSample& sample : motion)  // the rim is 0.37 m above the centre of mass
+    if (dips == 0 && sample.position.z() < -0.37) dips = sample.time;
+  // The air of the scene has some weight; it is told every 0.1 s.
+  EXPECT_NEAR(dips, 116.447, 0.004 * 116.447);
+  EXPECT_LT(motion.back().position.z(), -1);
+}
+
+// Its air is pressed together by Boyle's law; it stands on the ground 5 m deep.
+TEST(DivingBell, SinksToTheGround) {
+  const auto motion = run(readNamedScene("diving_bell")).motion[1];
+  const MotionSample& end = motion.back();
+  EXPECT_NEAR(end.position.z(), -5 + 0.05, 0.02) << "its rim is 0.05 m below its centre of mass";
+  EXPECT_LT(end.twist.linear.norm(), 1e-3);
+  EXPECT_GT((end.orientation * Vector3::UnitZ()).z(), 0.999);
 }
 
 TEST(Pool, KeepsItsBoxesAndSinksTheHeavyOnes) {

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "bullet_ambient/immersed/ambient_body.h"
+#include "bullet_ambient/immersed/complaints.h"
+#include "bullet_ambient/immersed/fluid_regions.h"
+
+namespace ambient {
+
+/// Finds how high a sea with waves stands above its plane at the edges of the openings of a vessel:
+/// VesselState::rises and has_waves. Cost: nothing in still water and for bodies that are small
+/// against the waves, else a call of the surface for each edge of an opening that is no farther
+/// from the plane than the body is large. Allocates nothing. @pre the body has holds and is at a
+/// surface
+void findRimWaves(AmbientBody& ambient, const MotionView& now,
+                  const FluidRegions& regions) noexcept;
+
+/// Says once of a vessel that water has come into one of its holds until that was full, and that
+/// the body is then too heavy to float. Apart from that allocates nothing. @pre exchangeWater() has
+/// let water pass
+void saySunk(AmbientBody& ambient, Complaints& complaints) noexcept;
+
+}  // namespace ambient

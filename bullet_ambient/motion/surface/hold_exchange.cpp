@@ -1,0 +1,181 @@
+#include "bullet_ambient/motion/surface/hold_exchange.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/motion/surface/sealed_holds.h"
+
+namespace ambient {
+namespace {
+
+constexpr double kNoWater = -std::numeric_limits<double>::infinity();  // height of its level
+
+/// Returns what is on the side of a hold whose level moves towards another height: the area is the
+/// mean on the way, so that the level does not pass it, whatever the shape.
+WaterSide sideOf(const HoldShape& shape, const HoldState& state, double level, double towards,
+                 const Vector3& normal) {
+  const auto [low, high] = computeExtent(shape.hull(), normal);
+  const double end = std::clamp(towards, low, high), head = end - level;
+  const double change = computeWetVolume(shape.hull(), {normal, end, 0, 0}).volume - state.volume;
+  const double area = head * change > 0 ? change / head : 1;  // else nothing flows
+  return {level, area, std::min(state.volume, std::max(0.0, -change)),
+          std::min(shape.capacity() - state.volume, std::max(0.0, change))};
+}
+
+/// The sea at an opening.
+struct SeaAt {
+  const OpeningShape& opening;
+  const SurfacePlane& plane_F;
+  const std::vector<double>* rises;  ///< at its edges [m]; null: none
+
+  const double* data() const { return rises ? rises->data() : nullptr; }
+};
+
+/// Whether an opening is above a height and the sea, so that nothing flows.
+bool isClear(const SeaAt& sea, double height) {
+  const auto& corners = sea.opening.corners();
+  const double reach = std::max(height, sea.plane_F.height);
+  bool is_clear = std::none_of(corners.begin(), corners.end(), [&](const Vector3& corner) {
+    return sea.plane_F.normal.dot(corner) < reach;
+  });
+  if (sea.rises)
+    for (std::size_t i = 0; i < sea.rises->size(); ++i)
+      is_clear =
+          is_clear && !(sea.plane_F.depth(sea.opening.edges()[i].middle) + (*sea.rises)[i] > 0);
+  return is_clear;
+}
+
+/// Height to which the level in a hold may go: that of the sea, of waves the highest if water comes
+/// in, else the lowest.
+double aimOf(const SeaAt& sea, double level) {
+  const double height = sea.plane_F.height;
+  if (!sea.rises) return height;
+  const double flow = flowThrough(sea.opening, {sea.plane_F.normal, sea.plane_F.gravity}, height,
+                                  level, sea.data());
+  const auto [low, high] = std::minmax_element(sea.rises->begin(), sea.rises->end());
+  return height + (flow > 0 ? *high : *low);
+}
+
+void exchangeWithSea(const HoldShape& shape, const SeaAt& sea, double duration, HoldState& state) {
+  const Vector3& normal = sea.plane_F.normal;
+  if (!(state.volume > 0) && isClear(sea, kNoWater)) return;
+  const double level = levelOf(shape, normal, state);
+  if (isClear(sea, level)) return;
+  WaterSide outside{sea.plane_F.height};
+  outside.rises = sea.data();
+  const double in = volumeThrough(sea.opening, {normal, sea.plane_F.gravity}, outside,
+                                  sideOf(shape, state, level, aimOf(sea, level), normal), duration);
+  addWater(in, state);
+  state.inflow += in;
+}
+
+void exchangeBetween(const HoldShapes& holds, const HoldShapes::Opening& door,
+                     const SurfacePlane& plane_F, double duration, HoldState* states) {
+  HoldState &from = states[door.from], &to = states[door.to];
+  if (!(from.volume > 0) && !(to.volume > 0)) return;
+  const HoldShape& here = holds.shapes[static_cast<std::size_t>(door.from)];
+  const HoldShape& there = holds.shapes[static_cast<std::size_t>(door.to)];
+  const Vector3& normal = plane_F.normal;
+  const double level = levelOf(here, normal, from), other = levelOf(there, normal, to);
+  if (!(-door.shape.top(-normal) < std::max(level, other))) return;
+  const double passed =
+      volumeThrough(door.shape, {normal, plane_F.gravity}, sideOf(here, from, level, other, normal),
+                    sideOf(there, to, other, level, normal), duration);
+  addWater(-passed, from);
+  addWater(passed, to);
+}
+
+/// Whether an opening has the same air on both sides, so that no difference of pressures counts.
+bool hasOneAir(const HoldShapes::Opening& opening, const HoldState* states) {
+  const int there = opening.to < 0 ? -1 : states[opening.to].air_group;
+  return states[opening.from].air_group == there;
+}
+
+/// An opening that is not shut, and its number among all.
+struct Numbered {
+  const HoldShapes::Opening& opening;
+  std::size_t number;
+};
+
+void exchangeThrough(const HoldShapes& holds, const Numbered& at, const SurfacePlane& plane_F,
+                     const Passage& passage, HoldState* states) {
+  const HoldShapes::Opening& opening = at.opening;
+  if (!hasOneAir(opening, states)) {
+    exchangeSealed(holds, opening, plane_F, passage, states);
+  } else if (opening.to < 0) {
+    const SeaAt sea{opening.shape, plane_F, passage.rises ? &(*passage.rises)[at.number] : nullptr};
+    exchangeWithSea(holds.shapes[static_cast<std::size_t>(opening.from)], sea, passage.duration,
+                    states[opening.from]);
+  } else {
+    exchangeBetween(holds, opening, plane_F, passage.duration, states);
+    shareAir(holds, states[opening.from].air_group, states);
+  }
+}
+
+/// Whether the holds are empty and the sea is below their openings.
+bool areDryAndClear(const HoldShapes& holds, const SurfacePlane& plane_F, const Passage& passage,
+                    const HoldState* states) {
+  bool are_clear = areEmpty(holds, states);
+  if (!are_clear) return false;
+  forEachOpening(
+      holds, passage.changes, [&](const HoldShapes::Opening& opening, std::size_t number) {
+        const auto* rises = passage.rises ? &(*passage.rises)[number] : nullptr;
+        are_clear =
+            are_clear && (opening.to >= 0 || isClear({opening.shape, plane_F, rises}, kNoWater));
+      });
+  return are_clear;
+}
+
+/// Lets the pump of a hold run. Sealed air is pressed together to a half in a step at most.
+void runPump(const HoldShape& shape, double duration, HoldState& state) {
+  const double room = std::max(0.0, shape.capacity() - state.volume);
+  state.inflow = std::clamp(duration * state.pump, -state.volume,
+                            state.is_sealed && state.air > 0 ? room / 2 : room);
+  state.change = -state.volume;
+  state.volume += state.inflow;
+  state.level = std::numeric_limits<double>::quiet_NaN();
+  state.air_group = -1;
+}
+
+/// The last drops of a hold leave with what has left before: fillHold() sees none.
+void loseDregs(const HoldShape& shape, HoldState& state) {
+  constexpr double kDregs = 1e-12;  // of the hold
+  if (!(state.volume <= kDregs * shape.capacity())) return;
+  state.change -= state.volume;
+  state.inflow -= state.volume;
+  state.volume = 0;
+}
+
+}  // namespace
+
+Matrix6 exchangeWater(const HoldShapes& holds, const SurfacePlane& plane_F, const Passage& passage,
+                      HoldState* states) noexcept {
+  AMBIENT_ASSERT(passage.duration >= 0 && passage.atmosphere > 0);
+  for (std::size_t i = 0; i < holds.shapes.size(); ++i)
+    runPump(holds.shapes[i], passage.duration, states[i]);
+  if (passage.are_open && areDryAndClear(holds, plane_F, passage, states)) {
+    for (std::size_t i = 0; i < holds.shapes.size(); ++i) states[i].is_sealed = false;
+  } else if (passage.are_open) {
+    sealHolds(holds, plane_F, passage, states);
+    forEachOpening(holds, passage.changes,
+                   [&](const HoldShapes::Opening& opening, std::size_t number) {
+                     exchangeThrough(holds, {opening, number}, plane_F, passage, states);
+                   });
+  }
+  Matrix6 come = Matrix6::Zero();
+  for (std::size_t i = 0; i < holds.shapes.size(); ++i) {
+    states[i].change += states[i].volume;
+    if (states[i].change < 0) loseDregs(holds.shapes[i], states[i]);
+    if (!(states[i].inflow > 0) || !(states[i].volume > 0)) continue;
+    const HoldFill fill = fillHold(holds.shapes[i], plane_F.normal, states[i].volume,
+                                   std::numeric_limits<double>::quiet_NaN());
+    come += std::min(1.0, states[i].inflow / states[i].volume) *
+            carriedInertia(holds.shapes[i], fill.water);
+  }
+  return come;
+}
+
+}  // namespace ambient
