@@ -108,6 +108,7 @@ class Immersed {
   /// Makes a round hole from a hold to the fluid outside: damage, scuppers. Returns its number
   /// among the openings of the hold. It stays until setFluidBody(), shape and mass do not change.
   /// Wakes the body.
+  /// @param hold number in FluidBody::holds
   /// @param place of its middle, in the frame of the fluid body [m]
   /// @param normal out of the hold, in that frame; of any length
   /// @param area [m^2]
