@@ -66,6 +66,8 @@ struct Upward {
 /// to the other; negative: back [m^3/s]. Water goes over the outline as over a weir, and, where the
 /// whole outline lies below the level of the side that gives, at most as through an orifice. Cost:
 /// a root for each edge and piece, 0.5 us.
+/// @param opening,up in F
+/// @param from_height,to_height of the levels along the normal [m]
 /// @param from_rises WaterSide::rises of the first side
 double flowThrough(const OpeningShape& opening, const Upward& up, double from_height,
                    double to_height, const double* from_rises = nullptr) noexcept;
@@ -73,6 +75,8 @@ double flowThrough(const OpeningShape& opening, const Upward& up, double from_he
 /// Flow through an opening where water shuts off the air on one side, eq. (139) with another
 /// pressure there, positive from one side to the other [m^3/s]. Only water flows: a side gives
 /// where its level is above the place.
+/// @param opening,up in F
+/// @param from_height,to_height of the levels along the normal [m]
 /// @param air pressure of the air at the second side less that at the first, over rho g [m]
 double sealedFlowThrough(const OpeningShape& opening, const Upward& up, double from_height,
                          double to_height, double air) noexcept;
