@@ -7,6 +7,7 @@
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "preprocess/base/fluid_body_writer.h"
 #include "tests/bullet_ambient/fluid_body/example_body.h"
+#include "tests/support/refusal_of.h"
 
 namespace ambient {
 namespace {

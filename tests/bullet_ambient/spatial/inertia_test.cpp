@@ -166,7 +166,6 @@ auto arbitraryInertia(test::Arbitrary& arbitrary) {
 template <int N>
 void expectThatItFactorises() {
   using Matrix = typename Cholesky<N>::Matrix;
-  constexpr double kRounding = 1e-13;
   test::Arbitrary arbitrary(3);
   for (int i = 0; i < 100; ++i) {
     const Matrix A = arbitraryInertia<N>(arbitrary);
