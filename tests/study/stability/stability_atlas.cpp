@@ -1,3 +1,5 @@
+#include <LinearMath/btScalar.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
