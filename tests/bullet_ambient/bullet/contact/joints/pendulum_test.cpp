@@ -347,8 +347,7 @@ TEST(Top, OnABallJointLosesNoMoreThanItsTurnPerStepExplains) {
        {Case{1, 60, 0.999}, Case{10, 240, 0.98}, Case{10, 60, 0.8}, Case{20, 60, 0.33},
         Case{60, 60, 0.2}}) {
     double mean = 0;
-    for (unsigned seed = 0; seed < kTops; ++seed)
-      mean += energyOfTop(spin, rate, seed).end / kTops;
+    for (unsigned seed = 0; seed < kTops; ++seed) mean += energyOfTop(spin, rate, seed).end / kTops;
     EXPECT_GT(mean, least) << spin << " rad/s, " << rate << " Hz";
   }
 }
