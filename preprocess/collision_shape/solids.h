@@ -61,7 +61,7 @@ std::vector<Solid> makeSolids(const std::vector<PlacedShape>& parts,
 /// make more than twice as many triangles.
 TriangleMesh evenlyDivided(const TriangleMesh& mesh, int faces);
 
-/// What stands for solids that touch. Each is asked for what the ones before could not do.
+/// Ways to join solids that touch. Each is tried where those before have failed.
 enum class JoinedBy { kUnion, kWrap, kHull };
 
 /// Solids with gaps between them, made of the solids of one shape.

@@ -70,7 +70,7 @@ struct MultiBodyLinkState {
   btVector3 force{0, 0, 0}, torque{0, 0, 0};  ///< applied since the last step, world axes
   std::array<btScalar, 7> joint_position{};   ///< as in Bullet: the last entries may be unused
   std::array<btScalar, 6> joint_force{};      ///< applied since the last step
-  // As cached by Bullet. The first two follow from the joint's position up to rounding.
+  // Numbers that Bullet caches. The first two follow from the joint's position up to rounding.
   btQuaternion turn_in_parent = btQuaternion::getIdentity();  ///< from the parent's axes
   btVector3 way_from_parent{0, 0, 0};                         ///< in the link's axes
   btTransform pose = btTransform::getIdentity();

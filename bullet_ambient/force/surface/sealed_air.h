@@ -4,7 +4,7 @@
 
 namespace ambient {
 
-/// What presses on the air in a hold from outside.
+/// Pressure of the air outside a hold, and the weight of the water around it.
 struct Outside {
   double atmosphere = 101325;  ///< pressure of the air at the surface [Pa]
   double weight = 9810;        ///< rho g of the water [N/m^3]

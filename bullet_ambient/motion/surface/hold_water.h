@@ -31,7 +31,7 @@ struct AddedHole : WallHole {
   int hold = 0;
 };
 
-/// What one body has of other openings than its shape.
+/// Changes of the openings of one body: those that are shut, and holes that its shape has not.
 struct OpeningChanges {
   std::vector<std::uint8_t> is_shut;       ///< of HoldShapes::openings, and then of those added
   std::vector<AddedHole> holes;            ///< those added

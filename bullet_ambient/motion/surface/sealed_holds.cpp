@@ -213,7 +213,7 @@ class SealedOpening {
     bubbled_ = std::max(0.0, computeWetVolume(h_.shape(lower.hold).hull(), covering).volume -
                                  h_.states[lower.hold].volume);
     if (lower.group < 0 || upper.hold < 0) return;
-    // As much air rises as water comes down.
+    // The air that rises has the volume of the water that comes down.
     lower.air.most = std::min(lower.air.most, lower.air.product / lower.air.volume);
     lower.air.kept = std::max(0.0, lower.air.volume - bubbled_);
     gives_air_ = true;
