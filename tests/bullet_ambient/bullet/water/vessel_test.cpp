@@ -540,6 +540,12 @@ TEST(Vessel, DoorBetweenHoldsIsShutAndOpened) {
   EXPECT_NEAR(sea.water(body) + boat.holds().at(1).volume, 0.05, 1e-12);
 }
 
+// Gives another sea of the same bodies a state that went through its bytes.
+void restore(Sea& sea, const WorldState& state, const std::shared_ptr<const FluidBody>& shape) {
+  sea.scene.fluid.restore(
+      decodeState(encodeState(state), "state", [&](const std::string&) { return shape; }));
+}
+
 TEST(Vessel, StateHasHolesAndShutDoors) {
   const auto start = [](Sea& sea) -> btRigidBody& {
     OpenBarge barge;
@@ -560,8 +566,7 @@ TEST(Vessel, StateHasHolesAndShutDoors) {
   const std::shared_ptr<const FluidBody> shape = sea.scene.of(body).fluidBody();
   Sea other;
   btRigidBody& same = start(other);
-  other.scene.fluid.restore(
-      decodeState(encodeState(state), "state", [&](const std::string&) { return shape; }));
+  restore(other, state, shape);
   EXPECT_TRUE(run(other, same) == first);
   EXPECT_EQ(other.of(same).vessel->changes.holes.size(), 1u);
   other.scene.of(same).setOpening(0, 2, false);
@@ -570,7 +575,7 @@ TEST(Vessel, StateHasHolesAndShutDoors) {
   EXPECT_EQ(other.water(same), water);
 }
 
-// A bell that hangs in its joint under pressure goes on with the bits of its air.
+// A capsized barge goes on with the bits of its air.
 TEST(Vessel, StateHasTheAirThatWaterShutsOff) {
   const auto start = [](Sea& sea) -> btRigidBody& {
     Start at = capsized();
@@ -591,8 +596,7 @@ TEST(Vessel, StateHasTheAirThatWaterShutsOff) {
   const std::shared_ptr<const FluidBody> shape = sea.scene.of(body).fluidBody();
   Sea other;
   btRigidBody& same = start(other);
-  other.scene.fluid.restore(
-      decodeState(encodeState(state), "state", [&](const std::string&) { return shape; }));
+  restore(other, state, shape);
   EXPECT_TRUE(run(other, same) == first);
 }
 
