@@ -46,6 +46,11 @@ void addTriangle(const Vector3 (&corners)[3], const SurfacePlane& plane, WetSurf
       wetShareOf({plane.depth(corners[0]), plane.depth(corners[1]), plane.depth(corners[2])});
 }
 
+Vector3 cornerOf(const Surface& surface, std::int32_t vertex) {
+  const double* v = surface.vertices.data() + 3 * static_cast<std::size_t>(vertex);
+  return {v[0], v[1], v[2]};
+}
+
 WetSurface wetSurfaceOf(const FluidBody& shape, const Immersion& immersion) {
   const SurfacePlane& plane = immersion.plane;
   const double radius = shape.sphere_radius;
@@ -53,15 +58,12 @@ WetSurface wetSurfaceOf(const FluidBody& shape, const Immersion& immersion) {
     return {std::clamp(0.5 + plane.depth(shape.centre_of_volume) / (2 * radius), 0.0, 1.0),
             immersion.draught()};
   const std::vector<std::int32_t>& triangles = shape.surface.triangles;
-  const auto corner = [&](std::int32_t vertex) {
-    const double* v = shape.surface.vertices.data() + 3 * static_cast<std::size_t>(vertex);
-    return Vector3(v[0], v[1], v[2]);
-  };
   WetSurface wet;
   double all = 0;
   for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
-    const Vector3 corners[3] = {corner(triangles[i]), corner(triangles[i + 1]),
-                                corner(triangles[i + 2])};
+    const Vector3 corners[3] = {cornerOf(shape.surface, triangles[i]),
+                                cornerOf(shape.surface, triangles[i + 1]),
+                                cornerOf(shape.surface, triangles[i + 2])};
     all += (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm() / 2;
     addTriangle(corners, plane, wet);
   }
@@ -165,6 +167,31 @@ double lowestCorner(const VesselState& vessel, std::size_t hold, const Vector3& 
   return lowest;
 }
 
+/// Lines in which a height cuts a closed surface, see HoldWater::outline; in F.
+std::vector<Vector3> cutAt(double height, const Vector3& up_F, const Surface& surface) {
+  std::vector<Vector3> lines;
+  for (std::size_t i = 0; i + 2 < surface.triangles.size(); i += 3) {
+    Vector3 corners[3];
+    double heights[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      corners[k] = cornerOf(surface, surface.triangles[i + k]);
+      heights[k] = up_F.dot(corners[k]) - height;
+    }
+    const auto crossing = [&](bool goes_down) {
+      int from = 0;
+      while ((heights[from] > 0) != goes_down || (heights[(from + 1) % 3] > 0) == goes_down) ++from;
+      const int to = (from + 1) % 3;
+      const double share = heights[from] / (heights[from] - heights[to]);
+      return Vector3(corners[from] + share * (corners[to] - corners[from]));
+    };
+    const auto above = std::count_if(heights, heights + 3, [](double h) { return h > 0; });
+    if (above == 0 || above == 3) continue;
+    lines.push_back(crossing(true));
+    lines.push_back(crossing(false));
+  }
+  return lines;
+}
+
 HoldWater waterIn(const VesselState& vessel, std::size_t i, const Vector3& up_F) {
   const Hold& hold = vessel.shape->holds[i];
   const HoldState& state = vessel.holds[i];
@@ -178,6 +205,7 @@ HoldWater waterIn(const VesselState& vessel, std::size_t i, const Vector3& up_F)
   water.level = wet.waterplane.area > 0
                     ? wet.waterplane.centroid
                     : Vector3(hold.centre + (fill.height - up_F.dot(hold.centre)) * up_F);
+  if (wet.waterplane.area > 0) water.outline = cutAt(fill.height, up_F, hold.surface);
   return water;
 }
 
@@ -205,6 +233,7 @@ std::vector<HoldWater> holdsOf(const AmbientBody& ambient, const MotionView& now
     water.centre = origin_W + R * water.centre;
     water.level = origin_W + R * water.level;
     water.normal = up;
+    for (Vector3& point : water.outline) point = origin_W + R * point;
   }
   return all;
 }

@@ -1,7 +1,9 @@
 #include "preprocess/mesh/holds/vessel.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 #include "bullet_ambient/base/elementary.h"
@@ -85,6 +87,25 @@ TriangleMesh emptied(const std::vector<Hold>& holds) {
     meshes.back().triangles.row(1).swap(meshes.back().triangles.row(2));
   }
   return joinMeshes(meshes);
+}
+
+TriangleMesh wallsOf(const TriangleMesh& closed, const std::vector<Hold>& holds) {
+  TriangleMesh all = joinMeshes({closed, emptied(holds)});
+  using Corners = std::array<std::array<double, 3>, 3>;
+  std::map<Corners, std::vector<Eigen::Index>> faces;
+  for (Eigen::Index face = 0; face < all.triangles.cols(); ++face) {
+    Corners corners;
+    for (int k = 0; k < 3; ++k)
+      Eigen::Map<Vector3>(corners[k].data()) = all.vertices.col(all.triangles(k, face));
+    std::sort(corners.begin(), corners.end());
+    faces[corners].push_back(face);
+  }
+  std::vector<Eigen::Index> kept;
+  for (const auto& [corners, same] : faces)
+    if (same.size() == 1) kept.push_back(same.front());
+  std::sort(kept.begin(), kept.end());
+  all.triangles = Eigen::Matrix3Xi(all.triangles(Eigen::all, kept));
+  return all;
 }
 
 }  // namespace ambient
