@@ -192,7 +192,7 @@ def main():
     with reading(folder, "a folder of results of ambient_demo"):
         summary = json.loads((folder / "summary.json").read_text())
         bodies = json.loads((folder / "geometry.json").read_text())["bodies"]
-        made = make_text(summary["scene"], summary["gravity"], bodies, read_motion(folder / "trajectory.csv"))
+        made = make_text(summary["scene"], summary["gravity"], bodies, read_motion(folder / "trajectory.csv")[0])
     partial = file.with_name(f".{file.name}.{os.getpid()}.partial")
     with writing(file):
         partial.write_bytes(make_bytes(file, *made))
