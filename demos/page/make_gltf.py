@@ -205,7 +205,7 @@ def add_body(body, rows, colour, buffer, text, animation):
 
 def add_water(name, levels, buffer, text, animation):
     """Adds the flip book of the level in a hold."""
-    times = [time for time, _ in levels]
+    times = [float(time) for time, _ in levels]
     for k, (_, triangles) in enumerate(levels):
         if not len(triangles):
             continue
