@@ -198,8 +198,13 @@ HoldWater waterIn(const VesselState& vessel, std::size_t i, const Vector3& up_F)
   const HoldFill fill =
       fillHold(HoldShape(hold), up_F, state.volume, std::numeric_limits<double>::quiet_NaN());
   const WetVolume& wet = fill.water;
-  HoldWater water{state.volume,  hold.volume,   state.inflow,
-                  state.flooded, state.drained, wet.waterplane.area};
+  HoldWater water;
+  water.volume = state.volume;
+  water.capacity = hold.volume;
+  water.inflow = state.inflow;
+  water.flooded = state.flooded;
+  water.drained = state.drained;
+  water.area = wet.waterplane.area;
   water.freeboard = lowestCorner(vessel, i, up_F) - fill.height;
   water.centre = wet.volume > 0 ? Vector3(wet.moment / wet.volume) : hold.centre;
   water.level = wet.waterplane.area > 0
