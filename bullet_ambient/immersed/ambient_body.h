@@ -144,6 +144,9 @@ struct VesselState {
   bool has_waves = false;        ///< true: `rises` counts
   OpeningChanges changes;        ///< of openings while the body is in its fluid
   WaterInside inside;            ///< at FloatingState::stand
+  VesselSloshing sloshing;
+  double sloshing_energy = 0;  ///< of VesselSloshing::now [J]
+  WaterLeft before_rows;  ///< after it has sloshed for a step in which rows move the body
   /// Change of the velocity in B by the water that has come in at the start of this step.
   Vector6 change_B = Vector6::Zero();
 };
@@ -205,7 +208,9 @@ inline const HoldState* waterOf(const AmbientBody& ambient) noexcept {
 /// Returns the same with the place for what is inside at the stand of the body.
 inline VesselWater waterAtStand(AmbientBody& ambient) noexcept {
   if (!ambient.vessel) return {};
-  return {ambient.vessel->holds.data(), &ambient.vessel->inside};
+  VesselState& vessel = *ambient.vessel;
+  return {vessel.holds.data(), &vessel.inside, vessel.sloshing.modes.data(), &vessel.sloshing,
+          ambient.def->holds.sloshing_damping};
 }
 /// Gives a body the holds of its definition, and the water from the start; it keeps what it has if
 /// they are the same.

@@ -165,11 +165,26 @@ double lowestCorner(const VesselState& vessel, std::size_t hold, const Vector3& 
   return lowest;
 }
 
-HoldWater waterIn(const VesselState& vessel, std::size_t i, const Vector3& up_F) {
+/// Returns the normal of the surface as the water sloshes: its slope along a mode is omega^2 q / g.
+Vector3 slopingNormal(const HoldModes& modes, const Sloshing& sloshing, const SurfacePlane& plane_F,
+                      const Matrix3& R_WF) {
+  Vector3 normal = plane_F.normal;
+  if (!(plane_F.gravity > 0)) return normal;
+  for (const SloshMode& mode : modes.modes)
+    normal -= mode.square / plane_F.gravity * mode.axis.dot(R_WF.transpose() * sloshing.way_W) *
+              mode.axis;
+  return normal.normalized();
+}
+
+/// @param plane_F normal of the level, and gravity as the water feels it
+HoldWater waterIn(const VesselState& vessel, std::size_t i, const SurfacePlane& plane_F,
+                  const Matrix3& R_WF) {
+  const Vector3& up_F = plane_F.normal;
   const Hold& hold = vessel.shape->holds[i];
   const HoldState& state = vessel.holds[i];
+  const HoldShape shape(hold);
   const HoldFill fill =
-      fillHold(HoldShape(hold), up_F, state.volume, std::numeric_limits<double>::quiet_NaN());
+      fillHold(shape, up_F, state.volume, std::numeric_limits<double>::quiet_NaN());
   const WetVolume& wet = fill.water;
   HoldWater water{state.volume,  hold.volume,   state.inflow,
                   state.flooded, state.drained, wet.waterplane.area};
@@ -178,6 +193,8 @@ HoldWater waterIn(const VesselState& vessel, std::size_t i, const Vector3& up_F)
   water.level = wet.waterplane.area > 0
                     ? wet.waterplane.centroid
                     : Vector3(hold.centre + (fill.height - up_F.dot(hold.centre)) * up_F);
+  water.normal =
+      slopingNormal(modesOf(shape, fill, plane_F), vessel.sloshing.now[i], plane_F, R_WF);
   return water;
 }
 
@@ -190,13 +207,16 @@ std::vector<HoldWater> holdsOf(const AmbientBody& ambient, const MotionView& now
   const Matrix3 R = now.rotation() * frame.rotation;
   const Vector3 origin_W = now.centre() + now.rotation() * frame.translation;
   Vector3 up(0, 0, 1);
+  double gravity = 0;
   if (ambient.surface()) {
     up = ambient.floating->plane_W.normal;
+    gravity = ambient.floating->plane_W.gravity;
   } else if (!now.gravity.isZero(0)) {
     up = -now.gravity.normalized();
   }
   for (std::size_t i = 0; i < ambient.vessel->holds.size(); ++i) {
-    HoldWater& water = all.emplace_back(waterIn(*ambient.vessel, i, R.transpose() * up));
+    HoldWater& water = all.emplace_back(
+        waterIn(*ambient.vessel, i, {R.transpose() * up, 0, 0, gravity}, R));
     const HoldState& state = ambient.vessel->holds[i];
     water.has_trapped_air = state.is_sealed;
     water.air_pressure = state.is_sealed && water.capacity > state.volume
@@ -204,7 +224,7 @@ std::vector<HoldWater> holdsOf(const AmbientBody& ambient, const MotionView& now
                              : ambient.def->holds.atmosphere;
     water.centre = origin_W + R * water.centre;
     water.level = origin_W + R * water.level;
-    water.normal = up;
+    water.normal = R * water.normal;
   }
   return all;
 }

@@ -173,7 +173,7 @@ Matrix6 exchangeWater(const HoldShapes& holds, const SurfacePlane& plane_F, cons
     const HoldFill fill = fillHold(holds.shapes[i], plane_F.normal, states[i].volume,
                                    std::numeric_limits<double>::quiet_NaN());
     come += std::min(1.0, states[i].inflow / states[i].volume) *
-            carriedInertia(holds.shapes[i], fill.water);
+            carriedInertia(fill.water, modesOf(holds.shapes[i], fill, plane_F));
   }
   return come;
 }

@@ -34,16 +34,27 @@ void OpeningChanges::add(const AddedHole& hole) {
   is_shut.push_back(0);
 }
 
+void VesselSloshing::resize(std::size_t count) {
+  now.assign(count, {});
+  moved.assign(count, {});
+  modes.assign(count, {});
+  later.assign(count, {});
+}
+
 WaterInside waterInside(const HoldShapes& holds, const HoldState* states,
-                        const SurfacePlane& plane_F) noexcept {
+                        const SurfacePlane& plane_F, HoldModes* modes) noexcept {
   WaterInside all;
+  all.modes = modes;
   Matrix6 inertia = Matrix6::Zero();
   for (std::size_t i = 0; i < holds.shapes.size(); ++i) {
+    if (modes) modes[i].modes[0].volume = modes[i].modes[1].volume = 0;
     if (!(states[i].volume > 0)) continue;
     const HoldFill fill = levelIn(holds.shapes[i], states[i], plane_F);
+    const HoldModes found = modesOf(holds.shapes[i], fill, plane_F);
+    if (modes) modes[i] = found;
     all.below = withWaterInside(all.below, plane_F, fill);
     all.spread += fill.water.waterplane.spread;
-    inertia += carriedInertia(holds.shapes[i], fill.water);
+    inertia += carriedInertia(fill.water, found);
     all.is_any = true;
   }
   if (all.is_any) all.inertia = SymmetricMatrix(inertia);
@@ -73,6 +84,25 @@ void fillCoveredHolds(const HoldShapes& holds, const OpeningChanges* changes,
         has_opening &&
         computeExtent(holds.shapes[i].hull(), plane_F.normal).second < plane_F.height;
     states[i].volume = is_covered ? holds.shapes[i].capacity() : 0;
+  }
+}
+
+void mixSloshing(const HoldState* states, const HoldModes* before, const SloshingAt& after,
+                 const Vector6& x, Sloshing* sloshing) noexcept {
+  const auto volumeOf = [](const HoldModes& of) { return of.modes[0].volume + of.modes[1].volume; };
+  for (std::size_t i = 0; i < after.count; ++i) {
+    const double was = volumeOf(before[i]), is = volumeOf(after.modes[i]);
+    if (!(is > was)) continue;
+    const HoldState& state = states[i];
+    const double kept = was / is;
+    const double from_sea =
+        state.change > 0 ? std::clamp(state.inflow / state.change, 0.0, 1.0) : 0;
+    Sloshing joined;
+    joinVessel({after.fluid_frame, after.density, after.modes + i, 1, after.to_world}, x, &joined);
+    sloshing[i].way_W *= kept;
+    sloshing[i].velocity_W = kept * sloshing[i].velocity_W +
+                             (1 - kept) * (1 - from_sea) * joined.velocity_W;
+    sloshing[i].is_known = true;
   }
 }
 
