@@ -146,7 +146,7 @@ struct VesselState {
   WaterInside inside;            ///< at FloatingState::stand
   VesselSloshing sloshing;
   double sloshing_energy = 0;  ///< of VesselSloshing::now [J]
-  WaterLeft before_rows;  ///< after it has sloshed for a step in which rows move the body
+  WaterLeft before_rows;       ///< after it has sloshed for a step in which rows move the body
   /// Change of the velocity in B by the water that has come in at the start of this step.
   Vector6 change_B = Vector6::Zero();
 };

@@ -530,8 +530,8 @@ void passWithRows(AmbientBody* const* bodies, const FrameOffset* poses, int coun
   for (int i = 0; i < count; ++i) {
     AmbientBody& ambient = *bodies[i];
     ambient.floating->plane_W = movedPlane(ambient, duration);
-    const Arrival arrival{poses[i].rotation,
-                          poses[i].translation - wayOfWater(ambient, duration), duration};
+    const Arrival arrival{poses[i].rotation, poses[i].translation - wayOfWater(ambient, duration),
+                          duration};
     twists[i] = passedFrom(*departures[i], ambient, axes, arrival, twists[i].twist);
   }
 }

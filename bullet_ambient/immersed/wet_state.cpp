@@ -215,8 +215,8 @@ std::vector<HoldWater> holdsOf(const AmbientBody& ambient, const MotionView& now
     up = -now.gravity.normalized();
   }
   for (std::size_t i = 0; i < ambient.vessel->holds.size(); ++i) {
-    HoldWater& water = all.emplace_back(
-        waterIn(*ambient.vessel, i, {R.transpose() * up, 0, 0, gravity}, R));
+    HoldWater& water =
+        all.emplace_back(waterIn(*ambient.vessel, i, {R.transpose() * up, 0, 0, gravity}, R));
     const HoldState& state = ambient.vessel->holds[i];
     water.has_trapped_air = state.is_sealed;
     water.air_pressure = state.is_sealed && water.capacity > state.volume

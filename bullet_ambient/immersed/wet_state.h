@@ -38,7 +38,7 @@ struct HoldWater {
   double air_pressure = 0;       ///< of its air [Pa]
   Vector3 centre{0, 0, 0};       ///< of the water in W [m]; of an empty hold, that of the hold
   Vector3 level{0, 0, 0};        ///< a point of its surface in W [m]
-  Vector3 normal{0, 0, 1};  ///< of its surface in W as it sloshes, out of the water; unit
+  Vector3 normal{0, 0, 1};       ///< of its surface in W as it sloshes, out of the water; unit
 };
 
 /// Computes the water in the holds at the present pose.

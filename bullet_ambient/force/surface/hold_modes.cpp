@@ -72,8 +72,7 @@ HoldModes modesOf(const HoldShape& shape, const HoldFill& fill,
   const Level level(water.waterplane, normal);
   // Where the hold narrows above the water, it turns as the full one.
   const double open = depth / mean;
-  found.turning =
-      open * volume * turningBelow(level, normal, depth) + (1 - open) * found.turning;
+  found.turning = open * volume * turningBelow(level, normal, depth) + (1 - open) * found.turning;
   const double size = portable::cbrt(volume + area * std::sqrt(area));
   for (int i = 0; i < 2; ++i) {
     constexpr double kSliver = 1e-6;

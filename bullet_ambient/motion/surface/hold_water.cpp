@@ -100,8 +100,8 @@ void mixSloshing(const HoldState* states, const HoldModes* before, const Sloshin
     Sloshing joined;
     joinVessel({after.fluid_frame, after.density, after.modes + i, 1, after.to_world}, x, &joined);
     sloshing[i].way_W *= kept;
-    sloshing[i].velocity_W = kept * sloshing[i].velocity_W +
-                             (1 - kept) * (1 - from_sea) * joined.velocity_W;
+    sloshing[i].velocity_W =
+        kept * sloshing[i].velocity_W + (1 - kept) * (1 - from_sea) * joined.velocity_W;
     sloshing[i].is_known = true;
   }
 }

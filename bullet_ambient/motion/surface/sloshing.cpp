@@ -99,23 +99,23 @@ Vector6 exchangeSloshing(const SloshingAt& at, const Matrix6& inverse, double da
   AMBIENT_ASSERT(duration >= 0 && damping >= 0);
   Vector6 end = x;
   const double half = duration / 2;
-  forEachPendulum(at, states,
-                  [&](const Pendulum& pendulum, const SloshMode& mode, Sloshing& state) {
-                    const Vector6& N = pendulum.motion;
-                    const double q = pendulum.axis_W.dot(state.way_W);
-                    const double u = pendulum.axis_W.dot(state.velocity_W);
-                    const double loss = 2 * dampingRatio(damping, q, mode.farthest) *
-                                        pendulum.mass * std::sqrt(mode.square);
-                    const double stiffness = pendulum.stiffness;
-                    const Vector6 answer = inverse * N;
-                    const double per_mass = 1 / pendulum.mass + N.dot(answer);
-                    const double rate = (u - N.dot(end) - half * per_mass * stiffness * q) /
-                                        (1 + half * per_mass * (loss + half * stiffness));
-                    const double force = stiffness * (q + half * rate) + loss * rate;
-                    state.way_W += duration * rate * pendulum.axis_W;
-                    state.velocity_W -= duration * force / pendulum.mass * pendulum.axis_W;
-                    end += duration * force * answer;
-                  });
+  forEachPendulum(
+      at, states, [&](const Pendulum& pendulum, const SloshMode& mode, Sloshing& state) {
+        const Vector6& N = pendulum.motion;
+        const double q = pendulum.axis_W.dot(state.way_W);
+        const double u = pendulum.axis_W.dot(state.velocity_W);
+        const double loss =
+            2 * dampingRatio(damping, q, mode.farthest) * pendulum.mass * std::sqrt(mode.square);
+        const double stiffness = pendulum.stiffness;
+        const Vector6 answer = inverse * N;
+        const double per_mass = 1 / pendulum.mass + N.dot(answer);
+        const double rate = (u - N.dot(end) - half * per_mass * stiffness * q) /
+                            (1 + half * per_mass * (loss + half * stiffness));
+        const double force = stiffness * (q + half * rate) + loss * rate;
+        state.way_W += duration * rate * pendulum.axis_W;
+        state.velocity_W -= duration * force / pendulum.mass * pendulum.axis_W;
+        end += duration * force * answer;
+      });
   return end;
 }
 

@@ -24,22 +24,22 @@ struct Progress {
   RigidState start;
   Vector3 wind_W;
   FlightCount count;
-  int most = 0;                       ///< largest number of substeps
-  int substeps = 0;                   ///< number of substeps of this attempt
-  int made = 0;                       ///< number of them that are made
-  bool is_done = false;               ///< an attempt was accepted
-  bool has_load = false;              ///< flight.load_W holds a load
-  Growth growth;                      ///< of the resistance with it
-  bool has_gained = false;            ///< more energy of place than it had in all
-  double rounding = 0;                ///< energy at the start less that at the stand [J]
-  double swing = 0;                   ///< the largest natural frequency that was met [1/s]
-  double energy = 0;                  ///< at the start of the step [J]
-  double energy_removed = 0;          ///< by the bound of the energy [J]
-  double error = 0;                   ///< the largest of the substeps, eq. (25) and (68b)
-  SurfacePlace later;                 ///< where a substep has come to
-  WaterInside inside;                 ///< there
-  WaterLeft left;                     ///< water in the holds where a substep begins
-  SurfacePlace* place = nullptr;      ///< that of now: that of the stand at the start, or `later`
+  int most = 0;                   ///< largest number of substeps
+  int substeps = 0;               ///< number of substeps of this attempt
+  int made = 0;                   ///< number of them that are made
+  bool is_done = false;           ///< an attempt was accepted
+  bool has_load = false;          ///< flight.load_W holds a load
+  Growth growth;                  ///< of the resistance with it
+  bool has_gained = false;        ///< more energy of place than it had in all
+  double rounding = 0;            ///< energy at the start less that at the stand [J]
+  double swing = 0;               ///< the largest natural frequency that was met [1/s]
+  double energy = 0;              ///< at the start of the step [J]
+  double energy_removed = 0;      ///< by the bound of the energy [J]
+  double error = 0;               ///< the largest of the substeps, eq. (25) and (68b)
+  SurfacePlace later;             ///< where a substep has come to
+  WaterInside inside;             ///< there
+  WaterLeft left;                 ///< water in the holds where a substep begins
+  SurfacePlace* place = nullptr;  ///< that of now: that of the stand at the start, or `later`
 
   const SurfaceModel& model() const { return flight->task.model; }
   /// True: there is water in the holds.
@@ -157,8 +157,7 @@ class SurfaceFlights {
   /// The water in the holds of a body that has some, where it is now.
   WaterAt waterAt(int i) const {
     const Progress& p = progress_[i];
-    return {p.model(), *p.place,
-            orientationOf(lanes_.flight.orientation, i).toRotationMatrix(),
+    return {p.model(), *p.place, orientationOf(lanes_.flight.orientation, i).toRotationMatrix(),
             vectorOf(lanes_.flight.way_W, i)};
   }
 
@@ -167,7 +166,8 @@ class SurfaceFlights {
     kernel_.measure(lanes_);
     for (int i = 0; i < count_; ++i)
       if (isActive(i) && progress_[i].hasWater())
-        lanes_.potential[i] += energyOfSloshing(waterAt(i).sloshing(), progress_[i].sloshing()).sum();
+        lanes_.potential[i] +=
+            energyOfSloshing(waterAt(i).sloshing(), progress_[i].sloshing()).sum();
   }
 
   /// Lets the water in the holds slosh for half of a kick.
@@ -297,8 +297,8 @@ class SurfaceFlights {
     const Immersion before = p.place->immersion_F;
     if (p.hasWater()) {
       const VesselWater& water = p.flight->task.water;
-      p.later = placeAt(p.model(), plane_B,
-                        {water.states, &p.inside, water.sloshing->later.data()});
+      p.later =
+          placeAt(p.model(), plane_B, {water.states, &p.inside, water.sloshing->later.data()});
       p.place = &p.later;
       moveWater(i);
     } else {
