@@ -34,7 +34,7 @@ struct BargeWater {
   SloshingAt at(const Matrix3& to_world = Matrix3::Identity()) const {
     return {frame, 1000, &modes, 1, to_world};
   }
-  const SloshMode& across() const { return modes.modes[modes.modes[0].axis.y() == 0 ? 1 : 0]; }
+  const SloshMode& across() const { return modes.modes[std::abs(modes.modes[0].axis.y()) > 0.7 ? 0 : 1]; }
 
   FrameOffset frame;
   Hold hold;
@@ -194,7 +194,7 @@ TEST(Sloshing, RollOfABargeIsThatOfTheLinearSystem) {
   }
 }
 
-// Nothing takes energy from a barge that rocks without waves and friction.
+// Nothing takes energy from a barge that rocks a little, without waves outside and friction.
 TEST(Sloshing, RockingBargeKeepsItsEnergy) {
   for (const double hertz : {60.0, 240.0}) {
     FloatingRun run(quietBarge(0.16));
@@ -202,8 +202,8 @@ TEST(Sloshing, RockingBargeKeepsItsEnergy) {
     run.sloshing_damping = 0;
     setAfloat(run, 0.16, 0);
     const double low = run.energy();
-    run.state.orientation = rotationFromVector(Vector3(0.1, 0.03, 0));
-    run.state.twist = {{0, 0.1, 0}, {0, 0.1, 0.05}};
+    run.state.orientation = rotationFromVector(Vector3(0.01, 0.003, 0));
+    run.state.twist = {{0, 0.01, 0}, {0, 0.01, 0.005}};
     const double first = run.energy() - low;
     run.run(20, 1 / hertz);
     EXPECT_GT(run.energy() - low, 0.9 * first) << hertz;
