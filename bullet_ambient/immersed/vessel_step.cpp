@@ -70,6 +70,28 @@ void findRimWaves(AmbientBody& ambient, const MotionView& now,
                  });
 }
 
+bool isInHold(const AmbientBody& ambient, const FluidRegions::Entry& entry) noexcept {
+  const HoldAround& around = ambient.around;
+  return around.vessel && entry.region.surface && around.region == entry.id;
+}
+
+void takeHold(const AmbientBody& ambient, const MotionView& now, RegionSample& sample) noexcept {
+  constexpr double kFar = 100;  // sizes of vessel and body
+  const HoldAround& around = ambient.around;
+  const Vector3 place = now.centre();
+  const double rise = -around.normal_W.dot(now.gravity) / now.gravity.norm();
+  sample.height = !around.is_dry && rise > 0
+                      ? (around.height - around.normal_W.dot(place)) / rise
+                      : -kFar * (around.size + ambient.metric().reference_length);
+  const Vector3 velocity =
+      around.vessel_W.linear + around.vessel_W.angular.cross(place - around.centre_W);
+  for (Medium* medium : {&sample.below, &sample.above}) {
+    medium->velocity = velocity;
+    medium->acceleration.setZero();
+  }
+  sample.tilt.setZero();
+}
+
 void saySunk(AmbientBody& ambient, Complaints& complaints) noexcept {
   constexpr double kFull = 1 - 1e-9;  // of a hold
   VesselState& vessel = *ambient.vessel;

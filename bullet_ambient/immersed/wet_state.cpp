@@ -10,6 +10,7 @@
 #include "bullet_ambient/immersed/fluid_regions.h"
 #include "bullet_ambient/immersed/pool_rim.h"
 #include "bullet_ambient/immersed/station_samples.h"
+#include "bullet_ambient/immersed/vessel_step.h"
 
 namespace ambient {
 namespace {
@@ -120,13 +121,16 @@ WetState inRegion(const AmbientBody& ambient, const MotionView& now, const Regio
   if (!entry.region.surface)
     return wholly(ambient, now.state, isWetIn(entry.region.below, ambient));
   const Vector3 position = pointIn(entry.region, now.centre());
+  const bool is_in_hold = isInHold(ambient, entry);
   const PoolSides sides =
-      around.is_alone ? PoolSides{} : findSides(ambient, now, regions, entry, 0);
+      is_in_hold || around.is_alone ? PoolSides{} : findSides(ambient, now, regions, entry, 0);
   RegionCall call(regions);
   RegionSample sample = sampleRegion(entry.region, position, regions.time, ambient.def->medium);
   const int media = ambient.models->findSurface(SurfaceKind(entry.region));
   const Vector3& gravity = now.gravity;
-  if (needsStations(ambient, around)) {
+  if (is_in_hold) {
+    takeHold(ambient, now, sample);
+  } else if (needsStations(ambient, around)) {
     const StationSamples stations(ambient, now, regions, around, sample);
     stations.addMeans(&RegionSample::below, sample);
     stations.fitSurface(gravity, sample);

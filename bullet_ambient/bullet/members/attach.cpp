@@ -92,6 +92,7 @@ void checkDef(const std::string& who, const AttachDef& def) {
 void refresh(AmbientBody& ambient, const InverseMass& mass, const MotionView& now,
              AmbientBodies& bodies) {
   refreshModels(ambient, mass, bodies.regions, bodies.load_tables);
+  bodies.has_vessels = bodies.has_vessels || ambient.vessel;
   if (mayBeInRegion(ambient, bodies.regions)) {
     followRegions(ambient, now, bodies.regions, 0, bodies.complaints);
   } else {

@@ -14,7 +14,25 @@ constexpr double kNoGuess = std::numeric_limits<double>::quiet_NaN();
 constexpr double kRounding = 1e-12;  // of a hold, that of fillHold()
 
 HoldFill levelIn(const HoldShape& shape, const HoldState& state, const SurfacePlane& plane_F) {
-  return fillHold(shape, plane_F.normal, state.volume, kNoGuess);
+  return fillHold(shape, plane_F.normal, state.filled(), kNoGuess);
+}
+
+/// Returns the modes of the water alone, in a hold where other bodies float, too.
+HoldModes modesOfWater(const HoldState& state, HoldModes modes) {
+  if (!(state.displaced > 0)) return modes;
+  const double share = state.volume / state.filled();
+  modes.turning *= share;
+  for (SloshMode& mode : modes.modes) mode.volume *= share;
+  return modes;
+}
+
+/// Returns the inertia of the water alone. `below`: the level, with what floats there.
+Matrix6 inertiaOfWater(const HoldState& state, WetVolume below, const HoldModes& modes) {
+  if (state.displaced > 0) {
+    below.moment *= state.volume / below.volume;
+    below.volume = state.volume;
+  }
+  return carriedInertia(below, modes);
 }
 
 }  // namespace
@@ -50,11 +68,11 @@ WaterInside waterInside(const HoldShapes& holds, const HoldState* states,
     if (modes) modes[i].modes[0].volume = modes[i].modes[1].volume = 0;
     if (!(states[i].volume > 0)) continue;
     const HoldFill fill = levelIn(holds.shapes[i], states[i], plane_F);
-    const HoldModes found = modesOf(holds.shapes[i], fill, plane_F);
+    const HoldModes found = modesOfWater(states[i], modesOf(holds.shapes[i], fill, plane_F));
     if (modes) modes[i] = found;
     all.below = withWaterInside(all.below, plane_F, fill);
     all.spread += fill.water.waterplane.spread;
-    inertia += carriedInertia(fill.water, found);
+    inertia += inertiaOfWater(states[i], fill.water, found);
     all.is_any = true;
   }
   if (all.is_any) all.inertia = SymmetricMatrix(inertia);
@@ -107,7 +125,8 @@ void mixSloshing(const HoldState* states, const HoldModes* before, const Sloshin
 }
 
 double levelOf(const HoldShape& shape, const Vector3& normal, HoldState& state) noexcept {
-  if (std::isnan(state.level)) state.level = fillHold(shape, normal, state.volume, kNoGuess).height;
+  if (std::isnan(state.level))
+    state.level = fillHold(shape, normal, state.filled(), kNoGuess).height;
   return state.level;
 }
 

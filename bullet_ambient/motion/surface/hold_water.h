@@ -62,6 +62,7 @@ void forEachOpening(const HoldShapes& holds, const OpeningChanges* changes,
 /// Water in one hold of a body, from step to step.
 struct HoldState {
   double volume = 0;                ///< [m^3]
+  double displaced = 0;             ///< by other bodies in it [m^3]
   double change = 0;                ///< of the volume in the last step [m^3]
   double inflow = 0;                ///< the part of it from outside; negative: out [m^3]
   double pump = 0;                  ///< from outside by a pump; negative: out [m^3/s]
@@ -72,6 +73,9 @@ struct HoldState {
   /// number of the first hold with the same sealed air, -1: that outside.
   double level = std::numeric_limits<double>::quiet_NaN();
   int air_group = -1;
+
+  /// Volume below its level: of water and of what floats in it [m^3].
+  double filled() const { return volume + displaced; }
 };
 
 /// Air around the holds and a duration in which water flows.
