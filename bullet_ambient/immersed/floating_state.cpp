@@ -287,6 +287,19 @@ void exchangeWater(AmbientBody& ambient, const MotionView& now, double duration)
   if (!isNearlyLevel(ambient)) ambient.may_rest = false;
 }
 
+double sloshingEnergyNow(const AmbientBody& ambient, const MotionView& now) {
+  if (!ambient.vessel || !ambient.surface()) return 0;
+  std::vector<Sloshing> states = ambient.vessel->sloshing.now;
+  std::vector<HoldModes> modes(states.size());
+  WaterInside inside;
+  const SurfacePlace place = placeAt(*ambient.surface(), planeAt(ambient, now.state),
+                                     {waterOf(ambient), &inside, modes.data()});
+  if (!place.inside_F) return 0;
+  const WaterAt at{*ambient.surface(), place, now.rotation(), now.centre()};
+  joinVessel(at.sloshing(), twistInWater(ambient, now.state), states.data());
+  return energyOfSloshing(at.sloshing(), states.data()).kinetic;
+}
+
 StepModel::StepModel(const AmbientBody& ambient, double duration) noexcept {
   if (ambient.surface()) {
     freeze(ambient);

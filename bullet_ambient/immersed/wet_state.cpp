@@ -188,7 +188,7 @@ HoldWater waterIn(const VesselState& vessel, std::size_t i, const SurfacePlane& 
   const HoldState& state = vessel.holds[i];
   const HoldShape shape(hold);
   const HoldFill fill =
-      fillHold(shape, up_F, state.volume, std::numeric_limits<double>::quiet_NaN());
+      fillHold(shape, up_F, state.filled(), std::numeric_limits<double>::quiet_NaN());
   const WetVolume& wet = fill.water;
   HoldWater water{state.volume,  hold.volume,   state.inflow,
                   state.flooded, state.drained, wet.waterplane.area};

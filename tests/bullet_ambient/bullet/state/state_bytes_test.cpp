@@ -242,7 +242,7 @@ void fill(Numbers& n, AmbientState& s) {
     def.follow_regions, def.wave_damping, def.flow.separation_angle, def.flow.skin_friction,
     def.flow.stall_lag, def.flow.maximum_load_error, def.flight.tolerance, def.flight.max_substeps,
     def.fluid_frame.rotation, def.fluid_frame.translation, def.holds.are_open,
-    def.holds.atmosphere);
+    def.holds.atmosphere, def.holds.sloshing_damping);
   n(s.medium.density, s.medium.viscosity, s.medium.velocity, s.medium.acceleration, s.place.region,
     s.place.is_above, s.place.is_at_surface, s.flow.until, s.flow.position, s.flow.velocity,
     s.flow.change, s.flow.parts, s.flow.region, s.flow.is_above);
