@@ -151,20 +151,6 @@ struct VesselState {
   Vector6 change_B = Vector6::Zero();
 };
 
-/// Water in a hold of another body that a body is in, at the start of a step.
-struct HoldAround {
-  const void* vessel = nullptr;  ///< which it is; null: the body is in no hold
-  std::size_t hold = 0;
-  RegionId region = RegionId::kNone;  ///< where the vessel is
-  double size = 0;                    ///< of the vessel [m]
-  bool is_dry = true;                 ///< without water
-  bool is_awake = false;              ///< the vessel is
-  Vector3 normal_W{0, 0, 1};          ///< of the level; unit
-  double height = 0;                  ///< of the level along it [m]
-  Twist vessel_W;                     ///< motion of the vessel, about its centre of mass
-  Vector3 centre_W{0, 0, 0};          ///< that centre [m]
-};
-
 /// Everything that the library keeps of one body or link in a fluid. Members lie in the order in
 /// which a step uses them, so that a flight touches few lines of the cache; those that few steps or
 /// few bodies use are last, or behind a pointer.
@@ -180,8 +166,9 @@ struct AmbientBody {
   bool may_rest = true;         ///< true: nothing around the body changes with time
   bool has_own_models = false;  ///< true: `models` are of this body alone, as its mass has changed;
                                 ///< false: equal bodies share them
-  SubstepOutcome outcome;       ///< in most steps the action needs only what precedes
-                                ///< LastFlight::memory
+  int in_hold = -1;  ///< index into FluidRegions::in_holds; -1: the body is in no hold of another
+  SubstepOutcome outcome;  ///< in most steps the action needs only what precedes
+                           ///< LastFlight::memory
   StepErrors step_errors;
   std::shared_ptr<const FluidModels> models;
   std::shared_ptr<const AttachDef> def;  ///< equal bodies without a name share it
@@ -198,7 +185,6 @@ struct AmbientBody {
   std::unique_ptr<FlowAlongBody> flow_along;
   std::unique_ptr<VesselState> vessel;  ///< null: the body has no holds
   int slot = -1;                        ///< in MemberSlots; -1: not yet there
-  HoldAround around;
   int gaping =
       0;  ///< number of steps in a row in which a joint of the body was open by much of its size
 

@@ -248,19 +248,19 @@ void followRegions(AmbientBody& ambient, const MotionView& now, const FluidRegio
   const FlowStep step{regions, entry, duration, &now};
   if (!entry) return enterOwnMedium(ambient, step, around, complaints);
   RegionSample sample = sampleFor(ambient, now, *entry, regions, complaints);
-  const bool is_in_hold = isInHold(ambient, *entry);
+  const HoldAround* const hold = holdAround(ambient, regions, *entry);
   const auto stations =
-      is_in_hold ? std::nullopt : sampleStations(ambient, now, regions, around, sample, complaints);
-  if (is_in_hold) {
-    takeHold(ambient, now, sample);
+      hold ? std::nullopt : sampleStations(ambient, now, regions, around, sample, complaints);
+  if (hold) {
+    takeHold(*hold, ambient, now, sample);
     ambient.flow = {};
-    ambient.may_rest = ambient.may_rest && (ambient.around.is_dry || !ambient.around.is_awake);
+    ambient.may_rest = ambient.may_rest && (hold->is_dry || !hold->is_awake);
   } else {
     followFlow(ambient, step, sample);
   }
   if (entry->region.surface)
     checkUp(entry->id, entry->region.surface->up(), now.gravity, complaints);
-  const SurfaceSide side = findSide(ambient, step, is_in_hold || around.is_alone, stations, sample);
+  const SurfaceSide side = findSide(ambient, step, hold || around.is_alone, stations, sample);
   const bool is_above = side == SurfaceSide::kAbove;
   changeSide(ambient.flow, is_above, is_above ? sample.bare_above : sample.bare_below);
   [[maybe_unused]] const bool is_known =

@@ -70,14 +70,16 @@ void findRimWaves(AmbientBody& ambient, const MotionView& now,
                  });
 }
 
-bool isInHold(const AmbientBody& ambient, const FluidRegions::Entry& entry) noexcept {
-  const HoldAround& around = ambient.around;
-  return around.vessel && entry.region.surface && around.region == entry.id;
+const HoldAround* holdAround(const AmbientBody& ambient, const FluidRegions& regions,
+                             const FluidRegions::Entry& entry) noexcept {
+  if (ambient.in_hold < 0 || !entry.region.surface) return nullptr;
+  const HoldAround& around = regions.in_holds[static_cast<std::size_t>(ambient.in_hold)];
+  return around.region == entry.id ? &around : nullptr;
 }
 
-void takeHold(const AmbientBody& ambient, const MotionView& now, RegionSample& sample) noexcept {
+void takeHold(const HoldAround& around, const AmbientBody& ambient, const MotionView& now,
+              RegionSample& sample) noexcept {
   constexpr double kFar = 100;  // sizes of vessel and body
-  const HoldAround& around = ambient.around;
   const Vector3 place = now.centre();
   const double rise = -around.normal_W.dot(now.gravity) / now.gravity.norm();
   sample.height = !around.is_dry && rise > 0

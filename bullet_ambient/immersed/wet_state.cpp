@@ -121,15 +121,15 @@ WetState inRegion(const AmbientBody& ambient, const MotionView& now, const Regio
   if (!entry.region.surface)
     return wholly(ambient, now.state, isWetIn(entry.region.below, ambient));
   const Vector3 position = pointIn(entry.region, now.centre());
-  const bool is_in_hold = isInHold(ambient, entry);
+  const HoldAround* const hold = holdAround(ambient, regions, entry);
   const PoolSides sides =
-      is_in_hold || around.is_alone ? PoolSides{} : findSides(ambient, now, regions, entry, 0);
+      hold || around.is_alone ? PoolSides{} : findSides(ambient, now, regions, entry, 0);
   RegionCall call(regions);
   RegionSample sample = sampleRegion(entry.region, position, regions.time, ambient.def->medium);
   const int media = ambient.models->findSurface(SurfaceKind(entry.region));
   const Vector3& gravity = now.gravity;
-  if (is_in_hold) {
-    takeHold(ambient, now, sample);
+  if (hold) {
+    takeHold(*hold, ambient, now, sample);
   } else if (needsStations(ambient, around)) {
     const StationSamples stations(ambient, now, regions, around, sample);
     stations.addMeans(&RegionSample::below, sample);

@@ -70,19 +70,29 @@ bool isOfTheSea(const Vessel& vessel, std::size_t hold) {
          computeExtent(shape.hull(), vessel.plane_F.normal).second < vessel.plane_F.height;
 }
 
+/// Returns the hold around a body; null: none.
+HoldAround* holdOf(const AmbientBody& body, FluidRegions& regions) {
+  if (body.in_hold < 0) return nullptr;
+  return &regions.in_holds[static_cast<std::size_t>(body.in_hold)];
+}
+
 /// Puts a body into the hold of a vessel that has its centre, unless it is in a smaller one.
-void enterHold(const Vessel& vessel, AmbientBody& body) {
+void enterHold(const Vessel& vessel, AmbientBody& body, FluidRegions& regions) {
   const SurfaceModel& model = *vessel.ambient.surface();
   const Vector3 way = centreOf(body) - vessel.now.centre();
   const double size = vessel.ambient.metric().reference_length;
   if (!(way.squaredNorm() < model.radius * model.radius)) return;
-  HoldAround& around = body.around;
-  if (around.vessel && !(size < around.size)) return;
+  const HoldAround* const known = holdOf(body, regions);
+  if (known && !(size < known->size)) return;
   const Vector3 place_F = vessel.R_WF.transpose() * (centreOf(body) - vessel.origin_W);
   const std::vector<Hold>& holds = vessel.ambient.vessel->shape->holds;
   for (std::size_t i = 0; i < holds.size(); ++i) {
     if (isOfTheSea(vessel, i) || !isInside(holds[i].surface, place_F)) continue;
-    around = {};
+    if (!known) {
+      body.in_hold = static_cast<int>(regions.in_holds.size());
+      regions.in_holds.emplace_back();
+    }
+    HoldAround& around = *holdOf(body, regions);
     around.vessel = &vessel.ambient;
     around.hold = i;
     around.region = vessel.ambient.place.region;
@@ -95,12 +105,13 @@ void enterHold(const Vessel& vessel, AmbientBody& body) {
   }
 }
 
-/// Calls visit(AmbientBody&) for the bodies in a hold.
+/// Calls visit(AmbientBody&, HoldAround&) for the bodies in a hold.
 template <class Visit>
-void forEachInHold(const btCollisionWorld& world, const AmbientBodies& bodies, const Vessel& vessel,
+void forEachInHold(const btCollisionWorld& world, AmbientBodies& bodies, const Vessel& vessel,
                    std::size_t hold, const Visit& visit) {
   forEachBody(world, bodies, [&](AmbientBody& body) {
-    if (body.around.vessel == &vessel.ambient && body.around.hold == hold) visit(body);
+    HoldAround* const around = holdOf(body, bodies.regions);
+    if (around && around->vessel == &vessel.ambient && around->hold == hold) visit(body, *around);
   });
 }
 
@@ -120,7 +131,7 @@ Waterplane displacedBy(const AmbientBody& body, const Vessel& vessel, double hei
 
 /// Finds the level in a hold with what floats there: V_hold(h) - sum of V_body(h) is the volume of
 /// its water, docs/theory.md eq. (155). Newton's method between brackets.
-void findLevel(const btCollisionWorld& world, const AmbientBodies& bodies, const Vessel& vessel,
+void findLevel(const btCollisionWorld& world, AmbientBodies& bodies, const Vessel& vessel,
                std::size_t hold) {
   constexpr double kEmpty = 1e-12, kAccuracy = 1e-12;  // of the hold
   constexpr int kMostSteps = 60;
@@ -128,7 +139,7 @@ void findLevel(const btCollisionWorld& world, const AmbientBodies& bodies, const
   const HoldShape& shape = vessel.ambient.surface()->holds->shapes[hold];
   const Vector3& normal_F = vessel.plane_F.normal;
   bool is_any = false;
-  forEachInHold(world, bodies, vessel, hold, [&](AmbientBody&) { is_any = true; });
+  forEachInHold(world, bodies, vessel, hold, [&](AmbientBody&, HoldAround&) { is_any = true; });
   if (!is_any && state.displaced == 0) return;
   double displaced = 0, height = 0;
   const bool is_dry = !(state.volume > kEmpty * shape.capacity());
@@ -141,7 +152,7 @@ void findLevel(const btCollisionWorld& world, const AmbientBodies& bodies, const
       const WetVolume full = computeWetVolume(shape.hull(), {normal_F, height, 0, 0});
       double area = full.waterplane.area;
       displaced = 0;
-      forEachInHold(world, bodies, vessel, hold, [&](AmbientBody& body) {
+      forEachInHold(world, bodies, vessel, hold, [&](AmbientBody& body, HoldAround&) {
         area -= displacedBy(body, vessel, height, displaced).area;
       });
       const double error = full.volume - displaced - state.volume;
@@ -155,17 +166,23 @@ void findLevel(const btCollisionWorld& world, const AmbientBodies& bodies, const
   if (displaced != state.displaced) vessel.ambient.floating->is_valid = false;
   state.displaced = displaced;
   const double height_W = height + vessel.ambient.floating->plane_W.normal.dot(vessel.origin_W);
-  forEachInHold(world, bodies, vessel, hold, [&](AmbientBody& body) {
-    body.around.is_dry = is_dry;
-    body.around.height = height_W;
-    if (!is_dry && body.around.is_awake && !body.body->isActive()) body.body->activate();
+  forEachInHold(world, bodies, vessel, hold, [&](AmbientBody& body, HoldAround& around) {
+    around.is_dry = is_dry;
+    around.height = height_W;
+    if (!is_dry && around.is_awake && !body.body->isActive()) body.body->activate();
   });
 }
 
 }  // namespace
 
 void findBodiesInHolds(btCollisionWorld& world, AmbientBodies& bodies) noexcept {
-  forEachBody(world, bodies, [](AmbientBody& body) { body.around = {}; });
+  std::size_t count = 0;
+  forEachBody(world, bodies, [&](AmbientBody& body) {
+    body.in_hold = -1;
+    ++count;
+  });
+  bodies.regions.in_holds.clear();
+  bodies.regions.in_holds.reserve(count);
   const auto forEachVessel = [&](const auto& visit) {
     forEachBody(world, bodies, [&](AmbientBody& body) {
       if (body.vessel && body.surface()) visit(Vessel(body));
@@ -173,7 +190,7 @@ void findBodiesInHolds(btCollisionWorld& world, AmbientBodies& bodies) noexcept 
   };
   forEachVessel([&](const Vessel& vessel) {
     forEachBody(world, bodies, [&](AmbientBody& body) {
-      if (&body != &vessel.ambient) enterHold(vessel, body);
+      if (&body != &vessel.ambient) enterHold(vessel, body, bodies.regions);
     });
   });
   forEachVessel([&](const Vessel& vessel) {
