@@ -71,7 +71,7 @@ bool isOfTheSea(const Vessel& vessel, std::size_t hold) {
 }
 
 /// Returns the hold around a body; null: none.
-HoldAround* holdOf(const AmbientBody& body, FluidRegions& regions) {
+HoldAround* aroundOf(const AmbientBody& body, FluidRegions& regions) {
   if (body.in_hold < 0) return nullptr;
   return &regions.in_holds[static_cast<std::size_t>(body.in_hold)];
 }
@@ -82,7 +82,7 @@ void enterHold(const Vessel& vessel, AmbientBody& body, FluidRegions& regions) {
   const Vector3 way = centreOf(body) - vessel.now.centre();
   const double size = vessel.ambient.metric().reference_length;
   if (!(way.squaredNorm() < model.radius * model.radius)) return;
-  const HoldAround* const known = holdOf(body, regions);
+  const HoldAround* const known = aroundOf(body, regions);
   if (known && !(size < known->size)) return;
   const Vector3 place_F = vessel.R_WF.transpose() * (centreOf(body) - vessel.origin_W);
   const std::vector<Hold>& holds = vessel.ambient.vessel->shape->holds;
@@ -92,7 +92,7 @@ void enterHold(const Vessel& vessel, AmbientBody& body, FluidRegions& regions) {
       body.in_hold = static_cast<int>(regions.in_holds.size());
       regions.in_holds.emplace_back();
     }
-    HoldAround& around = *holdOf(body, regions);
+    HoldAround& around = *aroundOf(body, regions);
     around.vessel = &vessel.ambient;
     around.hold = i;
     around.region = vessel.ambient.place.region;
@@ -110,7 +110,7 @@ template <class Visit>
 void forEachInHold(const btCollisionWorld& world, AmbientBodies& bodies, const Vessel& vessel,
                    std::size_t hold, const Visit& visit) {
   forEachBody(world, bodies, [&](AmbientBody& body) {
-    HoldAround* const around = holdOf(body, bodies.regions);
+    HoldAround* const around = aroundOf(body, bodies.regions);
     if (around && around->vessel == &vessel.ambient && around->hold == hold) visit(body, *around);
   });
 }
@@ -177,7 +177,7 @@ void findLevel(const btCollisionWorld& world, AmbientBodies& bodies, const Vesse
 
 void findBodiesInHolds(btCollisionWorld& world, AmbientBodies& bodies) noexcept {
   std::size_t count = 0;
-  forEachBody(world, bodies, [&](AmbientBody& body) {
+  bodies.forEach([&](AmbientBody& body) {
     body.in_hold = -1;
     ++count;
   });
