@@ -58,7 +58,9 @@ TEST(VesselSloshing, WaterOfABargeThatStopsGoesOn) {
     ASSERT_GE(crossings, 4);
     EXPECT_NEAR(kPi * (crossings - 1) / (last_time - first_time), exactRate(), 0.01 * exactRate())
         << hertz;
-    EXPECT_NEAR(highest, kSpeed * exactRate() / kGravity, 0.1 * kSpeed * exactRate() / kGravity);
+    // The joint's rows damp it, in proportion to the step.
+    const double exact = kSpeed * exactRate() / kGravity;
+    EXPECT_NEAR(highest, exact, 8 / hertz * exact);
   }
 }
 
@@ -101,12 +103,12 @@ TEST(VesselSloshing, StateGoesOnBitForBit) {
 // It sleeps once its water is still.
 TEST(VesselSloshing, BargeSleepsOnceItsWaterIsStill) {
   Sea sea;
-  btRigidBody& body = addAfloat(sea, {{0, 0, 0}, {0.05, 0, 0}});
+  btRigidBody& body = addAfloat(sea, {{0, 0.1, 0}, {0, 0, 0}});
   body.forceActivationState(ACTIVE_TAG);
   sea.scene.step(1 / 60.0, 60);
   EXPECT_TRUE(body.isActive());
   double energy = 0;
-  for (int i = 0; i < 60 * 400 && body.isActive(); ++i) {
+  for (int i = 0; i < 60 * 120 && body.isActive(); ++i) {
     energy = Sea::Water(sea, body).energy().sum();
     sea.scene.step(1 / 60.0);
   }
