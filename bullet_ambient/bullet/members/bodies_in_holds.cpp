@@ -31,14 +31,13 @@ bool isInside(const Surface& surface, const Vector3& point) {
   return std::abs(angle) > 2 * kPi;
 }
 
-/// Calls visit(AmbientBody&) for the bodies of a world that are in a fluid and move.
+/// Calls visit(AmbientBody&) for the members among the bodies of a world that move.
 template <class Visit>
 void forEachBody(const btCollisionWorld& world, const AmbientBodies& bodies, const Visit& visit) {
   const btCollisionObjectArray& objects = world.getCollisionObjectArray();
   for (int i = 0; i < objects.size(); ++i) {
     AmbientBody* const ambient = bodies.find(objects[i]);
-    if (ambient && ambient->isInFluid() && !objects[i]->isStaticOrKinematicObject())
-      visit(*ambient);
+    if (ambient && !objects[i]->isStaticOrKinematicObject()) visit(*ambient);
   }
 }
 
@@ -53,13 +52,16 @@ struct Vessel {
         now(motionOf(*of.body)),
         R_WF(now.rotation() * of.surface()->fluid_frame.rotation),
         origin_W(now.centre() + now.rotation() * of.surface()->fluid_frame.translation),
-        plane_F(seenFrom(of.floating->plane_W, R_WF, origin_W)) {}
+        sea_F(seenFrom(of.floating->plane_W, R_WF, origin_W)),
+        normal_W(-(now.gravity - of.medium.acceleration).normalized()),
+        normal_F(R_WF.transpose() * normal_W) {}
 
   AmbientBody& ambient;
   MotionView now;
   Matrix3 R_WF;
   Vector3 origin_W;
-  SurfacePlane plane_F;  ///< of the water outside
+  SurfacePlane sea_F;          ///< surface of the water outside
+  Vector3 normal_W, normal_F;  ///< of levels, from what a saved state has
 };
 
 /// Whether a hold is full, and the water outside covers it: they are one.
@@ -67,7 +69,7 @@ bool isOfTheSea(const Vessel& vessel, std::size_t hold) {
   constexpr double kFull = 1 - 1e-9;  // of a hold
   const HoldShape& shape = vessel.ambient.surface()->holds->shapes[hold];
   return vessel.ambient.vessel->holds[hold].filled() >= kFull * shape.capacity() &&
-         computeExtent(shape.hull(), vessel.plane_F.normal).second < vessel.plane_F.height;
+         computeExtent(shape.hull(), vessel.sea_F.normal).second < vessel.sea_F.height;
 }
 
 /// Returns the hold around a body; null: none.
@@ -98,7 +100,7 @@ void enterHold(const Vessel& vessel, AmbientBody& body, FluidRegions& regions) {
     around.region = vessel.ambient.place.region;
     around.size = size;
     around.is_awake = vessel.ambient.body->isActive();
-    around.normal_W = vessel.ambient.floating->plane_W.normal;
+    around.normal_W = vessel.normal_W;
     around.vessel_W = vessel.now.twist_W;
     around.centre_W = vessel.now.centre();
     return;
@@ -120,8 +122,8 @@ Waterplane displacedBy(const AmbientBody& body, const Vessel& vessel, double hei
                        double& volume) {
   if (body.models->surfaces.empty()) return {};
   const MotionView now = motionOf(*body.body);
-  const Vector3& normal = vessel.ambient.floating->plane_W.normal;
-  SurfacePlane plane_W{normal, height + normal.dot(vessel.origin_W), 0, 0};
+  const Vector3& normal = vessel.normal_W;
+  const SurfacePlane plane_W{normal, height + normal.dot(vessel.origin_W), 0, 0};
   const WetVolume wet = immersionOf(body.models->surfaces.front().model,
                                     seenFrom(plane_W, now.rotation(), now.centre()))
                             .wet;
@@ -137,7 +139,7 @@ void findLevel(const btCollisionWorld& world, AmbientBodies& bodies, const Vesse
   constexpr int kMostSteps = 60;
   HoldState& state = vessel.ambient.vessel->holds[hold];
   const HoldShape& shape = vessel.ambient.surface()->holds->shapes[hold];
-  const Vector3& normal_F = vessel.plane_F.normal;
+  const Vector3& normal_F = vessel.normal_F;
   bool is_any = false;
   forEachInHold(world, bodies, vessel, hold, [&](AmbientBody&, HoldAround&) { is_any = true; });
   if (!is_any && state.displaced == 0) return;
@@ -165,7 +167,7 @@ void findLevel(const btCollisionWorld& world, AmbientBodies& bodies, const Vesse
   }
   if (displaced != state.displaced) vessel.ambient.floating->is_valid = false;
   state.displaced = displaced;
-  const double height_W = height + vessel.ambient.floating->plane_W.normal.dot(vessel.origin_W);
+  const double height_W = height + vessel.normal_W.dot(vessel.origin_W);
   forEachInHold(world, bodies, vessel, hold, [&](AmbientBody& body, HoldAround& around) {
     around.is_dry = is_dry;
     around.height = height_W;
