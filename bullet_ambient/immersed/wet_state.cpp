@@ -10,6 +10,7 @@
 #include "bullet_ambient/immersed/fluid_regions.h"
 #include "bullet_ambient/immersed/pool_rim.h"
 #include "bullet_ambient/immersed/station_samples.h"
+#include "bullet_ambient/immersed/vessel_step.h"
 
 namespace ambient {
 namespace {
@@ -122,13 +123,16 @@ WetState inRegion(const AmbientBody& ambient, const MotionView& now, const Regio
   if (!entry.region.surface)
     return wholly(ambient, now.state, isWetIn(entry.region.below, ambient));
   const Vector3 position = pointIn(entry.region, now.centre());
+  const HoldAround* const hold = holdAround(ambient, regions, entry);
   const PoolSides sides =
-      around.is_alone ? PoolSides{} : findSides(ambient, now, regions, entry, 0);
+      hold || around.is_alone ? PoolSides{} : findSides(ambient, now, regions, entry, 0);
   RegionCall call(regions);
   RegionSample sample = sampleRegion(entry.region, position, regions.time, ambient.def->medium);
   const int media = ambient.models->findSurface(SurfaceKind(entry.region));
   const Vector3& gravity = now.gravity;
-  if (needsStations(ambient, around)) {
+  if (hold) {
+    takeHold(*hold, ambient, now, sample);
+  } else if (needsStations(ambient, around)) {
     const StationSamples stations(ambient, now, regions, around, sample);
     stations.addMeans(&RegionSample::below, sample);
     stations.fitSurface(gravity, sample);
@@ -167,15 +171,15 @@ double lowestCorner(const VesselState& vessel, std::size_t hold, const Vector3& 
   return lowest;
 }
 
-/// Lines in which a height cuts a closed surface, see HoldWater::outline; in F.
-std::vector<Vector3> cutAt(double height, const Vector3& up_F, const Surface& surface) {
+/// Lines in which a plane cuts a closed surface, see HoldWater::outline; in F.
+std::vector<Vector3> cutAt(const Vector3& point, const Vector3& normal, const Surface& surface) {
   std::vector<Vector3> lines;
   for (std::size_t i = 0; i + 2 < surface.triangles.size(); i += 3) {
     Vector3 corners[3];
     double heights[3];
     for (std::size_t k = 0; k < 3; ++k) {
       corners[k] = cornerOf(surface, surface.triangles[i + k]);
-      heights[k] = up_F.dot(corners[k]) - height;
+      heights[k] = normal.dot(corners[k] - point);
     }
     const auto crossing = [&](bool goes_down) {
       int from = 0;
@@ -192,11 +196,26 @@ std::vector<Vector3> cutAt(double height, const Vector3& up_F, const Surface& su
   return lines;
 }
 
-HoldWater waterIn(const VesselState& vessel, std::size_t i, const Vector3& up_F) {
+/// Returns the normal of the surface as the water sloshes: its slope along a mode is omega^2 q / g.
+Vector3 slopingNormal(const HoldModes& modes, const Sloshing& sloshing, const SurfacePlane& plane_F,
+                      const Matrix3& R_WF) {
+  Vector3 normal = plane_F.normal;
+  if (!(plane_F.gravity > 0)) return normal;
+  for (const SloshMode& mode : modes.modes)
+    normal -= mode.square / plane_F.gravity * mode.axis.dot(R_WF.transpose() * sloshing.way_W) *
+              mode.axis;
+  return normal.normalized();
+}
+
+/// @param plane_F normal of the level, and gravity as the water feels it
+HoldWater waterIn(const VesselState& vessel, std::size_t i, const SurfacePlane& plane_F,
+                  const Matrix3& R_WF) {
+  const Vector3& up_F = plane_F.normal;
   const Hold& hold = vessel.shape->holds[i];
   const HoldState& state = vessel.holds[i];
+  const HoldShape shape(hold);
   const HoldFill fill =
-      fillHold(HoldShape(hold), up_F, state.volume, std::numeric_limits<double>::quiet_NaN());
+      fillHold(shape, up_F, state.filled(), std::numeric_limits<double>::quiet_NaN());
   const WetVolume& wet = fill.water;
   HoldWater water;
   water.volume = state.volume;
@@ -210,7 +229,9 @@ HoldWater waterIn(const VesselState& vessel, std::size_t i, const Vector3& up_F)
   water.level = wet.waterplane.area > 0
                     ? wet.waterplane.centroid
                     : Vector3(hold.centre + (fill.height - up_F.dot(hold.centre)) * up_F);
-  if (wet.waterplane.area > 0) water.outline = cutAt(fill.height, up_F, hold.surface);
+  water.normal =
+      slopingNormal(modesOf(shape, fill, plane_F), vessel.sloshing.now[i], plane_F, R_WF);
+  if (wet.waterplane.area > 0) water.outline = cutAt(water.level, water.normal, hold.surface);
   return water;
 }
 
@@ -223,13 +244,16 @@ std::vector<HoldWater> holdsOf(const AmbientBody& ambient, const MotionView& now
   const Matrix3 R = now.rotation() * frame.rotation;
   const Vector3 origin_W = now.centre() + now.rotation() * frame.translation;
   Vector3 up(0, 0, 1);
+  double gravity = 0;
   if (ambient.surface()) {
     up = ambient.floating->plane_W.normal;
+    gravity = ambient.floating->plane_W.gravity;
   } else if (!now.gravity.isZero(0)) {
     up = -now.gravity.normalized();
   }
   for (std::size_t i = 0; i < ambient.vessel->holds.size(); ++i) {
-    HoldWater& water = all.emplace_back(waterIn(*ambient.vessel, i, R.transpose() * up));
+    HoldWater& water =
+        all.emplace_back(waterIn(*ambient.vessel, i, {R.transpose() * up, 0, 0, gravity}, R));
     const HoldState& state = ambient.vessel->holds[i];
     water.has_trapped_air = state.is_sealed;
     water.air_pressure = state.is_sealed && water.capacity > state.volume
@@ -237,7 +261,7 @@ std::vector<HoldWater> holdsOf(const AmbientBody& ambient, const MotionView& now
                              : ambient.def->holds.atmosphere;
     water.centre = origin_W + R * water.centre;
     water.level = origin_W + R * water.level;
-    water.normal = up;
+    water.normal = R * water.normal;
     for (Vector3& point : water.outline) point = origin_W + R * point;
   }
   return all;

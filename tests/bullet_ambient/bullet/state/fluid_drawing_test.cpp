@@ -344,7 +344,8 @@ TEST(DrawingOfHolds, IsTheirEdgesAndTheLevelOfTheirWater) {
     EXPECT_NEAR(from.dot(water.normal), 0, tolerance);
     area += from.cross(to) / 2;
   }
-  EXPECT_LT((area - water.area * water.normal).norm(), tolerance);
+  EXPECT_LT((area - area.norm() * water.normal).norm(), tolerance);
+  EXPECT_NEAR(area.z(), water.area, tolerance);
   EXPECT_GT(water.area, 1.96 * 0.96);
   EXPECT_LT(recorder.sumOf(fluid_colours::kWater).norm(), tolerance);
   afloat.setWater(0, water.capacity);
