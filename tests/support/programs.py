@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 import signal
 import struct
 import subprocess
@@ -37,14 +38,16 @@ class ProgramTest(unittest.TestCase):
         return Path(self.path(name)).read_bytes()
 
     def run_program(self, *arguments, interrupt_after=(), **more):
-        """Returns status, output and errors; sends SIGINT after each of the delays [s], and then waits for the end."""
+        """Returns status, output and errors without lines of progress, which long work prints; sends SIGINT after each
+        of the delays [s], and then waits for the end."""
         words = [self.program, *map(str, arguments)]
         with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, **more) as process:
             for delay in interrupt_after:
                 time.sleep(delay)
                 process.send_signal(signal.SIGINT)
             output, errors = process.communicate()
-        return SimpleNamespace(status=process.returncode, output=output.decode(), errors=errors.decode())
+        errors = re.sub(r"^(building |solving |.*: simulating).*, \d+ s\n", "", errors.decode(), flags=re.MULTILINE)
+        return SimpleNamespace(status=process.returncode, output=output.decode(), errors=errors)
 
     def run_well(self, *arguments):
         result = self.run_program(*arguments)
