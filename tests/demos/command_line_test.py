@@ -81,7 +81,7 @@ class DemoTest(ProgramTest):
 
     def test_leaves_nothing_when_it_is_interrupted(self):
         # Nothing to solve: the run starts at once.
-        result = self.run_program(self.scene(model="vacuum", duration=1e7), "--out", self.path("a"), interrupt_after=[1])
+        result = self.run_program(self.scene(model="vacuum", duration=1e7), "--out", self.path("a"), interrupt_after=[3])
         self.assertEqual(result.status, 1)
         self.assertIn("interrupted", result.errors)
         self.expect_no_trace()
