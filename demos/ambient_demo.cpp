@@ -23,7 +23,6 @@
 #include "demos/simulation/output/run_files.h"
 #include "demos/simulation/scene_run.h"
 #include "preprocess/base/output_file.h"
-#include "preprocess/builder/blocked_signals.h"
 #include "preprocess/builder/elapsed_display.h"
 #include "preprocess/builder/parse_exit.h"
 

@@ -2,4 +2,4 @@
 
 // Robots from URDF files as btMultiBody in a fluid.
 #include "preprocess/robot/robot.h"
-#include "preprocess/robot/urdf_reader.h"
+#include "preprocess/robot/robot_model.h"

@@ -8,7 +8,7 @@
 #include "demos/scene/scene_parts.h"
 #include "demos/scene/scene_water.h"
 #include "preprocess/mesh/input_error.h"
-#include "preprocess/robot/urdf_reader.h"
+#include "preprocess/robot/robot_model.h"
 
 namespace ambient {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
 #include "preprocess/builder/body_maker.h"
-#include "preprocess/collision_shape/collision_shape_settings.h"
+#include "preprocess/collision_shape/form_body.h"
 #include "preprocess/shape/shapes.h"
 
 class btCollisionShape;

@@ -15,7 +15,6 @@
 #include "preprocess/mesh/triangle_mesh.h"
 #include "preprocess/potential_flow/results/added_mass_parts.h"
 #include "preprocess/potential_flow/results/refined_flow.h"
-#include "preprocess/potential_flow/results/solver_revision.h"
 #include "preprocess/potential_flow/surface/surface_refinement.h"
 #include "preprocess/resistance/separation.h"
 #include "preprocess/waterline/waterline_builder.h"

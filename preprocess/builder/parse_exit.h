@@ -12,6 +12,24 @@
 
 namespace ambient {
 
+/// Blocks SIGINT, SIGTERM and SIGHUP while it exists, so that files are renamed either all or not
+/// at all. Blocked signals arrive when it is destroyed.
+class BlockedSignals {
+ public:
+  BlockedSignals() {
+    sigset_t signals;
+    sigemptyset(&signals);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, signal);
+    pthread_sigmask(SIG_BLOCK, &signals, &before_);
+  }
+  ~BlockedSignals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  BlockedSignals(const BlockedSignals&) = delete;
+  BlockedSignals& operator=(const BlockedSignals&) = delete;
+
+ private:
+  sigset_t before_{};
+};
+
 /// Exit code of a program whose command line cannot be used.
 constexpr int kBadUsage = 2;
 /// Exit code of a program that has failed otherwise.

@@ -7,7 +7,6 @@
 
 #include "bullet_ambient/bullet/core/conversions.h"
 #include "preprocess/collision_shape/form_body.h"
-#include "preprocess/collision_shape/round_hull.h"
 #include "preprocess/mesh/input_error.h"
 
 AMBIENT_BEGIN

@@ -4,7 +4,6 @@
 
 #include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/fluid_body/fluid_body.h"
-#include "preprocess/collision_shape/collision_shape_settings.h"
 #include "preprocess/collision_shape/form_body.h"
 
 AMBIENT_BEGIN

@@ -13,7 +13,6 @@
 #include "preprocess/builder/body_maker.h"
 #include "preprocess/collision_shape/collision_shape_body.h"
 #include "preprocess/collision_shape/form_body.h"
-#include "preprocess/collision_shape/round_hull.h"
 
 AMBIENT_BEGIN
 namespace {

@@ -1,5 +1,3 @@
-#include "preprocess/collision_shape/round_hull.h"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -8,6 +6,7 @@
 
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
+#include "preprocess/collision_shape/form_body.h"
 
 namespace ambient {
 namespace {

@@ -1,7 +1,11 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <string>
+#include <vector>
+
+#include "preprocess/builder/fluid_body_builder.h"
+#include "preprocess/command_line/option_values.h"
 
 namespace ambient {
 
@@ -18,16 +22,20 @@ void addInspect(CLI::App& app);
 void addLoads(CLI::App& app);
 void addPolar(CLI::App& app);
 
-/// Adds an option whose help shows `type` in place of its value.
-template <class Value>
-CLI::Option* addOption(CLI::App& command, const std::string& names, Value& value,
-                       const std::string& type, const std::string& help) {
-  return command.add_option(names, value, help)->type_name(type);
-}
+/// Options of ambient_preprocess build; its help says what they mean.
+struct BuildArguments {
+  std::string input, output;
+  InputOptions options;
+  std::string origin = "centre-of-volume";
+  int least_faces = 0, panels = kDefaultPanels, threads = 0;
+  std::vector<int> levels;
+  std::vector<double> drag;
+  int waterline = 0;  // subdivisions
+  bool no_tables = false, rebuild = false, json = false;
+};
 
-/// Adds --json.
-inline void addJson(CLI::App& command, bool& json) {
-  command.add_flag("--json", json, "Print one JSON object instead of a table");
-}
+/// Builds the fluid bodies of a .bullet file into a folder; returns the exit status, 1 if a shape
+/// failed or a body was left out.
+int buildWorldFile(const BuildArguments& arguments);
 
 }  // namespace ambient

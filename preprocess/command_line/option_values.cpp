@@ -15,7 +15,6 @@
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "preprocess/base/output_file.h"
 #include "preprocess/builder/fluid_body_builder.h"
-#include "preprocess/command_line/commands.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/polar/polar.h"
 #include "preprocess/shape/shape_mesh.h"

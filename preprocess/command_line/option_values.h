@@ -1,6 +1,6 @@
 #pragma once
 
-#include <CLI/App.hpp>
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
@@ -27,6 +27,18 @@ class UsageError : public std::runtime_error {
 template <class... Parts>
 [[noreturn]] void raiseUsageError(const std::string& option, const Parts&... parts) {
   throw UsageError(inputMessage(option, parts...));
+}
+
+/// Adds an option whose help shows `type` in place of its value.
+template <class Value>
+CLI::Option* addOption(CLI::App& command, const std::string& names, Value& value,
+                       const std::string& type, const std::string& help) {
+  return command.add_option(names, value, help)->type_name(type);
+}
+
+/// Adds --json.
+inline void addJson(CLI::App& command, bool& json) {
+  command.add_flag("--json", json, "Print one JSON object instead of a table");
 }
 
 // Each of these throws a UsageError that names the option, the value and the limit.

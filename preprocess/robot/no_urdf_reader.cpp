@@ -1,5 +1,5 @@
 #include "preprocess/mesh/input_error.h"
-#include "preprocess/robot/urdf_reader.h"
+#include "preprocess/robot/robot_model.h"
 
 namespace ambient {
 

@@ -1,5 +1,3 @@
-#include "preprocess/robot/urdf_reader.h"
-
 #include <tinyxml2.h>
 
 #include <array>
@@ -12,6 +10,7 @@
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/plain_text.h"
 #include "preprocess/mesh/input_error.h"
+#include "preprocess/robot/robot_model.h"
 #include "preprocess/shape/json_schema.h"
 
 namespace ambient {

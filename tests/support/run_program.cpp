@@ -4,10 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
-#include <csignal>
 #include <stdexcept>
-#include <thread>
 
 #include "tests/support/temporary_folder.h"
 
@@ -23,8 +20,9 @@ namespace {
   ::_exit(127);
 }
 
-ProgramResult run(const std::string& program, const std::vector<std::string>& arguments,
-                  int interrupt_after, int times) {
+}  // namespace
+
+ProgramResult runProgram(const std::string& program, const std::vector<std::string>& arguments) {
   const TemporaryFolder folder;
   const std::string output = (folder / "output").string();
   const std::string errors = (folder / "errors").string();
@@ -37,25 +35,9 @@ ProgramResult run(const std::string& program, const std::vector<std::string>& ar
   const pid_t child = ::fork();
   if (child < 0) throw std::runtime_error("fork failed");
   if (child == 0) becomeProgram(argv, output.c_str(), errors.c_str());
-  for (int i = 0; i < times; ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(interrupt_after));
-    ::kill(child, SIGINT);
-  }
   int status = 0;
   ::waitpid(child, &status, 0);
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readText(output), readText(errors)};
-}
-
-}  // namespace
-
-ProgramResult runProgram(const std::string& program, const std::vector<std::string>& arguments) {
-  return run(program, arguments, 0, 0);
-}
-
-ProgramResult interruptProgram(const std::string& program,
-                               const std::vector<std::string>& arguments, int milliseconds,
-                               int times) {
-  return run(program, arguments, milliseconds, times);
 }
 
 }  // namespace ambient

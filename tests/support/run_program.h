@@ -15,9 +15,4 @@ struct ProgramResult {
 /// Runs a program without a shell and waits for it.
 ProgramResult runProgram(const std::string& program, const std::vector<std::string>& arguments);
 
-/// Starts a program, sends SIGINT after each of the delays [ms], and waits for the program's end.
-ProgramResult interruptProgram(const std::string& program,
-                               const std::vector<std::string>& arguments, int milliseconds,
-                               int times = 1);
-
 }  // namespace ambient

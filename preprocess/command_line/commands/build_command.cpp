@@ -7,12 +7,11 @@
 
 #include "bullet_ambient/base/plain_text.h"
 #include "preprocess/base/fluid_body_writer.h"
-#include "preprocess/builder/blocked_signals.h"
 #include "preprocess/builder/body_maker.h"
 #include "preprocess/builder/elapsed_display.h"
+#include "preprocess/builder/parse_exit.h"
 #include "preprocess/builder/shape_builder.h"
 #include "preprocess/command_line/commands.h"
-#include "preprocess/command_line/commands/build_arguments.h"
 #include "preprocess/command_line/fluid_body_report.h"
 #include "preprocess/command_line/option_values.h"
 #include "preprocess/polar/polar.h"

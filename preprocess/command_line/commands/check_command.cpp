@@ -8,9 +8,9 @@
 
 #include "bullet_ambient/base/plain_text.h"
 #include "preprocess/base/output_file.h"
-#include "preprocess/builder/blocked_signals.h"
 #include "preprocess/builder/elapsed_display.h"
 #include "preprocess/builder/fluid_body_builder.h"
+#include "preprocess/builder/parse_exit.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/fluid_body_report.h"
 #include "preprocess/command_line/option_values.h"

@@ -6,11 +6,17 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "bullet_ambient/base/plain_text.h"
 #include "bullet_ambient/fluid_body/displaced_mass.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "bullet_ambient/force/medium/medium.h"
+#include "preprocess/base/fluid_body_writer.h"
+#include "preprocess/builder/parse_exit.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/fluid_body_report.h"
+#include "preprocess/command_line/option_values.h"
 #include "preprocess/floating/floating_body.h"
 #include "preprocess/resistance/prepare.h"
 
@@ -141,6 +147,31 @@ void addInspect(CLI::App& app) {
       ->capture_default_str();
   addJson(command, arguments->json);
   command.callback([arguments] { runInspect(*arguments); });
+}
+
+namespace {
+
+void upgrade(const std::string& file) {
+  const bool is_new = isComplete(readFluidBody(file));
+  if (!is_new) {
+    const FluidBody body = readPrepared(file);
+    const BlockedSignals until_renamed;
+    writeFluidBody(body, file);
+  }
+  std::cout << plainLine(file) << (is_new ? ": is up to date\n" : ": upgraded\n");
+}
+
+}  // namespace
+
+void addUpgrade(CLI::App& app) {
+  const auto files = std::make_shared<std::vector<std::string>>();
+  CLI::App& command = *app.add_subcommand(
+      "upgrade", "Completes .ambient files of earlier versions, which the runtime refuses");
+  command.add_option("FILE.ambient", *files, "The files, which are written anew in place")
+      ->required();
+  command.callback([files] {
+    for (const std::string& file : *files) upgrade(file);
+  });
 }
 
 }  // namespace ambient

@@ -1,4 +1,4 @@
-#include "preprocess/command_line/commands/build_arguments.h"
+#include "preprocess/command_line/commands.h"
 #include "preprocess/mesh/input_error.h"
 
 namespace ambient {

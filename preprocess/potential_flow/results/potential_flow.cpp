@@ -18,7 +18,6 @@
 #include "preprocess/mesh/check/mesh_checks.h"
 #include "preprocess/potential_flow/results/added_mass_parts.h"
 #include "preprocess/potential_flow/solvers/flow_solver.h"
-#include "preprocess/potential_flow/solvers/hierarchical_solver.h"
 #include "preprocess/potential_flow/surface/surface_refinement.h"
 
 namespace ambient {

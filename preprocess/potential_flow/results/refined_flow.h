@@ -5,7 +5,7 @@
 #include "bullet_ambient/spatial/vector_types.h"
 #include "preprocess/mesh/triangle_mesh.h"
 #include "preprocess/potential_flow/results/potential_flow.h"
-#include "preprocess/potential_flow/surface/face_bulges.h"
+#include "preprocess/potential_flow/surface/panel_surface.h"
 #include "preprocess/potential_flow/surface/surface_refinement.h"
 
 namespace ambient {
@@ -73,5 +73,10 @@ struct FlowEstimate {
 /// @throws std::runtime_error as solvePotentialFlow().
 std::optional<FlowEstimate> estimateFlow(const TriangleMesh& mesh,
                                          const PotentialFlowSettings& settings);
+
+/// Part of every fluid body's provenance, so that files of an older revision are built anew. Raise
+/// it with every change after which the same mesh or shape with the same settings gives numbers
+/// that differ by more than rounding: added mass and its parts, faces of a shape, reduced loads.
+constexpr int kSolverRevision = 20;
 
 }  // namespace ambient

@@ -1,4 +1,4 @@
-#include "preprocess/potential_flow/solvers/block_product_kernel.h"
+#include "preprocess/potential_flow/solvers/block_product.h"
 
 namespace ambient {
 

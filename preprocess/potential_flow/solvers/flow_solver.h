@@ -2,11 +2,52 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <vector>
 
 #include "preprocess/potential_flow/operators/far_moments.h"
 #include "preprocess/potential_flow/operators/near_moments.h"
+#include "preprocess/potential_flow/operators/panel_tree.h"
+#include "preprocess/potential_flow/operators/solid_harmonics.h"
 
 namespace ambient {
+
+/// The symmetric matrix of all pair integrals I(t, s) (docs/theory.md eq. (9)) of a tree's panels:
+/// near leaves entry by entry in single precision, far clusters as expansions.
+class PairIntegrals {
+ public:
+  PairIntegrals(const PanelTree& tree, const ClusterPairs& pairs, int degree, int threads);
+
+  /// Computes I x for several columns at once, at most 24; the same bits for every number of
+  /// threads.
+  Eigen::MatrixXf apply(const Eigen::MatrixXf& x) const;
+
+  /// Returns I(t, s). @pre the leaves of both panels are near, as for panels that touch
+  double entry(Eigen::Index t, Eigen::Index s) const;
+
+  /// Memory of the entries between near leaves [bytes].
+  static double nearBytes(const PanelTree& tree, const ClusterPairs& pairs);
+
+ private:
+  using Block = Eigen::Map<const Eigen::MatrixXf>;
+  using FieldRows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+  void fillNear(int t, int s);
+  void fillLeafHarmonics(int leaf);
+  /// Entries between leaves t <= s.
+  std::size_t nearOffset(int t, int s) const;
+  Block nearBlock(int t, int s) const;
+  /// y += I x for the rows of leaf t and the columns of leaf s.
+  void addNear(int t, int s, const FieldRows& x, FieldRows& y) const;
+  const PanelCluster& leaf(int k) const { return tree_.clusters[tree_.leaves[k]]; }
+
+  const PanelTree& tree_;
+  const ClusterPairs& pairs_;
+  ClusterExpansions expansions_;
+  int threads_;
+  Eigen::MatrixXf panel_harmonics_;  ///< a column per panel: integrals of the regular harmonics
+  std::vector<std::vector<std::size_t>> offset_;  ///< beside ClusterPairs::near, for t <= s
+  std::vector<float> near_;
+};
 
 /// Returns the memory limit [bytes]: the setting, or the available memory if the setting is 0.
 double memoryLimit(double setting);
@@ -17,17 +58,6 @@ void requireMemory(Eigen::Index panels, double bytes, double limit);
 /// Reports that memory was not available. @throws std::runtime_error in one line, with the needed
 /// `bytes` if above 0.
 [[noreturn]] void raiseOutOfMemory(Eigen::Index panels, double bytes);
-
-/// A dense block of a matrix in memory.
-struct MatrixBlock {
-  const float* first;
-  std::ptrdiff_t rows, columns;
-  std::ptrdiff_t row_stride,
-      column_stride;  ///< distance in memory from one row, or column, to the next
-};
-
-/// Number of fields in a group; fields are stored side by side in whole groups.
-constexpr int kFieldGroup = 8;
 
 /// Jump of the potential across the surface, and data on its solution.
 struct Jump {
@@ -68,6 +98,23 @@ class FlowSolver {
   FlowSolver() = default;
   FlowSolver(const FlowSolver&) = default;
   FlowSolver& operator=(const FlowSolver&) = default;
+};
+
+/// Solves iteratively, with far clusters of panels as expansions.
+class HierarchicalSolver final : public FlowSolver {
+ public:
+  /// @throws std::runtime_error if it would need more than `memory_limit` bytes.
+  HierarchicalSolver(const PanelSurface& surface, int threads, double memory_limit);
+
+  const PanelSurface& surface() const override { return tree_.surface; }
+  double bytesNeeded() const override;
+  Jump solveJump(const Unknowns& unknowns) override;
+  PanelMoments computeMoments(const Jump& jump) override;
+
+ private:
+  int threads_;
+  PanelTree tree_;
+  ClusterPairs pairs_;
 };
 
 }  // namespace ambient

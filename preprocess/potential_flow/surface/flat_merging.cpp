@@ -12,7 +12,7 @@
 #include "preprocess/mesh/editable_mesh.h"
 #include "preprocess/mesh/geometry.h"
 #include "preprocess/mesh/triangle_mesh.h"
-#include "preprocess/potential_flow/surface/face_bulges.h"
+#include "preprocess/potential_flow/surface/panel_surface.h"
 #include "preprocess/potential_flow/surface/surface_refinement.h"
 
 namespace ambient {

@@ -1,5 +1,4 @@
 #include "preprocess/robot/robot_model.h"
-#include "preprocess/robot/urdf_reader.h"
 #include "tests/fuzz/targets/fuzz_file.h"
 
 namespace ambient::test {

@@ -18,7 +18,7 @@
 #include "preprocess/builder/elapsed_display.h"
 #include "preprocess/builder/shape_builder.h"
 #include "preprocess/mesh/shapes/primitives.h"
-#include "preprocess/potential_flow/results/solver_revision.h"
+#include "preprocess/potential_flow/results/refined_flow.h"
 #include "preprocess/shape/shape_reader.h"
 #include "tests/preprocess/mesh/mesh_files.h"
 #include "tests/support/temporary_folder.h"

@@ -2,7 +2,6 @@
 #include <BulletCollision/CollisionShapes/btEmptyShape.h>
 #include <BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h>
 #include <BulletCollision/CollisionShapes/btScaledBvhTriangleMeshShape.h>
-#include <BulletCollision/Gimpact/btGImpactShape.h>
 #include <gtest/gtest.h>
 
 #include <optional>
@@ -220,21 +219,10 @@ TEST(ConvexShape, FrameIsThatOfTheShape) {
 using test::coarse;
 using test::kScalarRounding;
 
-void addTriangles(const TriangleMesh& mesh, btTriangleMesh& triangles) {
-  for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) {
-    triangles.addTriangle(toBullet(Vector3(mesh.corner(t, 0))),
-                          toBullet(Vector3(mesh.corner(t, 1))),
-                          toBullet(Vector3(mesh.corner(t, 2))));
-  }
-}
-
 TEST(MeshShape, GImpactMeshIsTakenAsItIs) {
   const TriangleMesh cone = makeConeMesh(0.5, 1.2, 300);
-  btTriangleMesh triangles;
-  addTriangles(cone, triangles);
-  btGImpactMeshShape shape(&triangles);
-  shape.updateBound();
-  const FluidBody body = makeFluidBody(shape, coarse());
+  test::GImpactMesh mesh(cone);
+  const FluidBody body = makeFluidBody(mesh.shape, coarse());
   BuildSettings settings;
   settings.origin = Eigen::Vector3d::Zero();
   settings.flow.max_panels = 0;
@@ -245,21 +233,16 @@ TEST(MeshShape, GImpactMeshIsTakenAsItIs) {
 }
 
 TEST(MeshShape, GImpactMeshScales) {
-  btTriangleMesh triangles;
-  addTriangles(makeBoxMesh({1, 1, 1}, 200), triangles);
-  btGImpactMeshShape shape(&triangles);
-  shape.setLocalScaling(btVector3(1, 2, btScalar(0.25)));
-  shape.updateBound();
-  EXPECT_NEAR(makeFluidBody(shape, coarse()).volume, 4, 4 * kScalarRounding);
+  test::GImpactMesh mesh(makeBoxMesh({1, 1, 1}, 200));
+  mesh.shape.setLocalScaling(btVector3(1, 2, btScalar(0.25)));
+  mesh.shape.updateBound();
+  EXPECT_NEAR(makeFluidBody(mesh.shape, coarse()).volume, 4, 4 * kScalarRounding);
 }
 
 TEST(MeshShape, CavitiesDoNotDisplace) {
   const TriangleMesh outside = makeBoxMesh({1, 1, 1}, 200);
-  btTriangleMesh triangles;
-  addTriangles(joined(outside, moved(insideOut(unitTetrahedron()), {-0.2, -0.2, -0.2})), triangles);
-  btGImpactMeshShape shape(&triangles);
-  shape.updateBound();
-  const FluidBody body = makeFluidBody(shape, coarse());
+  test::GImpactMesh mesh(joined(outside, moved(insideOut(unitTetrahedron()), {-0.2, -0.2, -0.2})));
+  const FluidBody body = makeFluidBody(mesh.shape, coarse());
   EXPECT_NEAR(body.volume, 8, 8 * kScalarRounding);
   EXPECT_EQ(body.faces.size(), static_cast<std::size_t>(outside.triangleCount()));
   // Tetrahedral cavity: volume 1/6, centre at 0.05.
@@ -268,48 +251,43 @@ TEST(MeshShape, CavitiesDoNotDisplace) {
 
 // Makes the body of the mesh itself, and by the cache at size 1: both warnings are in metres.
 TEST(MeshShape, OpenMeshesAreWrappedUnlessStrict) {
-  btTriangleMesh triangles;
-  addTriangles(withoutTriangle(scaled(unitTetrahedron(), 10), 0), triangles);
-  btGImpactMeshShape shape(&triangles);
-  shape.updateBound();
+  test::GImpactMesh mesh(withoutTriangle(scaled(unitTetrahedron(), 10), 0));
   CollisionShapeSettings settings = coarse();
   std::vector<std::string> lines;
   settings.report = [&](const std::string& line) {
     if (line.rfind("GImpactMesh: ", 0) == 0) lines.push_back(line);  // others say what takes long
   };
-  EXPECT_NEAR(6 * makeFluidBody(shape, settings).volume, 1000, 30);
+  EXPECT_NEAR(6 * makeFluidBody(mesh.shape, settings).volume, 1000, 30);
   FluidBodyCache cache(settings);
-  EXPECT_NEAR(6 * cache.fluidBody(shape)->volume, 1000, 30);
+  EXPECT_NEAR(6 * cache.fluidBody(mesh.shape)->volume, 1000, 30);
   ASSERT_EQ(lines.size(), 2u);
   for (const std::string& line : lines) {
     EXPECT_EQ(line.find("GImpactMesh: not watertight: 3 boundary edges"), 0u) << line;
     EXPECT_NE(line.find(": volume 166.7 m^3 before and "), std::string::npos) << line;
   }
   settings.strict = true;
-  const std::string message = messageOf([&] { makeFluidBody(shape, settings); });
+  const std::string message = messageOf([&] { makeFluidBody(mesh.shape, settings); });
   EXPECT_EQ(message.find("GImpactMesh: not watertight: 3 boundary edges"), 0u) << message;
-  EXPECT_NE(describeCollisionShape(shape, settings).settings.find(", strict"), std::string::npos);
+  EXPECT_NE(describeCollisionShape(mesh.shape, settings).settings.find(", strict"),
+            std::string::npos);
 }
 
 TEST(MeshShape, WhatWasSaidOfItIsKeptWithItsForm) {
   const TemporaryFolder folder;
-  btTriangleMesh triangles;
-  addTriangles(withoutTriangle(unitTetrahedron(), 0), triangles);
-  btGImpactMeshShape shape(&triangles);
-  shape.updateBound();
+  test::GImpactMesh mesh(withoutTriangle(unitTetrahedron(), 0));
   CollisionShapeSettings settings = coarse();
   settings.report = nullptr;
   FluidBodyCache cache(settings, folder.path()), later(settings, folder.path());
-  const std::vector<std::string> said = cache.said(*cache.fluidBody(shape));
+  const std::vector<std::string> said = cache.said(*cache.fluidBody(mesh.shape));
   ASSERT_EQ(said.size(), 1u);
   EXPECT_EQ(said[0].find("GImpactMesh: not watertight: 3 boundary edges"), 0u) << said[0];
-  shape.setLocalScaling({2, 2, 2});
-  shape.updateBound();
-  EXPECT_EQ(cache.said(*cache.fluidBody(shape)), said);
-  EXPECT_EQ(cache.said(scaled(*cache.fluidBody(shape), 3)), said);
+  mesh.shape.setLocalScaling({2, 2, 2});
+  mesh.shape.updateBound();
+  EXPECT_EQ(cache.said(*cache.fluidBody(mesh.shape)), said);
+  EXPECT_EQ(cache.said(scaled(*cache.fluidBody(mesh.shape), 3)), said);
   EXPECT_EQ(cache.counts().made, 1);
   EXPECT_TRUE(cache.said(*cache.fluidBody(btSphereShape(1))).empty());
-  EXPECT_TRUE(later.said(*later.fluidBody(shape)).empty());
+  EXPECT_TRUE(later.said(*later.fluidBody(mesh.shape)).empty());
   EXPECT_EQ(later.counts().read, 1);
 }
 

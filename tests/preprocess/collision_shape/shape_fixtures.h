@@ -1,5 +1,6 @@
 #pragma once
 
+#include <BulletCollision/Gimpact/btGImpactShape.h>
 #include <btBulletCollisionCommon.h>
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 
 #include "bullet_ambient/bullet/core/conversions.h"
 #include "preprocess/collision_shape/collision_shape_body.h"
+#include "preprocess/mesh/triangle_mesh.h"
 #include "tests/reference/body_added_mass.h"
 
 namespace ambient::test {
@@ -21,6 +23,23 @@ inline CollisionShapeSettings coarse() {
   settings.flow.max_panels = 0;
   return settings;
 }
+
+/// The triangles of a mesh, for Bullet.
+struct BulletTriangles : btTriangleMesh {
+  explicit BulletTriangles(const TriangleMesh& mesh) {
+    for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t)
+      addTriangle(toBullet(Vector3(mesh.corner(t, 0))), toBullet(Vector3(mesh.corner(t, 1))),
+                  toBullet(Vector3(mesh.corner(t, 2))));
+  }
+};
+
+/// A mesh as a collision shape.
+struct GImpactMesh {
+  explicit GImpactMesh(const TriangleMesh& mesh) : triangles(mesh) { shape.updateBound(); }
+
+  BulletTriangles triangles;
+  btGImpactMeshShape shape{&triangles};
+};
 
 /// Largest difference of two 3x3 blocks over the largest entry of the reference block.
 inline double blockError(const Matrix3& block, const Matrix3& reference) {

@@ -1,4 +1,3 @@
-#include <BulletCollision/Gimpact/btGImpactShape.h>
 #include <btBulletDynamicsCommon.h>
 #include <gtest/gtest.h>
 
@@ -105,19 +104,12 @@ TEST(VesselShape, TrayOfBoxesIsAVesselAndOneLineSaysSo) {
 }
 
 TEST(VesselShape, TrayOfTrianglesIsAVessel) {
-  const TriangleMesh mesh = trayMesh();
-  btTriangleMesh triangles;
-  for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t)
-    triangles.addTriangle(toBullet(Vector3(mesh.corner(t, 0))),
-                          toBullet(Vector3(mesh.corner(t, 1))),
-                          toBullet(Vector3(mesh.corner(t, 2))));
-  btGImpactMeshShape shape(&triangles);
-  shape.updateBound();
-  const FluidBody body = makeFluidBody(shape, coarse());
+  const test::GImpactMesh tray(trayMesh());
+  const FluidBody body = makeFluidBody(tray.shape, coarse());
   expectTray(body);
   CollisionShapeSettings without = coarse();
   without.holds = false;
-  const FluidBody walls = makeFluidBody(shape, without);
+  const FluidBody walls = makeFluidBody(tray.shape, without);
   EXPECT_TRUE(walls.holds.empty());
   EXPECT_NEAR(walls.volume, kLength * kWidth * kHeight - kHold, 1e-6);
   // The walls are the same, whatever is in between.

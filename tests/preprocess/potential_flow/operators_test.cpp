@@ -13,7 +13,7 @@
 #include "preprocess/potential_flow/operators/solid_harmonics.h"
 #include "preprocess/potential_flow/results/potential_flow.h"
 #include "preprocess/potential_flow/solvers/block_product.h"
-#include "preprocess/potential_flow/solvers/pair_integrals.h"
+#include "preprocess/potential_flow/solvers/flow_solver.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 #include "tests/reference/triangle_potentials.h"
 #include "tests/support/matrices.h"

@@ -9,7 +9,7 @@
 #include "bullet_ambient/spatial/inertia.h"
 #include "preprocess/mesh/shapes/primitives.h"
 #include "preprocess/potential_flow/results/ellipsoid_added_mass.h"
-#include "preprocess/potential_flow/surface/face_bulges.h"
+#include "preprocess/potential_flow/surface/panel_surface.h"
 #include "preprocess/potential_flow/surface/surface_refinement.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 #include "tests/preprocess/potential_flow/flow_fixtures.h"

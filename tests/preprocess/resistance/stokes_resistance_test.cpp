@@ -12,7 +12,6 @@
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/mesh/shapes/primitives.h"
 #include "preprocess/potential_flow/surface/surface_refinement.h"
-#include "preprocess/resistance/stokes_matrix.h"
 #include "tests/preprocess/potential_flow/flow_fixtures.h"
 #include "tests/reference/ellipsoid_added_mass.h"
 

@@ -12,16 +12,23 @@ struct FluidRobotWorld : test::TreeWorld {
   Fluid fluid{world};
 };
 
-/// A stock world for multibodies.
+/// A robot in a stock world for multibodies.
 struct RobotWorld : test::TreeWorld {
-  explicit RobotWorld(const Vector3& gravity = {0, 0, 0}) { world.setGravity(toBullet(gravity)); }
+  explicit RobotWorld(RobotModel model, const RobotSettings& settings = {},
+                      const Vector3& gravity = {0, 0, 0})
+      : robot(std::move(model), settings) {
+    world.setGravity(toBullet(gravity));
+    robot.addTo(world);
+  }
 
-  void step(Robot& robot, double time_step, int count = 1) {
+  void step(double time_step, int count = 1) {
     for (int i = 0; i < count; ++i) {
       robot.prepareStep(time_step);
       world.stepSimulation(static_cast<btScalar>(time_step), 0);
     }
   }
+
+  Robot robot;
 };
 
 /// Tolerance of rounding for btScalar: double or float.

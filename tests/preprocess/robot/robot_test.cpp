@@ -60,26 +60,24 @@ TEST(Robot, MayBeginInMotion) {
   settings.pose = skewPose();
   settings.twist_W = {Vector3(1, 2, 3), Vector3(-1, 0, 4)};
   settings.velocities = {{"ab", 0.7}, {"bc", -0.4}};
-  RobotWorld in;
-  Robot robot(skewRobot(), settings);
-  robot.addTo(in.world);
-  EXPECT_NEAR(robot.velocity("ab"), 0.7, rounding());
-  EXPECT_NEAR(robot.velocity("bc"), -0.4, rounding());
-  const btMultiBody& body = robot.multiBody();
+  RobotWorld in(skewRobot(), settings);
+  EXPECT_NEAR(in.robot.velocity("ab"), 0.7, rounding());
+  EXPECT_NEAR(in.robot.velocity("bc"), -0.4, rounding());
+  const btMultiBody& body = in.robot.multiBody();
   EXPECT_LT((body.getBaseVel() - btVector3(-1, 0, 4)).length(), rounding());
   EXPECT_LT((body.getBaseOmega() - btVector3(1, 2, 3)).length(), rounding());
-  const Vector3 before = robot.linkPose("a") * robot.model().links[0].centre_of_mass;
-  robot.setTwist({});
-  robot.setVelocity("ab", 0);
-  robot.setVelocity("bc", 0);
+  const Vector3 before = in.robot.linkPose("a") * in.robot.model().links[0].centre_of_mass;
+  in.robot.setTwist({});
+  in.robot.setVelocity("ab", 0);
+  in.robot.setVelocity("bc", 0);
   RigidPose moved = skewPose();
   moved.translation() += Vector3(5, 0, 0);
-  robot.setPose(moved);
-  robot.setPosition("ab", 0.3);
-  in.step(robot, 1e-3);
-  const Vector3 after = robot.linkPose("a") * robot.model().links[0].centre_of_mass;
+  in.robot.setPose(moved);
+  in.robot.setPosition("ab", 0.3);
+  in.step(1e-3);
+  const Vector3 after = in.robot.linkPose("a") * in.robot.model().links[0].centre_of_mass;
   EXPECT_LT((after - before - Vector3(5, 0, 0)).norm(), 10 * rounding());
-  EXPECT_NEAR(robot.position("ab"), 0.3, rounding());
+  EXPECT_NEAR(in.robot.position("ab"), 0.3, rounding());
 }
 
 TEST(Robot, WithAFixedBaseHasNoVelocity) {
@@ -94,13 +92,11 @@ TEST(Robot, TurnsAsFastAsItIsDriven) {
   RobotSettings settings;
   settings.velocities = {{"ab", 628}};
   settings.fixed_base = true;
-  RobotWorld in;
-  Robot robot(parseRobot("<link name=\"a\"/>" + skewLink("b") +
-                         joint("ab", "continuous", "a", "b", kSkewAxis)),
-              settings);
-  robot.addTo(in.world);
-  in.step(robot, 1e-4, 3);
-  EXPECT_NEAR(robot.velocity("ab"), 628, 1);
+  RobotWorld in(parseRobot("<link name=\"a\"/>" + skewLink("b") +
+                           joint("ab", "continuous", "a", "b", kSkewAxis)),
+                settings);
+  in.step(1e-4, 3);
+  EXPECT_NEAR(in.robot.velocity("ab"), 628, 1);
 }
 
 TEST(Robot, MassPropertiesAreThoseOfTheModel) {
@@ -124,10 +120,8 @@ TEST(Robot, PendulumBeginsToFallAsItsFullInertiaSays) {
   settings.fixed_base = true;
   settings.pose = skewPose();
   settings.positions = {{"ab", 0.3}};
-  RobotWorld in({0, 0, -10});
-  Robot robot(model, settings);
-  robot.addTo(in.world);
-  in.step(robot, 1e-3);
+  RobotWorld in(model, settings, {0, 0, -10});
+  in.step(1e-3);
 
   const LinkModel& link = model.links[1];
   const RigidPose pose = linkPoses(model, settings.pose, settings.positions)[1];
@@ -136,7 +130,7 @@ TEST(Robot, PendulumBeginsToFallAsItsFullInertiaSays) {
   const Matrix3 about_pivot =
       link.inertia + link.mass * (r.squaredNorm() * Matrix3::Identity() - r * r.transpose());
   const double expected = 1e-3 * a.dot(r.cross(link.mass * gravity)) / a.dot(about_pivot * a);
-  EXPECT_NEAR(robot.velocity("ab") / expected, 1, 10 * rounding());
+  EXPECT_NEAR(in.robot.velocity("ab") / expected, 1, 10 * rounding());
 }
 
 TEST(Robot, SliderFallsAlongItsAxis) {
@@ -145,29 +139,25 @@ TEST(Robot, SliderFallsAlongItsAxis) {
       joint("ab", "prismatic", "a", "b", std::string(kSkewOrigin) + kSkewAxis + kWideLimit));
   RobotSettings settings;
   settings.fixed_base = true;
-  RobotWorld in({0, 0, -10});
-  Robot robot(model, settings);
-  robot.addTo(in.world);
-  in.step(robot, 1e-3);
+  RobotWorld in(model, settings, {0, 0, -10});
+  in.step(1e-3);
   const Vector3 axis = model.links[1].joint.origin.linear() * model.links[1].joint.axis;
-  EXPECT_NEAR(robot.velocity("ab"), 1e-3 * axis.dot(Vector3(0, 0, -10)), rounding());
+  EXPECT_NEAR(in.robot.velocity("ab"), 1e-3 * axis.dot(Vector3(0, 0, -10)), rounding());
 }
 
 // Bullet's cached transforms of links lag by one step.
 TEST(Robot, PosesOfLinksAreThoseOfTheEndOfAStep) {
   const RobotModel model = skewRobot();
-  RobotWorld in({0, 0, -10});
-  Robot robot(model);
-  robot.addTo(in.world);
-  in.step(robot, 0.01, 10);
-  const std::map<std::string, double> positions{{"ab", robot.position("ab")},
-                                                {"bc", robot.position("bc")}};
-  const std::vector<RigidPose> expected = linkPoses(model, robot.linkPose(-1), positions);
+  RobotWorld in(model, {}, {0, 0, -10});
+  in.step(0.01, 10);
+  const std::map<std::string, double> positions{{"ab", in.robot.position("ab")},
+                                                {"bc", in.robot.position("bc")}};
+  const std::vector<RigidPose> expected = linkPoses(model, in.robot.linkPose(-1), positions);
   for (int number = 0; number < 3; ++number)
-    EXPECT_LT(
-        (robot.linkPose(number).matrix() - expected[static_cast<std::size_t>(number + 1)].matrix())
-            .norm(),
-        100 * rounding())
+    EXPECT_LT((in.robot.linkPose(number).matrix() -
+               expected[static_cast<std::size_t>(number + 1)].matrix())
+                  .norm(),
+              100 * rounding())
         << number;
 }
 
@@ -177,26 +167,25 @@ TEST(Robot, FixedLinksMoveAsMergedOnes) {
   settings.positions = {{"ab", 0.7}, {"bc", -0.4}};
   std::vector<RigidPose> ends;
   for (const bool merged : {false, true}) {
-    RobotWorld in({0, 0, -10});
-    Robot robot(merged ? withoutFixedJoints(model) : model, settings);
-    robot.addTo(in.world);
-    robot.setMotor("ab", MotorTarget::speed(2));
-    in.step(robot, 1e-3, 100);
-    EXPECT_NEAR(robot.velocity("ab"), 2, 100 * rounding());
-    ends.push_back(robot.linkPose("e"));
+    RobotWorld in(merged ? withoutFixedJoints(model) : model, settings, {0, 0, -10});
+    in.robot.setMotor("ab", MotorTarget::speed(2));
+    in.step(1e-3, 100);
+    EXPECT_NEAR(in.robot.velocity("ab"), 2, 100 * rounding());
+    ends.push_back(in.robot.linkPose("e"));
   }
   EXPECT_LT((ends[0].matrix() - ends[1].matrix()).norm(), 1000 * rounding());
 }
 
 TEST(Robot, LeavesItsWorld) {
-  RobotWorld in;
+  test::TreeWorld in;
   {
     Robot robot(skewRobot(), {});
     robot.addTo(in.world);
     robot.setMotor("ab", {});
     EXPECT_EQ(in.world.getNumMultibodies(), 1);
     EXPECT_EQ(in.world.getNumCollisionObjects(), 5);
-    in.step(robot, 0.01);
+    robot.prepareStep(0.01);
+    in.world.stepSimulation(btScalar(0.01), 0);
   }
   EXPECT_EQ(in.world.getNumMultibodies(), 0);
   EXPECT_EQ(in.world.getNumCollisionObjects(), 0);
@@ -240,11 +229,9 @@ TEST(Robot, LinksPushEachOtherApartWithSelfCollisionOnly) {
     settings.fixed_base = true;
     settings.positions = {{"ab", 1}, {"ac", 1.15}};
     settings.self_collision = self_collision;
-    RobotWorld in;
-    Robot robot(crossedArms(), settings);
-    robot.addTo(in.world);
-    in.step(robot, 0.01, 100);
-    const double distance = robot.position("ac") - robot.position("ab");
+    RobotWorld in(crossedArms(), settings);
+    in.step(0.01, 100);
+    const double distance = in.robot.position("ac") - in.robot.position("ab");
     if (self_collision)
       EXPECT_GT(distance, 0.195);
     else
@@ -257,15 +244,13 @@ TEST(Robot, AtRestItSleepsIfItCan) {
   for (const bool can_sleep : {false, true}) {
     RobotSettings settings;
     settings.can_sleep = can_sleep;
-    RobotWorld in;
-    Robot robot(skewRobot(), settings);
-    robot.addTo(in.world);
-    in.step(robot, 0.1, 19);
-    EXPECT_TRUE(robot.multiBody().isAwake());
-    in.step(robot, 0.1, 3);
-    EXPECT_EQ(robot.multiBody().isAwake(), !can_sleep);
-    robot.setMotor("ab", {});
-    EXPECT_TRUE(robot.multiBody().isAwake());
+    RobotWorld in(skewRobot(), settings);
+    in.step(0.1, 19);
+    EXPECT_TRUE(in.robot.multiBody().isAwake());
+    in.step(0.1, 3);
+    EXPECT_EQ(in.robot.multiBody().isAwake(), !can_sleep);
+    in.robot.setMotor("ab", {});
+    EXPECT_TRUE(in.robot.multiBody().isAwake());
   }
 }
 

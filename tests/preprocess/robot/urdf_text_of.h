@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "preprocess/robot/urdf_reader.h"
+#include "preprocess/robot/robot_model.h"
 
 namespace ambient {
 

@@ -1,5 +1,3 @@
-#include "preprocess/waterline/image_flow.h"
-
 #include <gtest/gtest.h>
 
 #include <utility>
@@ -8,6 +6,7 @@
 #include "preprocess/mesh/check/mesh_checks.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/shapes/primitives.h"
+#include "preprocess/waterline/waterline_builder.h"
 #include "tests/preprocess/potential_flow/study/image_flow/surface_cases.h"
 #include "tests/reference/body_added_mass.h"
 #include "tests/reference/ellipsoid_added_mass.h"

@@ -8,7 +8,6 @@
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/mesh/shapes/primitives.h"
-#include "preprocess/waterline/image_flow.h"
 #include "preprocess/waterline/waterline_builder.h"
 #include "tests/support/bodies/graded_meshes.h"
 
