@@ -84,16 +84,20 @@ std::vector<std::string> splitPath(const std::string& path) {
   return tokens;
 }
 
-/// Parses a value; a text that is not JSON becomes a string, which must be UTF-8.
-json parseValue(const std::string& text, const std::string& source) {
-  if (json::accept(text)) return parseJson(text, source);
+/// Returns a text as JSON. @throws std::runtime_error that begins with `whose` if it is not UTF-8
+json utf8Of(const std::string& text, const std::string& source, const std::string& whose) {
   json value(text);
   try {
     static_cast<void>(value.dump());
   } catch (const json::type_error&) {
-    raiseInputError(source, "the value is not valid UTF-8");
+    raiseInputError(source, whose, " is not valid UTF-8");
   }
   return value;
+}
+
+/// Parses a value; a text that is not JSON becomes a string, which must be UTF-8.
+json parseValue(const std::string& text, const std::string& source) {
+  return json::accept(text) ? parseJson(text, source) : utf8Of(text, source, "the value");
 }
 
 /// Returns the element or member of `parent` named by `token`; creates a missing member.
@@ -119,6 +123,7 @@ void applyOverride(json& scene, const SceneOverride& change, const std::string& 
   const std::vector<std::string> path = splitPath(change.path);
   const std::string option = "--set " + change.path + "=" + change.value + ": ";
   json* place = &scene;
+  utf8Of(change.path, file + ": --set", "the path");
   try {
     std::vector<std::string> walked;
     for (const std::string& token : path) {

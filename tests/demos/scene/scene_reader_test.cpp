@@ -232,6 +232,8 @@ TEST(SceneOverride, RejectsWhatCannotBe) {
 TEST(SceneOverride, RejectsTextThatIsNotUtf8) {
   EXPECT_EQ(complaintAbout(ballScene(), {{"model", "\xcf"}}),
             "--set model: the value is not valid UTF-8");
+  EXPECT_EQ(complaintAbout(ballScene(), {{"bodies.0.ma\xedss", "2"}}),
+            "--set: the path is not valid UTF-8");
 }
 
 TEST(SceneOverride, SplitsAtTheFirstEqualsSign) {
