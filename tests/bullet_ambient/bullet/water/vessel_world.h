@@ -91,8 +91,9 @@ struct Sea {
     /// Of body, fluid and water.
     Vector3 momentum_W() const {
       const Vector6 own = stand.inertia.full() * state.twist.vector();
-      return state.orientation * Vector3(own.tail<3>()) +
-             momentumOfSloshing(at.sloshing(), sloshing.data()).linear;
+      const Vector3 own_W = state.orientation * Vector3(own.tail<3>());
+      if (!stand.inside_F) return own_W;
+      return own_W + momentumOfSloshing(at.sloshing(), sloshing.data()).linear;
     }
 
     const AmbientBody& ambient;
