@@ -18,6 +18,7 @@
 namespace ambient::test {
 
 constexpr double kAtmosphere = 101325;
+constexpr double kWater = 0.2;  // where there is some in the hold [m^3]
 constexpr double kBarge = 200, kCapacity = 1.96 * 0.96 * 0.48;
 inline const Vector3 kBargeMoments = kBarge * Vector3(0.13, 0.42, 0.5);
 
