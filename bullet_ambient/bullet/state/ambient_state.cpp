@@ -12,19 +12,17 @@
 #include "bullet_ambient/immersed/region_following.h"
 
 AMBIENT_BEGIN
-namespace {
 
-// Gives a link at a surface the inertia that its last substep has left.
-void floatAgain(AmbientLink& link, const FluidRegions& regions) {
-  AmbientBody& ambient = link.ambient;
-  if (!ambient.place.is_at_surface || !lastPlane(ambient)) return;
+bool floatAgain(AmbientBody& ambient, const RigidState& now, const FluidRegions& regions) noexcept {
+  if (!ambient.place.is_at_surface || !lastPlane(ambient)) return false;
   const auto entry = regions.all().find(ambient.place.region);
-  if (entry == regions.all().end()) return;
+  if (entry == regions.all().end()) return false;
   const int media = ambient.models->findSurface(SurfaceKind(entry->second.region));
-  if (media < 0) return;
-  restoreFloating(ambient, link.now.state, media);
-  link.frozen.freeze(ambient);
+  if (media >= 0) restoreFloating(ambient, now, media);
+  return media >= 0;
 }
+
+namespace {
 
 std::unique_ptr<AmbientLink> makeLink(const LinkFluidState& saved, const MultiBodyState& state,
                                       AmbientBodies& registered) {
@@ -161,7 +159,9 @@ void insertLinks(const MultiBodyState& state, std::vector<std::unique_ptr<Ambien
   for (const auto& link : tree->links) link->now.gravity = toVector3(world.getGravity());
   placeLinksNow(*tree);
   tree->step.end = tree->step.start;
-  for (const auto& link : tree->links) floatAgain(*link, registered.regions);
+  for (const auto& link : tree->links)
+    if (floatAgain(link->ambient, link->now.state, registered.regions))
+      link->frozen.freeze(link->ambient);
 }
 
 AMBIENT_END

@@ -133,7 +133,8 @@ void restoreState(const WorldState& state, btDynamicsWorld& world, AmbientBodies
     restoreMass(state.bodies[i], *bodies[i]);
     restoreBody(state.bodies[i], *bodies[i]);
     if (ambient_bodies[i]) {
-      members.insert(std::move(*ambient_bodies[i]));
+      AmbientBody& ambient = members.insert(std::move(*ambient_bodies[i]));
+      if (ambient.vessel) floatAgain(ambient, readState(*bodies[i]), members.regions);
     } else {
       members.erase(*bodies[i]);
     }

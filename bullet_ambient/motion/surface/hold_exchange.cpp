@@ -22,7 +22,7 @@ WaterSide sideOf(const HoldShape& shape, const HoldState& state, double level, d
   const double change = computeWetVolume(shape.hull(), {normal, end, 0, 0}).volume - state.filled();
   const double area = head * change > 0 ? change / head : 1;  // else nothing flows
   return {level, area, std::min(state.volume, std::max(0.0, -change)),
-          std::min(shape.capacity() - state.filled(), std::max(0.0, change))};
+          std::max(0.0, std::min(shape.capacity() - state.filled(), change))};
 }
 
 /// The sea at an opening.

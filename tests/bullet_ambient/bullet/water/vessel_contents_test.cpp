@@ -8,8 +8,6 @@
 namespace ambient::test {
 namespace {
 
-constexpr double kWater = 0.2;
-
 btRigidBody& addBox(Sea& sea, const Vector3& size, double mass, const Vector3& position) {
   BodyDef def{
       mass, mass / 12 * (Vector3::Constant(size.squaredNorm()) - size.cwiseAbs2()), {}, nullptr};
@@ -18,7 +16,7 @@ btRigidBody& addBox(Sea& sea, const Vector3& size, double mass, const Vector3& p
 }
 
 /// The barge where it floats with a load [kg].
-btRigidBody& addAfloat(Sea& sea, double water, double load) {
+btRigidBody& addBarge(Sea& sea, double water, double load) {
   Start start;
   start.position.z() = 0.25 - ((kBarge + load) / 1000 + water) / 2;
   return sea.add({}, start, {true, {water}});
@@ -31,7 +29,7 @@ double speedOf(const btRigidBody& body) {
 // Below the sea's level, in the barge's dry hold, a light box falls; beside the barge it rises.
 TEST(VesselContents, ADryHoldIsDry) {
   Sea sea;
-  addAfloat(sea, 0, 0);
+  addBarge(sea, 0, 0);
   const Vector3 size(0.1, 0.1, 0.1);
   btRigidBody& in = addBox(sea, size, 0.2, {0.3, 0, -0.02});
   btRigidBody& beside = addBox(sea, size, 0.2, {5, 0, -0.02});
@@ -48,7 +46,7 @@ TEST(VesselContents, ADryHoldIsDry) {
 TEST(VesselContents, WhatFloatsInAHoldLoadsTheVesselAndLiftsTheLevel) {
   Sea sea;
   constexpr double kToy = 4.5;
-  btRigidBody& barge = addAfloat(sea, kWater, kToy);
+  btRigidBody& barge = addBarge(sea, kWater, kToy);
   const double floor = -((kBarge + kToy) / 1000 + kWater) / 2 + 0.02;
   const double level = floor + (kWater + kToy / 1000) / (1.96 * 0.96);
   btRigidBody& toy = addBox(sea, {0.3, 0.3, 0.1}, kToy, {0, 0, level + 0.02});
@@ -78,7 +76,7 @@ TEST(VesselContents, AToyFloatsInATubOnLand) {
 
 TEST(VesselContents, StateGoesOnBitForBit) {
   const auto start = [](Sea& sea) {
-    btRigidBody& barge = addAfloat(sea, kWater, 4.5);
+    btRigidBody& barge = addBarge(sea, kWater, 4.5);
     return std::pair(&barge, &addBox(sea, {0.3, 0.3, 0.1}, 4.5, {0.1, 0.05, -0.05}));
   };
   Sea sea;
@@ -97,7 +95,7 @@ TEST(VesselContents, StateGoesOnBitForBit) {
 // A body that has left its hold, or whose vessel has gone, is in the sea again.
 TEST(VesselContents, WithoutItsVesselABodyIsInTheSea) {
   Sea sea;
-  btRigidBody& barge = addAfloat(sea, 0, 0);
+  btRigidBody& barge = addBarge(sea, 0, 0);
   btRigidBody& box = addBox(sea, {0.1, 0.1, 0.1}, 0.2, {0.3, 0, -0.02});
   sea.scene.step(1 / 240.0);
   EXPECT_EQ(sea.scene.of(box).wet().volume, 0);

@@ -11,7 +11,7 @@
 namespace ambient::test {
 namespace {
 
-constexpr double kWater = 0.2, kLength = 1.96, kDepth = kWater / (1.96 * 0.96);
+constexpr double kLength = 1.96, kDepth = kWater / (1.96 * 0.96);
 
 /// First frequency along the hold [1/s].
 double exactRate() {

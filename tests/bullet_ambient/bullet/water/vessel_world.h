@@ -18,6 +18,7 @@
 namespace ambient::test {
 
 constexpr double kAtmosphere = 101325;
+constexpr double kWater = 0.2;  // where there is some in the hold [m^3]
 constexpr double kBarge = 200, kCapacity = 1.96 * 0.96 * 0.48;
 inline const Vector3 kBargeMoments = kBarge * Vector3(0.13, 0.42, 0.5);
 
@@ -91,8 +92,9 @@ struct Sea {
     /// Of body, fluid and water.
     Vector3 momentum_W() const {
       const Vector6 own = stand.inertia.full() * state.twist.vector();
-      return state.orientation * Vector3(own.tail<3>()) +
-             momentumOfSloshing(at.sloshing(), sloshing.data()).linear;
+      const Vector3 own_W = state.orientation * Vector3(own.tail<3>());
+      if (!stand.inside_F) return own_W;
+      return own_W + momentumOfSloshing(at.sloshing(), sloshing.data()).linear;
     }
 
     const AmbientBody& ambient;
