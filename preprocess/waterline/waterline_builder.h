@@ -54,7 +54,8 @@ struct WaterlineSettings {
 /// @throws std::runtime_error if a flow cannot be solved, with the reason.
 WaterlineTable makeWaterlineTable(const FluidBody& body, const WaterlineSettings& settings);
 
-/// Computes the added mass of the part of a mesh below any plane, as above; about the mesh's origin, in its axes.
+/// Computes the added mass of the part of a mesh below any plane, as above; about the mesh's
+/// origin, in its axes.
 Matrix6 solveImageFlow(const TriangleMesh& body, const SurfacePlane& plane, int panels);
 
 }  // namespace ambient
