@@ -7,9 +7,8 @@
 
 #include "bullet_ambient/force/surface/wet_polygon.h"
 #include "bullet_ambient/immersed/floating_state.h"
+#include "bullet_ambient/immersed/flow_along.h"
 #include "bullet_ambient/immersed/fluid_regions.h"
-#include "bullet_ambient/immersed/pool_rim.h"
-#include "bullet_ambient/immersed/station_samples.h"
 
 namespace ambient {
 namespace {

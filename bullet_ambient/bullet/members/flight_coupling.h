@@ -35,16 +35,11 @@ void readDepartures(AmbientBody* const* bodies, int count, Departures& departure
 /// action, calls prepareFluid(). Returns true if the fluid acts on the body.
 bool prepareStep(AmbientBody& ambient, AmbientBodies& bodies, double time_step) noexcept;
 
-/// Motion of a body or link at the start of a substep. `now`: null: it is in no region.
-struct StepStart {
-  const MotionView* now;
-  const Twist& twist_W;
-  const InverseMass& mass;
-};
 /// Finds the region of a body or link among those of `bodies`, and rebuilds a stale model. Returns
-/// true if the fluid acts on it. @pre StepStart::now is set if mayBeInRegion()
-bool prepareFluid(AmbientBody& ambient, const StepStart& start, AmbientBodies& bodies,
-                  double time_step) noexcept;
+/// true if the fluid acts on it. `now`: motion at the start of the substep; null: it is in no
+/// region. @pre `now` is set if mayBeInRegion()
+bool prepareFluid(AmbientBody& ambient, const MotionView* now, const Twist& twist_W,
+                  const InverseMass& mass, AmbientBodies& bodies, double time_step) noexcept;
 
 /// Disables the body for a substep whose duration is not finite, in which Bullet must not move it.
 void hold(AmbientBody& ambient, AmbientBodies& bodies) noexcept;

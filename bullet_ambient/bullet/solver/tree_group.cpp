@@ -9,7 +9,7 @@
 
 #include <utility>
 
-#include "bullet_ambient/bullet/links/tree_motion.h"
+#include "bullet_ambient/bullet/links/tree_step.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/bullet/members/attach.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
@@ -70,7 +70,7 @@ void TreeGroup::begin() noexcept {
   forEachTree(*bodies_.trees.world(), bodies_.trees, [this](AmbientTree& tree) {
     TreeStep& step = tree.step;
     if (isSolved(tree)) bodies_.complaints.say(Complaint::kNoAction);
-    step.outcome = TreeOutcome::kNotSolved;
+    step.outcome = Outcome::kNotSolved;
     step.was_awake = !isAsleep(*tree.multi_body);
     step.turns_rows = false;
     readVelocity(*tree.multi_body, step.start);

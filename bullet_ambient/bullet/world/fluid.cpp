@@ -50,8 +50,8 @@ Object& requireObject(Object* object) {
 
 // Reports a new member that is light beside what it displaces. Returns the member.
 const AmbientBody& reportIfLight(AmbientBodies& members, const AmbientBody& ambient,
-                                 const AmbientTree* tree, const btVector3& gravity) {
-  if (const auto mass = risingMass(ambient, tree, gravity))
+                                 const btVector3& gravity) {
+  if (const auto mass = risingMass(ambient, members.trees, gravity))
     warnOfLightBody(members.complaints, *ambient.def, *mass, 1);
   return ambient;
 }
@@ -82,7 +82,7 @@ Immersed Fluid::add(btRigidBody& body, AttachDef def) {
   const btDynamicsWorld& world = connection_->world("add");
   members_->requireChangeable("add");
   const AmbientBody& ambient = attachBody(*members_, body, std::move(def));
-  return Immersed(*members_, reportIfLight(*members_, ambient, nullptr, world.getGravity()));
+  return Immersed(*members_, reportIfLight(*members_, ambient, world.getGravity()));
 }
 
 Immersed Fluid::add(btMultiBody* multi_body, int link, AttachDef def) {
@@ -92,9 +92,8 @@ Immersed Fluid::add(btMultiBody* multi_body, int link, AttachDef def) {
 Immersed Fluid::add(btMultiBody& multi_body, int link, AttachDef def) {
   btMultiBodyDynamicsWorld& world = connection_->multiBodyWorld("add");
   members_->requireChangeable("add");
-  const AmbientBody& ambient = attachLink(*members_, world, {multi_body, link}, std::move(def));
-  const AmbientTree* tree = members_->trees.find(&multi_body);
-  return Immersed(*members_, reportIfLight(*members_, ambient, tree, world.getGravity()));
+  const AmbientBody& ambient = attachLink(*members_, world, multi_body, link, std::move(def));
+  return Immersed(*members_, reportIfLight(*members_, ambient, world.getGravity()));
 }
 
 AttachReport Fluid::addAll(FluidBodySource& shapes, const Medium& medium, AttachSettings settings) {

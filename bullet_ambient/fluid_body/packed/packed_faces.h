@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "bullet_ambient/fluid_body/blocks.h"
 #include "bullet_ambient/fluid_body/fluid_body.h"
-#include "bullet_ambient/fluid_body/packed/face_block.h"
 
 namespace ambient {
 

@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
+#include "bullet_ambient/fluid_body/blocks.h"
 #include "bullet_ambient/fluid_body/fluid_body.h"
-#include "bullet_ambient/fluid_body/packed/hull_block.h"
 
 namespace ambient {
 

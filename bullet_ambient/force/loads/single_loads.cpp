@@ -6,7 +6,6 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/fluid_body/packed/packed_faces.h"
-#include "bullet_ambient/force/kernels/load_sums.h"
 #include "bullet_ambient/force/kernels/single_sums.h"
 #include "bullet_ambient/force/law/form_law.h"
 #include "bullet_ambient/force/law/skin_friction.h"

@@ -64,4 +64,10 @@ class WettedTable final : public WettedParts {
   std::vector<double> nodes_;  ///< immersions of the table, then kDeep
 };
 
+/// Makes the added mass of a body at the surface of the water. Sphere: WettedSphere. With parts of
+/// the added mass: WettedParts, eq. (60), or WettedTable, eq. (61a). Without parts: the added mass
+/// times the wet share of the volume. Cost: O(parts).
+std::shared_ptr<const WettedInertia> makeWettedInertia(
+    const std::shared_ptr<const FluidBody>& body);
+
 }  // namespace ambient

@@ -199,7 +199,8 @@ SurfaceLoad computeSurfaceLoad(const BodyModel& model, const Twist& relative_twi
   return loadAlong(flow, relative_twist, resistance, [&](const Twist& x) -> SurfaceLoad {
     const FrameOffset& frame = model.load_frame;
     const bool is_B = frame.isIdentity();
-    const SplitLoad split = model.loads->split(is_B ? x : frame.toF(x));
+    const SplitLoad split =
+        model.loads->split(is_B ? x : frame.toF(x), model.wet ? &*model.wet : nullptr);
     const Wrench wrench = load_share * (is_B ? split.wrench : frame.toB(split.wrench));
     SurfaceLoad load{wrench};
     if (model.loads->needsGuard()) load = removePositivePower(wrench, x, model.inertia);

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/force/surface/buoyancy.h"
+#include "bullet_ambient/force/surface/hydrostatics.h"
 #include "bullet_ambient/spatial/inertia.h"
 
 namespace ambient {
@@ -18,12 +18,12 @@ Wrench externalWrench(const BodyModel& model, const Surroundings& surroundings, 
 }
 
 double energyOfPlace(const BodyModel& model, const Surroundings& surroundings,
-                     const WayFromStart& place, double of_water) {
+                     const FrameOffset& place, double of_water) {
   const Vector3 force = surroundings.applied.force - model.mass * surroundings.ambient_acceleration;
   const Vector3 buoyancy =
       -model.displaced_mass * (surroundings.gravity - surroundings.ambient_acceleration);
-  const Vector3 arm = place.way_W + place.to_world * model.centre_of_volume;
-  return of_water - force.dot(place.way_W) - buoyancy.dot(arm);
+  const Vector3 arm = place.translation + place.rotation * model.centre_of_volume;
+  return of_water - force.dot(place.translation) - buoyancy.dot(arm);
 }
 
 double fallScale(const FlightTask& task) {

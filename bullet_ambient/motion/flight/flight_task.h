@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "bullet_ambient/motion/body/body_model.h"
 #include "bullet_ambient/motion/flight/flight_settings.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
@@ -49,6 +51,18 @@ struct FlightCount {
   /// docs/theory.md eq. (64).
   bool halted = false;
   double energy_removed = 0;  ///< energy removed by the bounds of eq. (22), (25a), (64), (68) [J]
+
+  /// Adds what another part of the step has cost.
+  FlightCount& operator+=(const FlightCount& part) noexcept {
+    substeps += part.substeps;
+    load_evaluations += part.load_evaluations;
+    guarded += part.guarded;
+    coarse = coarse || part.coarse;
+    error = std::max(error, part.error);
+    halted = halted || part.halted;
+    energy_removed += part.energy_removed;
+    return *this;
+  }
 };
 
 struct FlightResult {
@@ -77,16 +91,12 @@ struct FlightTask {
 /// motion.
 double fallScale(const FlightTask& task);
 
-/// Place of a body in a frame that moves with the fluid.
-struct WayFromStart {
-  Matrix3 to_world;  ///< B to W
-  Vector3 way_W;     ///< displacement of the centre of mass since the motion began, world axes [m]
-};
-
 /// Computes the potential energy of docs/theory.md eq. (64) without T: `of_water`, energy of
 /// surface and waves, minus the work of constant forces on the way [J].
+/// `place`: B in axes of W, and the displacement of the centre of mass since the motion began, in a
+/// frame that moves with the fluid.
 double energyOfPlace(const BodyModel& model, const Surroundings& surroundings,
-                     const WayFromStart& place, double of_water);
+                     const FrameOffset& place, double of_water);
 
 /// Task and state of a body: start state before flyTogether(), end state afterwards.
 struct Flight {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "bullet_ambient/fluid_body/displaced_mass.h"
+#include "bullet_ambient/fluid_body/fluid_body.h"
 #include "bullet_ambient/force/medium/medium.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/fluid_body_report.h"

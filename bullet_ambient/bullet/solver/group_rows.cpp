@@ -1,5 +1,9 @@
 // Prepares the ambient bodies of a group for constraint rows: velocity that rows are solved
-// against, velocity basis, locked axes.
+// against, velocity basis, locked axes. Ends the solver's work on them: maps velocity changes by
+// rows back, lets bodies fly that no row has moved.
+
+#include <BulletDynamics/ConstraintSolver/btContactSolverInfo.h>
+
 #include <optional>
 #include <utility>
 
@@ -8,11 +12,13 @@
 #include "bullet_ambient/bullet/links/multibody_rows.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/bullet/members/flight_coupling.h"
+#include "bullet_ambient/bullet/rows/joint_rows.h"
 #include "bullet_ambient/bullet/rows/row_motion.h"
 #include "bullet_ambient/bullet/rows/row_rewriting.h"
 #include "bullet_ambient/bullet/solver/solver_group.h"
 #include "bullet_ambient/immersed/floating_state.h"
-#include "bullet_ambient/motion/flight/flight_group.h"
+#include "bullet_ambient/immersed/fluid_reading.h"
+#include "bullet_ambient/motion/flight/flight.h"
 #include "bullet_ambient/motion/rows/axis_locks.h"
 #include "bullet_ambient/motion/rows/row_velocity.h"
 #include "bullet_ambient/spatial/rotation.h"
@@ -233,6 +239,130 @@ void SolverGroup::prepareJoinedToMultiBodies(SolverBodies& solver_bodies,
     if (count == kFlightsTogether) prepare();
   });
   prepare();
+}
+
+namespace {
+
+bool isZero(const btVector3& v) { return v.x() == 0 && v.y() == 0 && v.z() == 0; }
+
+// True if no row has changed the velocity of the body or, by split impulses, its position.
+bool isUntouched(btSolverBody& b) {
+  return isZero(b.internalGetDeltaLinearVelocity()) &&
+         isZero(b.internalGetDeltaAngularVelocity()) && isZero(b.internalGetPushVelocity()) &&
+         isZero(b.internalGetTurnVelocity());
+}
+
+// Maps a velocity change from the basis T to world axes, in place.
+void fromBasis(const WorldBasis& T, btVector3& angular, btVector3& linear) {
+  angular = T.angular * angular + T.coupling * linear;
+  linear = T.linear * linear;
+}
+
+// True if the velocity and the position correction that Bullet will write back are finite.
+bool isFinite(btSolverBody& b) {
+  const btVector3 linear =
+      b.m_linearVelocity + b.internalGetDeltaLinearVelocity() + b.m_externalForceImpulse;
+  const btVector3 angular =
+      b.m_angularVelocity + b.internalGetDeltaAngularVelocity() + b.m_externalTorqueImpulse;
+  return toVector3(linear).allFinite() && toVector3(angular).allFinite() &&
+         toVector3(b.internalGetPushVelocity()).allFinite() &&
+         toVector3(b.internalGetTurnVelocity()).allFinite();
+}
+
+// Sets all changes by rows and forces to zero.
+void dropRows(btSolverBody& b) {
+  for (btVector3* change :
+       {&b.internalGetDeltaLinearVelocity(), &b.internalGetDeltaAngularVelocity(),
+        &b.internalGetPushVelocity(), &b.internalGetTurnVelocity(), &b.m_externalForceImpulse,
+        &b.m_externalTorqueImpulse})
+    change->setZero();
+}
+
+// Maps the velocity changes by rows to world axes. Returns false, and drops the changes, if they
+// are not finite.
+bool finishRows(AmbientBody& ambient, const RowBody& row_body, btSolverBody& b) {
+  const bool is_adrift = isUntouched(b);
+  ambient.outcome.kind = is_adrift ? Outcome::kAdrift : Outcome::kRows;
+  ambient.outcome.motion = RowMotion{};
+  if (!is_adrift) {
+    fromBasis(row_body.basis, b.internalGetDeltaAngularVelocity(),
+              b.internalGetDeltaLinearVelocity());
+    fromBasis(row_body.basis, b.internalGetTurnVelocity(), b.internalGetPushVelocity());
+  }
+  if (ambient.surface()) ambient.floating->waves = ambient.floating->waves_with_rows;
+  if (!isFinite(b)) {
+    dropRows(b);
+    ++ambient.counters.rejected;
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+void SolverGroup::finish(SolverBodies& solver_bodies, btConstraintArray& joints,
+                         const btContactSolverInfo& info) noexcept {
+  joint_gaps_->measure(joints, *row_bodies_, solver_bodies, time_step_);
+  restoreFeedbackJacobians(joints);
+  if (is_held_)
+    for (int i = 0; i < solver_bodies.size(); ++i) dropRows(solver_bodies[i]);
+  for (const Member& member : members_) {
+    // Every body that a row has moved has a RowBody since begin() or rewriteRows().
+    if (row_bodies_->find(member.solver_body)) continue;
+    AMBIENT_ASSERT(isUntouched(solver_bodies[member.solver_body]));
+    flyLater({member.ambient, member.solver_body}, &solver_bodies);
+  }
+  for (std::size_t i = 0; i < batch_count_; ++i)
+    finishBatch(batches_[i], static_cast<double>(info.m_splitImpulseTurnErp), solver_bodies);
+  flyFreely(&solver_bodies);
+  members_.clear();
+  batch_count_ = 0;
+}
+
+// Ends the work on bodies that rows may have moved: flies those that none has moved, and prepares
+// the motion of the others, eq. (31).
+void SolverGroup::finishBatch(RowBatch& batch, double turn_share,
+                              SolverBodies& solver_bodies) noexcept {
+  bool is_any_moved = false;
+  for (int i = 0; i < batch.count; ++i) {
+    const int id = batch.solver_bodies[i];
+    AmbientBody& ambient = *batch.bodies[i];
+    const RowBody& row_body = *row_bodies_->find(id);
+    btSolverBody& solver_body = solver_bodies[id];
+    ambient.counters.rows += row_body.rows;
+    ambient.counters.joint_rows += row_body.joint_rows;
+    noteGap(ambient, row_body);
+    // Rows were solved against the velocity k + X of eq. (28). In a fast turn the flight goes
+    // elsewhere, and could pass through what the rows keep apart.
+    const bool may_fly = !row_body.is_locked && batch.lanes.extent[i] <= kSlowTurn;
+    bool is_moved = false;
+    if (may_fly && isUntouched(solver_body)) {
+      flyLater({&ambient, id}, &solver_bodies);
+    } else if (finishRows(ambient, row_body, solver_body)) {
+      is_moved = true;
+    } else {
+      bodies_.complaints.say(Complaint::kNotFinite);
+    }
+    batch.lanes.active[i] = is_moved;
+    is_any_moved = is_any_moved || is_moved;
+  }
+  if (!is_any_moved) return;
+  beginRowMotions(batch, *row_bodies_, solver_bodies, turn_share, time_step_);
+  for (int i = 0; i < batch.count; ++i)
+    if (batch.lanes.active[i] != 0 && batch.bodies[i]->reading)
+      readRows(*batch.bodies[i], changeByRows(solver_bodies[batch.solver_bodies[i]]),
+               batch.settled_inertia[i], time_step_);
+}
+
+// Counts the steps in a row in which a joint of the body misses by more than kWideGap of its size.
+// Reports the body after kLongGape steps.
+void SolverGroup::noteGap(AmbientBody& ambient, const RowBody& row_body) noexcept {
+  const double size = ambient.metric().reference_length;
+  const bool is_wide = size > 0 && row_body.gap > kWideGap * size;
+  ambient.gaping = is_wide ? ambient.gaping + 1 : 0;
+  if (ambient.gaping != kLongGape) return;
+  const Member* other = memberOf(row_body.gap_to);
+  bodies_.complaints.sayGaping(*ambient.def, other ? other->ambient->def.get() : nullptr);
 }
 
 AMBIENT_END

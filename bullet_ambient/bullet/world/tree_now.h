@@ -3,7 +3,7 @@
 #include <list>
 
 #include "bullet_ambient/bullet/core/precision_check.h"
-#include "bullet_ambient/bullet/members/ambient_trees.h"
+#include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/immersed/ambient_body.h"
 #include "bullet_ambient/motion/links/link_dynamics.h"
 

@@ -2,17 +2,107 @@
 
 #include <BulletDynamics/ConstraintSolver/btSolverBody.h>
 #include <BulletDynamics/ConstraintSolver/btSolverConstraint.h>
+#include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
 
+#include <cstddef>
 #include <vector>
 
 #include "bullet_ambient/bullet/core/four_numbers.h"
 #include "bullet_ambient/bullet/core/precision_check.h"
-#include "bullet_ambient/bullet/rows/chain_factor.h"
 #include "bullet_ambient/bullet/rows/row_rewriting.h"
 
 class btTypedConstraint;
 
 AMBIENT_BEGIN
+
+/// Returns the joint of a row in the pool of joint rows.
+inline const btTypedConstraint* jointOf(const btSolverConstraint& row) {
+  return static_cast<const btTypedConstraint*>(row.m_originalContactPoint);
+}
+
+/// True if the impulse of a joint row has other bounds than the joint's breaking impulse: the row
+/// is a limit, a motor or a spring.
+inline bool hasBounds(const btSolverConstraint& row) {
+  const btScalar most = jointOf(row)->getBreakingImpulseThreshold();
+  return row.m_lowerLimit > -most || row.m_upperLimit < most;
+}
+
+/// Gap of a joint per step, relative to the size of its body, that is reported after kLongGape
+/// steps in a row.
+constexpr double kWideGap = 0.05;
+constexpr int kLongGape = 10;
+
+/// Finds joints that the solver does not hold. The gap of a joint row against translation is the
+/// step times the larger of two velocities [m]: the difference between the velocity that the row
+/// asks for and the one that the iterations have reached (0 if the impulse is at a bound), and the
+/// velocity of position correction. Reuses its memory.
+class JointGaps {
+ public:
+  /// Stores the rows of ambient bodies against translation, and their position corrections. Call
+  /// before rows are rewritten: later, Jacobians and right-hand sides no longer tell these.
+  void watch(const btConstraintArray& joints, RowBodies& ambient,
+             btAlignedObjectArray<btSolverBody>& bodies) noexcept;
+  /// Writes the largest gap of each ambient body to RowBody::gap. Call after the iterations;
+  /// `time_step` [s].
+  void measure(const btConstraintArray& joints, RowBodies& ambient,
+               btAlignedObjectArray<btSolverBody>& bodies, double time_step) const noexcept;
+
+ private:
+  struct Row {
+    int index;          ///< index in the pool of joint rows
+    double correction;  ///< velocity of position correction [m/s]
+  };
+  std::vector<Row> rows_;
+};
+
+// Factors a symmetric, positive definite matrix S by Cholesky's method, S = L L^T. Stores the
+// entries from the first nonzero one of a row to its diagonal, and for L the inverse of the
+// diagonal. Four rows stand side by side, column after column. Each sum is taken in the order of
+// columns, so that its bits do not depend on how many numbers the processor takes at a time.
+
+/// Holds a matrix of the rows of a chain of joints, and then its factor in the same place. Reuses
+/// its memory.
+class ChainFactor {
+ public:
+  /// Removes all rows.
+  void clear();
+  /// Appends a row; `first`: column of its first entry, at most that of its diagonal.
+  void addRow(int first);
+  /// Sets all entries to zero. Returns false if the factor would cost too much: chains with dozens
+  /// of joints on one body.
+  bool begin();
+  /// Gives the entries of a row by their columns.
+  class Row {
+   public:
+    Row(double* begin, int first) : begin_(begin), first_(first) {}
+    double& operator[](int column) const { return begin_[4 * (column - first_)]; }
+
+   private:
+    double* begin_;
+    int first_;
+  };
+  /// Returns a row up to its diagonal, to be filled between begin() and factorize().
+  Row row(int i) {
+    const Group& group = groups_[static_cast<std::size_t>(i / 4)];
+    return {elements_.data() + group.at + i % 4, group.first};
+  }
+  /// Replaces the matrix by its factor. Returns false if its rows depend on each other.
+  bool factorize() noexcept;
+  /// Replaces x by S^-1 x. `x` has room for a multiple of four numbers, zeros beyond the rows.
+  void solve(double* x) const noexcept;
+
+  /// Four rows, or what is left of them.
+  struct Group {
+    int first;       ///< least column
+    std::size_t at;  ///< where its elements begin
+  };
+
+ private:
+  int size_ = 0;
+  double work_ = 0;
+  std::vector<Group> groups_;
+  std::vector<double> elements_;
+};
 
 // Solves the rows of joints without loops together, before Bullet's iterations, which start from
 // the impulses s:
@@ -28,7 +118,7 @@ AMBIENT_BEGIN
 // remains comes back as energy by position correction.
 //
 // The matrix is factored by Cholesky's method. Rows are ordered along the chain of joints, so that
-// only entries from the first nonzero one of a row to its diagonal are stored (chain_factor.h).
+// only entries from the first nonzero one of a row to its diagonal are stored.
 // Rows with bounds (limits, motors, springs) and rows of bodies with locked axes are left to the
 // iterations. So are joints in loops, whose rows may contradict each other.
 
