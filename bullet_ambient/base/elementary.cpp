@@ -101,10 +101,6 @@ inline double scaled(double x, int exponent) {
   return x * powerOfTwo(half) * powerOfTwo(exponent - half);
 }
 
-}  // namespace
-
-namespace {
-
 constexpr double kQuarterTurn = 0x1.921fb54442d18p+0, kQuarterTurnLow = 0x1.1a62633145c07p-54;
 
 /// An angle minus `quarters` quarter turns: `rest`, within [-pi/4, pi/4] [rad].

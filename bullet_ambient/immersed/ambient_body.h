@@ -13,11 +13,9 @@
 #include "bullet_ambient/immersed/attach_def.h"
 #include "bullet_ambient/immersed/fluid_models.h"
 #include "bullet_ambient/motion/body/body_model.h"
-#include "bullet_ambient/motion/body/wake.h"
 #include "bullet_ambient/motion/flight/flight.h"
-#include "bullet_ambient/motion/flight/flight_task.h"
 #include "bullet_ambient/motion/lanes/surface_lanes.h"
-#include "bullet_ambient/motion/rows/axis_locks.h"
+#include "bullet_ambient/motion/rows/row_velocity.h"
 #include "bullet_ambient/motion/surface/surface_stand.h"
 
 class btMultiBody;

@@ -138,10 +138,6 @@ WetState inRegion(const AmbientBody& ambient, const MotionView& now, const Regio
                now.state);
 }
 
-}  // namespace
-
-namespace {
-
 /// Height above zero of the lowest corner of what is open of a hold; infinite: nothing is.
 double lowestCorner(const VesselState& vessel, std::size_t hold, const Vector3& up_F) {
   double lowest = std::numeric_limits<double>::infinity();

@@ -21,6 +21,49 @@
 #include "bullet_ambient/bullet/solver/fluid_solver.h"
 
 AMBIENT_BEGIN
+
+/// Solvers of a fluid that replace a world's plain ones: one solver, or a pool, and the one for
+/// large islands of a multithreaded world. They continue the random numbers of the replaced ones.
+class FittedSolvers {
+ public:
+  /// Makes the solvers; does not change the world.
+  /// @throws std::invalid_argument, in one sentence that names makeSolver(), if the world has
+  /// another solver than Bullet's plain ones, or a pool of others.
+  FittedSolvers(btDiscreteDynamicsWorld& world, const std::shared_ptr<AmbientBodies>& members,
+                SolverOwner owner);
+  /// Deletes the solvers that nobody else has deleted.
+  ~FittedSolvers();
+  FittedSolvers(const FittedSolvers&) = delete;
+  FittedSolvers& operator=(const FittedSolvers&) = delete;
+
+  /// Gives the solvers to the world.
+  void install(btDiscreteDynamicsWorld& world);
+  /// Gives the world its own solvers back. A solver that somebody has given the world meanwhile
+  /// stays.
+  void giveBack(btDiscreteDynamicsWorld& world);
+  /// True if the world solves with these solvers. Cost: a comparison of addresses.
+  bool areIn(btDiscreteDynamicsWorld& world) const;
+
+ private:
+  struct DeleteIfAlive {
+    std::weak_ptr<const void> life;
+    void operator()(btConstraintSolver* solver) const;
+  };
+  using MadeSolver = std::unique_ptr<btConstraintSolver, DeleteIfAlive>;
+  template <class Made>
+  static MadeSolver hold(std::unique_ptr<Made> made);
+  static MadeSolver makeFor(btDiscreteDynamicsWorld& world,
+                            const std::shared_ptr<AmbientBodies>& members);
+
+  // Solvers for all islands, and for large ones in multithreaded worlds; those of before, which may
+  // have been deleted.
+  MadeSolver made_, made_large_;
+  btConstraintSolver* given_ = nullptr;
+  btConstraintSolver* given_large_ = nullptr;
+  bool owns_given_ = false;  // the world had made it itself
+  SolverOwner owner_;
+};
+
 namespace {
 
 using Members = std::shared_ptr<AmbientBodies>;

@@ -9,7 +9,7 @@
 #include "bullet_ambient/bullet/core/conversions.h"
 #include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/immersed/ambient_body.h"
-#include "bullet_ambient/motion/rows/axis_locks.h"
+#include "bullet_ambient/motion/rows/row_velocity.h"
 
 AMBIENT_BEGIN
 

@@ -6,7 +6,7 @@
 #include "bullet_ambient/bullet/links/tree_step.h"
 #include "bullet_ambient/bullet/members/flight_coupling.h"
 #include "bullet_ambient/immersed/floating_state.h"
-#include "bullet_ambient/motion/flight/flight_task.h"
+#include "bullet_ambient/motion/flight/flight.h"
 
 // Flights of trees without joints, as rigid bodies.
 

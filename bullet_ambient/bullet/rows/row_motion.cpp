@@ -10,7 +10,6 @@
 #include "bullet_ambient/bullet/members/flight_coupling.h"
 #include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/motion/flight/flight.h"
-#include "bullet_ambient/motion/rows/axis_locks.h"
 #include "bullet_ambient/motion/rows/row_velocity.h"
 #include "bullet_ambient/spatial/cholesky.h"
 #include "bullet_ambient/spatial/rotation.h"

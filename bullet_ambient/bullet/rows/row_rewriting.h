@@ -11,7 +11,7 @@
 #include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/immersed/ambient_body.h"
 #include "bullet_ambient/motion/body/body_model.h"
-#include "bullet_ambient/motion/rows/axis_locks.h"
+#include "bullet_ambient/motion/rows/row_velocity.h"
 
 struct btMultiBodyJacobianData;
 

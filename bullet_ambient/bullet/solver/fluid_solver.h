@@ -10,7 +10,6 @@
 #include "bullet_ambient/bullet/links/multibody_rows.h"
 #include "bullet_ambient/bullet/rows/quick_rows.h"
 #include "bullet_ambient/bullet/solver/solver_group.h"
-#include "bullet_ambient/bullet/solver/tree_group.h"
 
 class btMLCPSolver;
 class btMultiBodyConstraintSolver;

@@ -13,8 +13,8 @@
 #include "bullet_ambient/force/medium/fluid_region.h"
 #include "bullet_ambient/force/medium/surface_plane.h"
 #include "bullet_ambient/immersed/attach_def.h"
-#include "bullet_ambient/motion/body/wake.h"
-#include "bullet_ambient/motion/flight/flight_task.h"
+#include "bullet_ambient/motion/body/body_model.h"
+#include "bullet_ambient/motion/flight/flight.h"
 #include "bullet_ambient/motion/lanes/surface_lanes.h"
 #include "bullet_ambient/motion/surface/hold_water.h"
 

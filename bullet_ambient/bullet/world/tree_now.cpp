@@ -15,7 +15,7 @@
 #include "bullet_ambient/force/surface/hydrostatics.h"
 #include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/impulse.h"
-#include "bullet_ambient/motion/rows/axis_locks.h"
+#include "bullet_ambient/motion/rows/row_velocity.h"
 #include "bullet_ambient/robot_dynamics.h"
 
 AMBIENT_BEGIN

@@ -8,8 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "bullet_ambient/fluid_body/packed/packed_faces.h"
-#include "bullet_ambient/fluid_body/packed/packed_hull.h"
+#include "bullet_ambient/fluid_body/packed/packed_shape.h"
 #include "bullet_ambient/force/law/flow_settings.h"
 #include "bullet_ambient/force/law/form_law.h"
 

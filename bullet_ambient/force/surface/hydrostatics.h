@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "bullet_ambient/fluid_body/packed/packed_hull.h"
+#include "bullet_ambient/fluid_body/packed/packed_shape.h"
 #include "bullet_ambient/force/medium/surface_plane.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
 

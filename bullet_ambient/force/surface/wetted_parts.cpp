@@ -8,7 +8,7 @@
 #include "bullet_ambient/force/kernels/part_sums.h"
 #include "bullet_ambient/force/law/share_in_pool.h"
 #include "bullet_ambient/force/loads/load_tables.h"
-#include "bullet_ambient/force/surface/wetted_sphere.h"
+#include "bullet_ambient/force/surface/wetted_inertia.h"
 #include "bullet_ambient/spatial/inertia.h"
 
 namespace ambient {

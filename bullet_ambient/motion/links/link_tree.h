@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "bullet_ambient/motion/flight/flight_task.h"
+#include "bullet_ambient/motion/flight/flight.h"
 #include "bullet_ambient/motion/links/link_kernel.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
 #include "bullet_ambient/spatial/vector_types.h"
