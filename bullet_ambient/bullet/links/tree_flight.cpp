@@ -26,12 +26,13 @@ void readDepartures(AmbientTree* const* trees, int count, Departures& departures
     rotations[i] = toBulletMatrix(dynamics.rotation(0));
     all[i] = &rotations[i];
   }
-  Attitudes attitudes;
-  computeAttitudes(all, departures.twists_W, count, attitudes);
+  Quaternion orientations[kFlightsTogether];
+  Twist twists_B[kFlightsTogether];
+  computeAttitudes(all, departures.twists_W, count, orientations, twists_B);
   for (int i = 0; i < count; ++i) {
     const AmbientLink& base = baseOf(*trees[i]);
     const MotionView& now = base.now;
-    departures.states[i] = {attitudes.orientations[i], now.centre(), attitudes.twists_B[i]};
+    departures.states[i] = {orientations[i], now.centre(), twists_B[i]};
     // That of the flow along it is added below.
     Wrench applied = trees[i]->flight.dynamics().appliedWrench(0);
     applied -= pushByFlow(base.ambient, now.state.orientation);

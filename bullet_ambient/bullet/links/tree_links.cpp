@@ -57,17 +57,14 @@ bool hasWakes(const AmbientTree& tree) {
   });
 }
 
-// True if a link moves by more than a hundredth of its size in 2 s, Bullet's time before sleep.
+// True if a link drifts.
 bool moves(AmbientTree& tree) {
-  constexpr double kRestingTravel = 0.01, kRestingTime = 2;  // those of bodies
   LinkDynamics& dynamics = tree.flight.dynamics();
   dynamics.setVelocity(tree.step.end);
   return std::any_of(tree.links.begin(), tree.links.end(), [&dynamics](const auto& link) {
-    const AmbientBody& ambient = link->ambient;
     const Twist twist = dynamics.twist(link->link + 1);
-    const double size = ambient.model().reference_length;
-    const double travel = kRestingTime * (twist.linear.norm() + size * twist.angular.norm());
-    return travel > kRestingTravel * size;
+    return drifts(twist.linear.norm(), twist.angular.norm(),
+                  link->ambient.model().reference_length);
   });
 }
 

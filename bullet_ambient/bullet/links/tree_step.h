@@ -55,7 +55,7 @@ void addCount(const FlightCount& count, AmbientTree& tree) noexcept;
 void countEnergyRemoved(double energy, AmbientTree& tree) noexcept;
 
 /// Wakes a tree that drifts or moves afloat, whose fluid changes with time, or that floats in an
-/// unstable balance; like keepAwakeWhileMoving() and keepAwakeInUnsteadyFluid() of bodies.
+/// unstable balance; like keepAwake() of bodies.
 void keepTreeAwake(AmbientTree& tree) noexcept;
 
 /// Replaces the turns of a tree that Bullet has moved for the time h [s] by those with our sine and

@@ -20,14 +20,14 @@
 AMBIENT_BEGIN
 
 void readAttitudes(AmbientBody* const* bodies, const Twist* twists_W, int count,
-                   Attitudes& attitudes) noexcept {
+                   Quaternion* orientations, Twist* twists_B) noexcept {
   const btMatrix3x3* rotations[kFlightsTogether] = {};
   for (int i = 0; i < count; ++i) rotations[i] = &bodies[i]->body->getWorldTransform().getBasis();
-  computeAttitudes(rotations, twists_W, count, attitudes);
+  computeAttitudes(rotations, twists_W, count, orientations, twists_B);
 }
 
 void computeAttitudes(const btMatrix3x3* const* rotations, const Twist* twists_W, int count,
-                      Attitudes& attitudes) noexcept {
+                      Quaternion* orientations, Twist* twists_B) noexcept {
   AMBIENT_ASSERT(count > 0 && count <= kFlightsTogether);
   DepartureLanes lanes{};
   for (int i = 0; i < count; ++i) {
@@ -37,28 +37,22 @@ void computeAttitudes(const btMatrix3x3* const* rotations, const Twist* twists_W
   }
   kFlightKernels.fastest()->depart(lanes);
   for (int i = 0; i < count; ++i) {
-    attitudes.orientations[i] = orientationOf(lanes.orientation, i);
-    attitudes.twists_B[i] = twistOf(lanes.twist_B, i);
+    orientations[i] = orientationOf(lanes.orientation, i);
+    twists_B[i] = twistOf(lanes.twist_B, i);
   }
 }
 
 void readDepartures(AmbientBody* const* bodies, int count, Departures& departures) noexcept {
   for (int i = 0; i < count; ++i) departures.twists_W[i] = velocityOf(*bodies[i]->body);
-  Attitudes attitudes;
-  readAttitudes(bodies, departures.twists_W, count, attitudes);
+  Quaternion orientations[kFlightsTogether];
+  Twist twists_B[kFlightsTogether];
+  readAttitudes(bodies, departures.twists_W, count, orientations, twists_B);
   for (int i = 0; i < count; ++i) {
     const Vector3 position = toVector3(bodies[i]->body->getWorldTransform().getOrigin());
-    departures.states[i] = {attitudes.orientations[i], position, attitudes.twists_B[i]};
+    departures.states[i] = {orientations[i], position, twists_B[i]};
     departures.surroundings[i] = readSurroundings(*bodies[i]);
   }
 }
-
-namespace {
-
-constexpr double kRestingTravel = 0.01;  // of the body's size, within kRestingTime
-constexpr double kRestingTime = 2;       // [s], Bullet's gDeactivationTime by default
-
-}  // namespace
 
 bool prepareStep(AmbientBody& ambient, AmbientBodies& bodies, double time_step) noexcept {
   SubstepOutcome& outcome = ambient.outcome;
@@ -128,22 +122,16 @@ void stopIfNotFinite(AmbientBody& ambient, Complaints& complaints) noexcept {
   complaints.say(Complaint::kNotFinite);
 }
 
-void keepAwakeWhileMoving(AmbientBody& ambient, Outcome kind) noexcept {
-  const bool has_rows = kind == Outcome::kRows;
-  if (has_rows && !ambient.surface()) return;
+void keepAwake(AmbientBody& ambient, Outcome kind) noexcept {
   btRigidBody& body = *ambient.body;
-  const double size = ambient.model().reference_length;
-  const double travel =
-      kRestingTime * (static_cast<double>(body.getLinearVelocity().length()) +
-                      size * static_cast<double>(body.getAngularVelocity().length()));
-  const bool moves = travel > kRestingTravel * size;
+  const bool has_rows = kind == Outcome::kRows;
+  const bool moves = (!has_rows || ambient.surface()) &&
+                     drifts(static_cast<double>(body.getLinearVelocity().length()),
+                            static_cast<double>(body.getAngularVelocity().length()),
+                            ambient.model().reference_length);
   const bool may_turn_over =
       ambient.surface() && !has_rows && !mayRestAtSurface(ambient, motionOf(body));
-  if (moves || may_turn_over) body.setDeactivationTime(0);
-}
-
-void keepAwakeInUnsteadyFluid(const AmbientBody& ambient) noexcept {
-  if (!ambient.may_rest) ambient.body->setDeactivationTime(0);
+  if (moves || may_turn_over || !ambient.may_rest) body.setDeactivationTime(0);
 }
 
 namespace {

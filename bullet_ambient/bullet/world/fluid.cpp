@@ -16,10 +16,13 @@
 AMBIENT_BEGIN
 namespace {
 
-// Gives all bodies the models for the fluids of the regions and for further ones. Makes all models
-// first: what throws changes nothing.
-void knowFluids(AmbientBodies& bodies, const RegionFluids& further) {
-  const RegionFluids fluids = bodies.regions.fluids(further);
+// Where the regions lack a fluid of a region that is to come, gives all bodies the models for it,
+// too; where they lack one of a region that has gone, takes those away. Makes all models first:
+// what throws changes nothing.
+void knowFluids(AmbientBodies& bodies, const FluidRegion& region, bool is_coming) {
+  const RegionFluids missing = bodies.regions.missing(region);
+  if (missing.empty()) return;
+  const RegionFluids fluids = bodies.regions.fluids(is_coming ? missing : RegionFluids{});
   std::vector<std::shared_ptr<const FluidModels>> made;
   bodies.forEach([&](const AmbientBody& ambient) {
     made.push_back(
@@ -27,14 +30,6 @@ void knowFluids(AmbientBodies& bodies, const RegionFluids& further) {
   });
   std::size_t next = 0;
   bodies.forEach([&](AmbientBody& ambient) { setModels(ambient, std::move(made[next++])); });
-}
-
-void learnAll(AmbientBodies& bodies, const RegionFluids& missing) {
-  if (!missing.empty()) knowFluids(bodies, missing);
-}
-
-void forgetAll(AmbientBodies& bodies, const RegionFluids& forgotten) {
-  if (!forgotten.empty()) knowFluids(bodies, {});
 }
 
 // Makes room for what differs of the fluid along each body.
@@ -141,7 +136,7 @@ RegionId Fluid::addRegion(FluidRegion region) {
   members_->requireChangeable("addRegion");
   FluidRegions& regions = members_->regions;
   checkRegion(regions.next(), region);
-  learnAll(*members_, regions.missing(region));
+  knowFluids(*members_, region, true);
   const bool knew = regions.mayDiffer();
   const RegionId id = regions.add(std::move(region));
   if (!knew) takeAllStations(*members_);
@@ -153,11 +148,11 @@ void Fluid::setRegion(RegionId id, FluidRegion region) {
   FluidRegions& regions = members_->regions;
   checkRegion(id, region);
   const FluidRegion before = regions.require(id);
-  learnAll(*members_, regions.missing(region));
+  knowFluids(*members_, region, true);
   const bool knew = regions.mayDiffer();
   regions.set(id, std::move(region));
   if (!knew) takeAllStations(*members_);
-  forgetAll(*members_, regions.missing(before));
+  knowFluids(*members_, before, false);
 }
 
 bool Fluid::removeRegion(RegionId id) {
@@ -167,7 +162,7 @@ bool Fluid::removeRegion(RegionId id) {
   if (found == regions.all().end()) return false;
   const FluidRegion before = found->second.region;
   regions.remove(id);
-  forgetAll(*members_, regions.missing(before));
+  knowFluids(*members_, before, false);
   return true;
 }
 

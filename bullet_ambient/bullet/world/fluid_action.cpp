@@ -101,8 +101,7 @@ class Completion {
 
  private:
   void finish(Outcome kind, const Twist& before_W, AmbientBody& ambient) const {
-    keepAwakeWhileMoving(ambient, kind);
-    keepAwakeInUnsteadyFluid(ambient);
+    keepAwake(ambient, kind);
     if (ambient.reading)
       finishBodyReading(ambient, kind, motionOf(*ambient.body), before_W, time_step_);
   }
