@@ -30,6 +30,9 @@ struct FluidDrawing {
   bool total_wrench = false;      ///< force white and torque magenta at the centre of mass
   bool centre_of_volume = false;  ///< a small cross, cyan
   bool water_surface = false;     ///< a net over each region's surface, blue
+  /// Of vessels the edges of their holds and openings, grey, and where the water in them meets the
+  /// walls, blue.
+  bool holds = false;
   /// Forces of the last substep at the centre of mass of bodies that Immersed::readWrench() has
   /// asked for: of waves violet, wind grey, added mass green-blue.
   bool read_forces = false;
@@ -46,7 +49,7 @@ struct FluidDrawing {
   static FluidDrawing all();
   bool drawsFaces() const { return separation || slip_velocity || pressure || friction; }
   bool drawsAnything() const {
-    return drawsFaces() || buoyancy || total_wrench || centre_of_volume || water_surface ||
+    return drawsFaces() || buoyancy || total_wrench || centre_of_volume || water_surface || holds ||
            read_forces;
   }
 };
@@ -57,6 +60,7 @@ inline const btVector3 kAttached(0, 1, 0), kSeparated(1, 0, 0),
     kSlip(btScalar(0.2), btScalar(0.4), 1), kPressure(1, btScalar(0.5), 0), kFriction(1, 1, 0),
     kBuoyancy(0, 1, 1), kForce(1, 1, 1), kTorque(1, 0, 1), kWater(0, btScalar(0.3), btScalar(0.8)),
     kWaves(btScalar(0.5), 0, 1), kWind(btScalar(0.7), btScalar(0.7), btScalar(0.7)),
+    kHolds(btScalar(0.45), btScalar(0.5), btScalar(0.55)),
     kAddedMass(0, btScalar(0.7), btScalar(0.5));
 }  // namespace fluid_colours
 

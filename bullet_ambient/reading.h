@@ -24,9 +24,9 @@ struct FluidWrench {
   Wrench buoyancy;  ///< buoyancy of eq. (18), (19), (53) at the middle of the path
   Wrench waves;     ///< waves that the body has made, eq. (70)
   Wrench wind;      ///< surface loads of the fluid above a surface of water
-  /// Reaction of the added mass. For a rigid body with free axes, and for a multibody without
-  /// joints in free flight: the remainder of the balance above. Otherwise the negative change of
-  /// momentum of the fluid that moves along, over h.
+  /// Reaction of the added mass, and of the water in holds. For a rigid body with free axes, and
+  /// for a multibody without joints in free flight: the remainder of the balance above. Otherwise
+  /// the negative change of momentum of the fluid that moves along, over h.
   Wrench added_mass;
   /// Contacts, joints, motors, locked axes, and a multibody's damping. For a rigid body with free
   /// axes: the impulses of its rows over h. Otherwise the remainder of the balance above.

@@ -84,7 +84,8 @@ Parsed parseArguments(int argc, char** argv) {
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false)
       ->take_all();
-  app.add_option("--log", log, "Further columns of trajectory.csv: wrench, wet, or both")
+  app.add_option("--log", log,
+                 "Further columns of trajectory.csv: wrench, wet, holds, with commas between them")
       ->type_name("WORDS");
   app.add_flag("--quiet", parsed.arguments.quiet, "Print errors only");
   app.footer("Many scenes: --cases FILE.jsonl --out DIR [--shard I/N], by the Python module");
@@ -173,7 +174,8 @@ void writeFiles(const fs::path& out, const Scene& scene, const std::vector<Prepa
                 const RunRecord& record, const FluidLog& log) {
   OutputFile trajectory(out / "trajectory.csv"), geometry(out / "geometry.json"),
       summary(out / "summary.json");
-  trajectory.write(makeTrajectoryText(scene, record.motion, fluidLogHeader(log), record.log));
+  trajectory.write(
+      makeTrajectoryText(scene, record.motion, fluidLogHeader(log, bodies), record.log));
   geometry.write(makeGeometryText(scene, bodies));
   summary.write(makeSummary(scene, bodies, record));
   trajectory.commit();

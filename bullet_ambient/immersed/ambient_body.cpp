@@ -75,6 +75,8 @@ void forgetWake(AmbientBody& ambient) noexcept {
 }
 
 void forgetSurface(AmbientBody& ambient) noexcept {
+  if (ambient.vessel)
+    std::fill(ambient.vessel->sloshing.now.begin(), ambient.vessel->sloshing.now.end(), Sloshing{});
   if (!ambient.floating) return;
   ambient.floating->waves = {};
   ambient.floating->forgetPlane();
@@ -119,6 +121,7 @@ void takeHolds(AmbientBody& ambient) {
   ambient.vessel = std::make_unique<VesselState>();
   ambient.vessel->shape = def.fluid_body;
   ambient.vessel->holds.resize(holds.size());
+  ambient.vessel->sloshing.resize(holds.size());
   for (const Hold& hold : holds)
     for (const HoldOpening& opening : hold.openings) {
       ambient.vessel->changes.is_shut.push_back(0);

@@ -144,6 +144,9 @@ struct VesselState {
   bool has_waves = false;        ///< true: `rises` counts
   OpeningChanges changes;        ///< of openings while the body is in its fluid
   WaterInside inside;            ///< at FloatingState::stand
+  VesselSloshing sloshing;
+  double sloshing_energy = 0;  ///< of VesselSloshing::now [J]
+  WaterLeft before_rows;       ///< after it has sloshed for a step in which rows move the body
   /// Change of the velocity in B by the water that has come in at the start of this step.
   Vector6 change_B = Vector6::Zero();
 };
@@ -163,8 +166,9 @@ struct AmbientBody {
   bool may_rest = true;         ///< true: nothing around the body changes with time
   bool has_own_models = false;  ///< true: `models` are of this body alone, as its mass has changed;
                                 ///< false: equal bodies share them
-  SubstepOutcome outcome;       ///< in most steps the action needs only what precedes
-                                ///< LastFlight::memory
+  int in_hold = -1;  ///< index into FluidRegions::in_holds; -1: the body is in no hold of another
+  SubstepOutcome outcome;  ///< in most steps the action needs only what precedes
+                           ///< LastFlight::memory
   StepErrors step_errors;
   std::shared_ptr<const FluidModels> models;
   std::shared_ptr<const AttachDef> def;  ///< equal bodies without a name share it
@@ -206,7 +210,9 @@ inline const HoldState* waterOf(const AmbientBody& ambient) noexcept {
 /// Returns the same with the place for what is inside at the stand of the body.
 inline VesselWater waterAtStand(AmbientBody& ambient) noexcept {
   if (!ambient.vessel) return {};
-  return {ambient.vessel->holds.data(), &ambient.vessel->inside};
+  VesselState& vessel = *ambient.vessel;
+  return {vessel.holds.data(), &vessel.inside, vessel.sloshing.modes.data(), &vessel.sloshing,
+          ambient.def->holds.sloshing_damping};
 }
 /// Gives a body the holds of its definition, and the water from the start; it keeps what it has if
 /// they are the same.

@@ -22,6 +22,8 @@ struct HoldSettings {
   /// Pressure of the air at the surface, which air that water shuts off in a hold has at first
   /// [Pa].
   double atmosphere = 101325;
+  /// Damping of water that sloshes in them, as a share of the critical one; docs/vessels.md.
+  double sloshing_damping = 0.03;
 };
 
 /// Definition of a body or link in a fluid.

@@ -1,5 +1,6 @@
 #include "bullet_ambient/immersed/floating_state.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -14,11 +15,16 @@
 namespace ambient {
 namespace {
 
+// Returns the way of the water since the step began, after a time.
+Vector3 wayOfWater(const AmbientBody& ambient, double time) {
+  const Medium& water = ambient.medium;
+  return time * water.velocity + time * time / 2 * water.acceleration;
+}
+
 // Returns the plane in W after a time since the step began: it moves with the water.
 SurfacePlane movedPlane(const AmbientBody& ambient, double time) {
-  const Medium& water = ambient.medium;
   SurfacePlane plane = ambient.floating->plane_W;
-  plane.height += plane.normal.dot(time * water.velocity + time * time / 2 * water.acceleration);
+  plane.height += plane.normal.dot(wayOfWater(ambient, time));
   return plane;
 }
 
@@ -199,13 +205,62 @@ Vector6 twistInWater(const AmbientBody& ambient, const RigidState& state) {
 
 }  // namespace
 
+namespace {
+
+// Returns a body with water in its holds at its stand.
+WaterAt waterAt(const AmbientBody& ambient, const Matrix3& to_world, const Vector3& position_W) {
+  return {*ambient.surface(), ambient.stand(), to_world, position_W};
+}
+
+// Lets water that has not sloshed yet begin, and finds its energy.
+void beginSloshing(AmbientBody& ambient, const Matrix3& to_world, const Vector6& x) {
+  VesselState& vessel = *ambient.vessel;
+  vessel.sloshing_energy = 0;
+  if (!ambient.stand().inside_F) return;
+  Sloshing* const states = vessel.sloshing.now.data();
+  const SloshingAt at = waterAt(ambient, to_world, {0, 0, 0}).sloshing();
+  joinVessel(at, x, states);
+  vessel.sloshing_energy = energyOfSloshing(at, states).sum();
+}
+
+// Takes the sloshing to the water that is there after some has passed. `energy`: of all that moves,
+// before it [J].
+void mixWater(AmbientBody& ambient, const Matrix3& to_world, const Vector6& x, double energy) {
+  VesselState& vessel = *ambient.vessel;
+  vessel.sloshing_energy = 0;
+  Sloshing* const states = vessel.sloshing.now.data();
+  if (!ambient.stand().inside_F) {
+    std::fill(states, states + vessel.holds.size(), Sloshing{});
+    return;
+  }
+  const SloshingAt at = waterAt(ambient, to_world, {0, 0, 0}).sloshing();
+  mixSloshing(vessel.holds.data(), vessel.sloshing.later.data(), at, x, states);
+  meetModes(at, energy, states);
+  vessel.sloshing_energy = energyOfSloshing(at, states).sum();
+}
+
+// True if the water in a vessel sloshes so little that the vessel may sleep.
+bool isNearlyLevel(const AmbientBody& ambient) {
+  constexpr double kLittle = 1e-6;  // of the water's weight times the size of the vessel
+  double volume = 0;
+  for (const HoldState& hold : ambient.vessel->holds) volume += hold.volume;
+  const SurfaceModel& model = *ambient.surface();
+  const double weight = model.excess_density * volume * ambient.stand().plane.gravity;
+  return ambient.vessel->sloshing_energy <= kLittle * weight * model.radius;
+}
+
+}  // namespace
+
 void exchangeWater(AmbientBody& ambient, const MotionView& now, double duration) noexcept {
   constexpr double kStill = 1e-9;  // of a hold
   VesselState& vessel = *ambient.vessel;
   const SurfaceModel& model = *ambient.surface();
   const SurfaceStand& stand = standNow(ambient, now);
   const Vector6 x = twistInWater(ambient, now.state);
-  const double twice_before = x.dot(stand.inertia.full() * x);
+  const Matrix3 R = now.rotation();
+  beginSloshing(ambient, R, x);
+  const double twice_before = x.dot(stand.inertia.full() * x) + 2 * vessel.sloshing_energy;
+  vessel.sloshing.later = vessel.sloshing.modes;  // before water passes
   const HoldSettings& settings = ambient.def->holds;
   const Passage passage{settings.are_open, duration, settings.atmosphere, &vessel.changes,
                         vessel.has_waves ? &vessel.rises : nullptr};
@@ -219,13 +274,30 @@ void exchangeWater(AmbientBody& ambient, const MotionView& now, double duration)
     (hold.inflow > 0 ? hold.flooded : hold.drained) += std::abs(hold.inflow);
     if (std::abs(hold.change) > kStill * vessel.shape->holds[i].volume) ambient.may_rest = false;
   }
-  if (!has_changed) return;
-  ambient.floating->is_valid = false;
-  AmbientBody* const body = &ambient;
-  completeAll(&body, 1);
-  const Matrix6 come_B = model.excess_density * model.fluid_frame.inertiaToB(come);
-  const Vector6 end = x - stand.inverse.full() * (come_B * x);
-  vessel.change_B = scaledWithin(end, end.dot(stand.inertia.full() * end), twice_before).twist - x;
+  if (has_changed) {
+    ambient.floating->is_valid = false;
+    AmbientBody* const body = &ambient;
+    completeAll(&body, 1);
+    mixWater(ambient, R, x, twice_before / 2);
+    const Matrix6 come_B = model.excess_density * model.fluid_frame.inertiaToB(come);
+    const Vector6 end = x - stand.inverse.full() * (come_B * x);
+    const double most = std::max(0.0, twice_before - 2 * vessel.sloshing_energy);
+    vessel.change_B = scaledWithin(end, end.dot(stand.inertia.full() * end), most).twist - x;
+  }
+  if (!isNearlyLevel(ambient)) ambient.may_rest = false;
+}
+
+double sloshingEnergyNow(const AmbientBody& ambient, const MotionView& now) {
+  if (!ambient.vessel || !ambient.surface()) return 0;
+  std::vector<Sloshing> states = ambient.vessel->sloshing.now;
+  std::vector<HoldModes> modes(states.size());
+  WaterInside inside;
+  const SurfacePlace place = placeAt(*ambient.surface(), planeAt(ambient, now.state),
+                                     {waterOf(ambient), &inside, modes.data()});
+  if (!place.inside_F) return 0;
+  const WaterAt at{*ambient.surface(), place, now.rotation(), now.centre()};
+  joinVessel(at.sloshing(), twistInWater(ambient, now.state), states.data());
+  return energyOfSloshing(at.sloshing(), states.data()).kinetic;
 }
 
 StepModel::StepModel(const AmbientBody& ambient, double duration) noexcept {
@@ -261,6 +333,25 @@ void warnOfCoarseSwing(const AmbientBody& ambient, double duration,
     complaints.sayCoarseSwing(*ambient.def, swing, duration);
 }
 
+namespace {
+
+// Lets the water in the holds slosh over a step in which rows move the body.
+Vector6 sloshForRows(AmbientBody& ambient, const RigidState& now, double duration,
+                     const Vector6& x) {
+  VesselState& vessel = *ambient.vessel;
+  VesselSloshing& sloshing = vessel.sloshing;
+  const WaterAt at = waterAt(ambient, now.orientation.toRotationMatrix(), now.position);
+  sloshing.moved = sloshing.now;
+  joinVessel(at.sloshing(), x, sloshing.moved.data());
+  const Vector6 end =
+      exchangeSloshing(at.sloshing(), ambient.stand().inverse.full(),
+                       ambient.def->holds.sloshing_damping, duration, x, sloshing.moved.data());
+  vessel.before_rows = WaterLeft(at, sloshing.moved.data());
+  return end;
+}
+
+}  // namespace
+
 Vector6 kickByWavesAndWind(AmbientBody& ambient, const RigidState& now, double duration) noexcept {
   const SurfaceModel& model = *ambient.surface();
   const SurfaceStand& stand = ambient.stand();
@@ -277,6 +368,7 @@ Vector6 kickByWavesAndWind(AmbientBody& ambient, const RigidState& now, double d
     end = takeWind({model, stand, R.transpose() * wind_W, duration}, end);
     countLoads(ambient, 1);
   }
+  if (stand.inside_F) end = sloshForRows(ambient, now, duration, end);
   return end - x;
 }
 
@@ -317,7 +409,6 @@ struct Fall {
 struct Departure {
   SurfacePlace place;
   Fall fall;
-  std::optional<WaterInside> inside;  ///< at the place
 };
 
 /// One buoyancy has acted over the whole step, and the body has come to where it is another one:
@@ -365,23 +456,49 @@ Fall fallOf(const AmbientBody& ambient, const SurfacePlane& plane) {
   return fall;
 }
 
+/// A pose B to W, relative to the water where the step began, and the time since then [s].
+struct Arrival {
+  Matrix3 to_world;
+  Vector3 position_W;
+  double duration;
+};
+
+// Lets the water in the holds come to the present stand of the body, and returns the twist after
+// that.
+Vector6 arriveWithWater(AmbientBody& ambient, const Arrival& arrival, Axes axes, const Vector6& x,
+                        SymmetricMatrix& inertia) {
+  VesselState& vessel = *ambient.vessel;
+  Sloshing* const states = vessel.sloshing.moved.data();
+  const WaterAt at = waterAt(ambient, arrival.to_world, arrival.position_W);
+  Vector6 end = x;
+  if (axes == Axes::kLocked)
+    meetModes(at.sloshing(), vessel.before_rows.energy, states);
+  else
+    end = shiftWater(vessel.before_rows, at, x, inertia, states);
+  std::swap(vessel.sloshing.now, vessel.sloshing.moved);
+  vessel.sloshing_energy = energyOfSloshing(at.sloshing(), vessel.sloshing.now.data()).sum();
+  return end;
+}
+
 // Returns the twist after the passage from `before` to the present stand of the body.
-BoundedTwist passedFrom(const Departure& before, const AmbientBody& ambient, Axes axes,
-                        double duration, const Vector6& x) {
+BoundedTwist passedFrom(const Departure& before, AmbientBody& ambient, Axes axes,
+                        const Arrival& arrival, const Vector6& x) {
   const SurfaceModel& model = *ambient.surface();
   const SurfaceStand& after = ambient.stand();
-  if (axes == Axes::kLocked)
-    return scaledWithin(x, x.dot(after.inertia.full() * x), x.dot(before.place.inertia.full() * x));
   SurfacePlace place = before.place;
+  const auto withWater = [&](const Vector6& twist) {
+    if (!after.inside_F) return twist;
+    return arriveWithWater(ambient, arrival, axes, twist, place.inertia);
+  };
+  if (axes == Axes::kLocked) {
+    withWater(x);
+    return scaledWithin(x, x.dot(after.inertia.full() * x), x.dot(before.place.inertia.full() * x));
+  }
   const Matrix6 inverse = after.inverse.full();
+  const double duration = arrival.duration;
   const BoundedTwist moved = withinPotential(before.fall, fallOf(ambient), inverse, duration,
                                              ambient.floating->twist_before_rows, x);
-  const Vector6 shifted = ambient.vessel
-                              ? shiftWater({model, before.inside ? &*before.inside : nullptr,
-                                            after.inside_F, after.plane.normal},
-                                           moved.twist, place.inertia)
-                              : moved.twist;
-  BoundedTwist end = passSurface({model, place, after, duration}, shifted);
+  BoundedTwist end = passSurface({model, place, after, duration}, withWater(moved.twist));
   end.energy_removed += moved.energy_removed;
   return end;
 }
@@ -404,9 +521,7 @@ void passWithRows(AmbientBody* const* bodies, const FrameOffset* poses, int coun
   for (int i = 0; i < count; ++i) {
     AmbientBody& ambient = *bodies[i];
     departures[i] = Departure{ambient.stand(),  // since standNow()
-                              fallOf(ambient, ambient.floating->plane_before_rows),
-                              {}};
-    if (const WaterInside* const inside = ambient.stand().inside_F) departures[i]->inside = *inside;
+                              fallOf(ambient, ambient.floating->plane_before_rows)};
     if (falls) departures[i]->fall.wrench = falls[i];
     moveTo(seenFrom(movedPlane(ambient, duration), poses[i]), *ambient.floating);
   }
@@ -414,7 +529,9 @@ void passWithRows(AmbientBody* const* bodies, const FrameOffset* poses, int coun
   for (int i = 0; i < count; ++i) {
     AmbientBody& ambient = *bodies[i];
     ambient.floating->plane_W = movedPlane(ambient, duration);
-    twists[i] = passedFrom(*departures[i], ambient, axes, duration, twists[i].twist);
+    const Arrival arrival{poses[i].rotation, poses[i].translation - wayOfWater(ambient, duration),
+                          duration};
+    twists[i] = passedFrom(*departures[i], ambient, axes, arrival, twists[i].twist);
   }
 }
 

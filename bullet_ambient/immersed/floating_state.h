@@ -60,6 +60,9 @@ BodyModel modelNow(const AmbientBody& ambient, const MotionView& now);
 /// surface
 const SurfaceStand& standNow(AmbientBody& ambient, const MotionView& now) noexcept;
 
+/// Kinetic energy of the water in the holds that swings on its own, beside x.K x / 2 [J].
+double sloshingEnergyNow(const AmbientBody& ambient, const MotionView& now);
+
 /// Lets water pass through the openings of a body at a surface at the start of a step of `duration`
 /// [s]. Water that comes in was at rest in the water around: sets VesselState::change_B, which the
 /// motion of the step adds. Counts, and keeps the body from rest while water flows. Allocates

@@ -164,7 +164,7 @@ std::shared_ptr<const AttachDef> shareDef(AttachDef def, ModelTables& tables) {
   append(key, def.medium.velocity);
   append(key, def.medium.acceleration);
   append(key, def.flight.tolerance, def.flight.max_substeps);
-  append(key, def.holds.are_open, def.holds.atmosphere);
+  append(key, def.holds.are_open, def.holds.atmosphere, def.holds.sloshing_damping);
   key.insert(key.end(), def.holds.water.begin(), def.holds.water.end());
   const auto make = [&] { return std::make_shared<const AttachDef>(def); };
   const bool is_shared =

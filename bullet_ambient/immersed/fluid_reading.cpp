@@ -253,7 +253,8 @@ double kineticEnergyNow(const AmbientBody& ambient, const MotionView& now) noexc
   const Vector6 x = now.state.twist.vector();
   const Surroundings surroundings = surroundingsOf(ambient, now.gravity, {});
   const Vector6 relative = relativeTwist(now.state, surroundings, 0).vector();
-  return (x.dot((inertia - added) * x) + relative.dot(added * relative)) / 2;
+  return (x.dot((inertia - added) * x) + relative.dot(added * relative)) / 2 +
+         sloshingEnergyNow(ambient, now);
 }
 
 FluidWrench wrenchNow(const AmbientBody& ambient, const MotionView& now) noexcept {

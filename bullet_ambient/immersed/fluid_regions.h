@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bullet_ambient/force/medium/fluid_region.h"
+#include "bullet_ambient/spatial/spatial_vectors.h"
 
 namespace ambient {
 
@@ -139,6 +140,20 @@ struct RegionFluids {
   bool empty() const noexcept { return media.empty() && surfaces.empty(); }
 };
 
+/// Water in a hold of a vessel around another body that is in it, at the start of a step.
+struct HoldAround {
+  const void* vessel = nullptr;  ///< which it is; not to be followed
+  std::size_t hold = 0;
+  RegionId region = RegionId::kNone;  ///< where the vessel is
+  double size = 0;                    ///< of the vessel [m]
+  bool is_dry = true;                 ///< without water
+  bool is_awake = false;              ///< the vessel is
+  Vector3 normal_W{0, 0, 1};          ///< of the level; unit
+  double height = 0;                  ///< of the level along it [m]
+  Twist vessel_W;                     ///< motion of the vessel, about its centre of mass
+  Vector3 centre_W{0, 0, 0};          ///< that centre [m]
+};
+
 /// All regions of one Fluid. Changed between steps only; in a step any thread may read them.
 class FluidRegions {
  public:
@@ -169,7 +184,8 @@ class FluidRegions {
   /// body.
   bool mayDiffer() const noexcept { return may_differ_; }
 
-  double time = 0;           ///< sum of all steps of the world so far [s]
+  std::vector<HoldAround> in_holds;  ///< of the bodies in holds, by AmbientBody::in_hold
+  double time = 0;                   ///< sum of all steps of the world so far [s]
   bool has_changed = false;  ///< true: regions have changed, and sleeping bodies were not woken yet
 
  private:

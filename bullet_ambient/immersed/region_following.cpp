@@ -9,6 +9,7 @@
 #include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/immersed/flow_along.h"
 #include "bullet_ambient/immersed/fluid_regions.h"
+#include "bullet_ambient/immersed/vessel_step.h"
 
 namespace ambient {
 namespace {
@@ -246,11 +247,19 @@ void followRegions(AmbientBody& ambient, const MotionView& now, const FluidRegio
   const FlowStep step{regions, entry, duration, &now};
   if (!entry) return enterOwnMedium(ambient, step, around, complaints);
   RegionSample sample = sampleFor(ambient, now, *entry, regions, complaints);
-  const auto stations = sampleStations(ambient, now, regions, around, sample, complaints);
-  followFlow(ambient, step, sample);
+  const HoldAround* const hold = holdAround(ambient, regions, *entry);
+  const auto stations =
+      hold ? std::nullopt : sampleStations(ambient, now, regions, around, sample, complaints);
+  if (hold) {
+    takeHold(*hold, ambient, now, sample);
+    ambient.flow = {};
+    ambient.may_rest = ambient.may_rest && (hold->is_dry || !hold->is_awake);
+  } else {
+    followFlow(ambient, step, sample);
+  }
   if (entry->region.surface)
     checkUp(entry->id, entry->region.surface->up(), now.gravity, complaints);
-  const SurfaceSide side = findSide(ambient, step, around.is_alone, stations, sample);
+  const SurfaceSide side = findSide(ambient, step, hold || around.is_alone, stations, sample);
   const bool is_above = side == SurfaceSide::kAbove;
   changeSide(ambient.flow, is_above, is_above ? sample.bare_above : sample.bare_below);
   [[maybe_unused]] const bool is_known =

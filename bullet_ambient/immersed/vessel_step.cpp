@@ -70,6 +70,30 @@ void findRimWaves(AmbientBody& ambient, const MotionView& now,
                  });
 }
 
+const HoldAround* holdAround(const AmbientBody& ambient, const FluidRegions& regions,
+                             const FluidRegions::Entry& entry) noexcept {
+  if (ambient.in_hold < 0 || !entry.region.surface) return nullptr;
+  const HoldAround& around = regions.in_holds[static_cast<std::size_t>(ambient.in_hold)];
+  return around.region == entry.id ? &around : nullptr;
+}
+
+void takeHold(const HoldAround& around, const AmbientBody& ambient, const MotionView& now,
+              RegionSample& sample) noexcept {
+  constexpr double kFar = 100;  // sizes of vessel and body
+  const Vector3 place = now.centre();
+  const double rise = -around.normal_W.dot(now.gravity) / now.gravity.norm();
+  sample.height = !around.is_dry && rise > 0
+                      ? (around.height - around.normal_W.dot(place)) / rise
+                      : -kFar * (around.size + ambient.metric().reference_length);
+  const Vector3 velocity =
+      around.vessel_W.linear + around.vessel_W.angular.cross(place - around.centre_W);
+  for (Medium* medium : {&sample.below, &sample.above}) {
+    medium->velocity = velocity;
+    medium->acceleration.setZero();
+  }
+  sample.tilt.setZero();
+}
+
 void saySunk(AmbientBody& ambient, Complaints& complaints) noexcept {
   constexpr double kFull = 1 - 1e-9;  // of a hold
   VesselState& vessel = *ambient.vessel;

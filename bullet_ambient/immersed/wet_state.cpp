@@ -9,6 +9,7 @@
 #include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/immersed/flow_along.h"
 #include "bullet_ambient/immersed/fluid_regions.h"
+#include "bullet_ambient/immersed/vessel_step.h"
 
 namespace ambient {
 namespace {
@@ -45,6 +46,11 @@ void addTriangle(const Vector3 (&corners)[3], const SurfacePlane& plane, WetSurf
       wetShareOf({plane.depth(corners[0]), plane.depth(corners[1]), plane.depth(corners[2])});
 }
 
+Vector3 cornerOf(const Surface& surface, std::int32_t vertex) {
+  const double* v = surface.vertices.data() + 3 * static_cast<std::size_t>(vertex);
+  return {v[0], v[1], v[2]};
+}
+
 WetSurface wetSurfaceOf(const FluidBody& shape, const Immersion& immersion) {
   const SurfacePlane& plane = immersion.plane;
   const double radius = shape.sphere_radius;
@@ -52,15 +58,12 @@ WetSurface wetSurfaceOf(const FluidBody& shape, const Immersion& immersion) {
     return {std::clamp(0.5 + plane.depth(shape.centre_of_volume) / (2 * radius), 0.0, 1.0),
             immersion.draught()};
   const std::vector<std::int32_t>& triangles = shape.surface.triangles;
-  const auto corner = [&](std::int32_t vertex) {
-    const double* v = shape.surface.vertices.data() + 3 * static_cast<std::size_t>(vertex);
-    return Vector3(v[0], v[1], v[2]);
-  };
   WetSurface wet;
   double all = 0;
   for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
-    const Vector3 corners[3] = {corner(triangles[i]), corner(triangles[i + 1]),
-                                corner(triangles[i + 2])};
+    const Vector3 corners[3] = {cornerOf(shape.surface, triangles[i]),
+                                cornerOf(shape.surface, triangles[i + 1]),
+                                cornerOf(shape.surface, triangles[i + 2])};
     all += (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm() / 2;
     addTriangle(corners, plane, wet);
   }
@@ -119,13 +122,16 @@ WetState inRegion(const AmbientBody& ambient, const MotionView& now, const Regio
   if (!entry.region.surface)
     return wholly(ambient, now.state, isWetIn(entry.region.below, ambient));
   const Vector3 position = pointIn(entry.region, now.centre());
+  const HoldAround* const hold = holdAround(ambient, regions, entry);
   const PoolSides sides =
-      around.is_alone ? PoolSides{} : findSides(ambient, now, regions, entry, 0);
+      hold || around.is_alone ? PoolSides{} : findSides(ambient, now, regions, entry, 0);
   RegionCall call(regions);
   RegionSample sample = sampleRegion(entry.region, position, regions.time, ambient.def->medium);
   const int media = ambient.models->findSurface(SurfaceKind(entry.region));
   const Vector3& gravity = now.gravity;
-  if (needsStations(ambient, around)) {
+  if (hold) {
+    takeHold(*hold, ambient, now, sample);
+  } else if (needsStations(ambient, around)) {
     const StationSamples stations(ambient, now, regions, around, sample);
     stations.addMeans(&RegionSample::below, sample);
     stations.fitSurface(gravity, sample);
@@ -160,19 +166,67 @@ double lowestCorner(const VesselState& vessel, std::size_t hold, const Vector3& 
   return lowest;
 }
 
-HoldWater waterIn(const VesselState& vessel, std::size_t i, const Vector3& up_F) {
+/// Lines in which a plane cuts a closed surface, see HoldWater::outline; in F.
+std::vector<Vector3> cutAt(const Vector3& point, const Vector3& normal, const Surface& surface) {
+  std::vector<Vector3> lines;
+  for (std::size_t i = 0; i + 2 < surface.triangles.size(); i += 3) {
+    Vector3 corners[3];
+    double heights[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      corners[k] = cornerOf(surface, surface.triangles[i + k]);
+      heights[k] = normal.dot(corners[k] - point);
+    }
+    const auto crossing = [&](bool goes_down) {
+      int from = 0;
+      while ((heights[from] > 0) != goes_down || (heights[(from + 1) % 3] > 0) == goes_down) ++from;
+      const int to = (from + 1) % 3;
+      const double share = heights[from] / (heights[from] - heights[to]);
+      return Vector3(corners[from] + share * (corners[to] - corners[from]));
+    };
+    const auto above = std::count_if(heights, heights + 3, [](double h) { return h > 0; });
+    if (above == 0 || above == 3) continue;
+    lines.push_back(crossing(true));
+    lines.push_back(crossing(false));
+  }
+  return lines;
+}
+
+/// Returns the normal of the surface as the water sloshes: its slope along a mode is omega^2 q / g.
+Vector3 slopingNormal(const HoldModes& modes, const Sloshing& sloshing, const SurfacePlane& plane_F,
+                      const Matrix3& R_WF) {
+  Vector3 normal = plane_F.normal;
+  if (!(plane_F.gravity > 0)) return normal;
+  for (const SloshMode& mode : modes.modes)
+    normal -= mode.square / plane_F.gravity * mode.axis.dot(R_WF.transpose() * sloshing.way_W) *
+              mode.axis;
+  return normal.normalized();
+}
+
+/// @param plane_F normal of the level, and gravity as the water feels it
+HoldWater waterIn(const VesselState& vessel, std::size_t i, const SurfacePlane& plane_F,
+                  const Matrix3& R_WF) {
+  const Vector3& up_F = plane_F.normal;
   const Hold& hold = vessel.shape->holds[i];
   const HoldState& state = vessel.holds[i];
+  const HoldShape shape(hold);
   const HoldFill fill =
-      fillHold(HoldShape(hold), up_F, state.volume, std::numeric_limits<double>::quiet_NaN());
+      fillHold(shape, up_F, state.filled(), std::numeric_limits<double>::quiet_NaN());
   const WetVolume& wet = fill.water;
-  HoldWater water{state.volume,  hold.volume,   state.inflow,
-                  state.flooded, state.drained, wet.waterplane.area};
+  HoldWater water;
+  water.volume = state.volume;
+  water.capacity = hold.volume;
+  water.inflow = state.inflow;
+  water.flooded = state.flooded;
+  water.drained = state.drained;
+  water.area = wet.waterplane.area;
   water.freeboard = lowestCorner(vessel, i, up_F) - fill.height;
   water.centre = wet.volume > 0 ? Vector3(wet.moment / wet.volume) : hold.centre;
   water.level = wet.waterplane.area > 0
                     ? wet.waterplane.centroid
                     : Vector3(hold.centre + (fill.height - up_F.dot(hold.centre)) * up_F);
+  water.normal =
+      slopingNormal(modesOf(shape, fill, plane_F), vessel.sloshing.now[i], plane_F, R_WF);
+  if (wet.waterplane.area > 0) water.outline = cutAt(water.level, water.normal, hold.surface);
   return water;
 }
 
@@ -185,13 +239,16 @@ std::vector<HoldWater> holdsOf(const AmbientBody& ambient, const MotionView& now
   const Matrix3 R = now.rotation() * frame.rotation;
   const Vector3 origin_W = now.centre() + now.rotation() * frame.translation;
   Vector3 up(0, 0, 1);
+  double gravity = 0;
   if (ambient.surface()) {
     up = ambient.floating->plane_W.normal;
+    gravity = ambient.floating->plane_W.gravity;
   } else if (!now.gravity.isZero(0)) {
     up = -now.gravity.normalized();
   }
   for (std::size_t i = 0; i < ambient.vessel->holds.size(); ++i) {
-    HoldWater& water = all.emplace_back(waterIn(*ambient.vessel, i, R.transpose() * up));
+    HoldWater& water =
+        all.emplace_back(waterIn(*ambient.vessel, i, {R.transpose() * up, 0, 0, gravity}, R));
     const HoldState& state = ambient.vessel->holds[i];
     water.has_trapped_air = state.is_sealed;
     water.air_pressure = state.is_sealed && water.capacity > state.volume
@@ -199,7 +256,8 @@ std::vector<HoldWater> holdsOf(const AmbientBody& ambient, const MotionView& now
                              : ambient.def->holds.atmosphere;
     water.centre = origin_W + R * water.centre;
     water.level = origin_W + R * water.level;
-    water.normal = up;
+    water.normal = R * water.normal;
+    for (Vector3& point : water.outline) point = origin_W + R * point;
   }
   return all;
 }

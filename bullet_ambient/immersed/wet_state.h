@@ -37,8 +37,11 @@ struct HoldWater {
   bool has_trapped_air = false;  ///< water shuts off its air from that outside
   double air_pressure = 0;       ///< of its air [Pa]
   Vector3 centre{0, 0, 0};       ///< of the water in W [m]; of an empty hold, that of the hold
-  Vector3 level{0, 0, 0};        ///< a point of the level in W [m]
-  Vector3 normal{0, 0, 1};       ///< of the level in W, out of the water; unit
+  Vector3 level{0, 0, 0};        ///< a point of its surface in W [m]
+  Vector3 normal{0, 0, 1};       ///< of its surface in W as it sloshes, out of the water; unit
+  /// Where this surface meets the walls, in W: pairs of points, each a line that has the water on
+  /// its left seen from above; empty as `area` is zero [m].
+  std::vector<Vector3> outline;
 };
 
 /// Computes the water in the holds at the present pose.

@@ -5,15 +5,16 @@ const PATH_COLOURS = ['#1f6feb', '#d9480f', '#2b8a3e', '#9c36b5', '#c2255c', '#5
 // Pieces of the path's line between two samples.
 const PATH_PIECES = 4;
 // Bodies of this library are drawn after those of rivals, which would else cover them where they start.
-// Water is drawn after bodies, so that it tints what is below its surface.
-const OWN_FACES = 1, OWN_EDGES = 2, WATER_FACES = 3, WATER_NET = 4, JOINTS = 5;
+// Water is drawn after bodies, so that it tints what is below its surface; that in holds before the sea, which leaves them out.
+const OWN_FACES = 1, OWN_EDGES = 2, HOLD_WATER = 3, WATER_MASK = 4, WATER_FACES = 5, WATER_NET = 6, JOINTS = 7;
 const WALL_OPACITY = 0.25;
 const RIVAL_COLOURS = { vacuum: '#495057', uwrbd: '#d6336c', gwtf: '#e8590c' };
 
 class BodyView {
   // `colour`: of the path, and of the body itself if `isRival`. `inPool`: static bodies are the walls of a pool, through
-  // which one sees.
-  constructor(body, shape, colour, isRival, inPool) {
+  // which one sees. `shapes`: of all bodies and holds.
+  constructor(body, shapes, colour, isRival, inPool) {
+    const shape = shapes[body.shape];
     this.body = body;
     this.motion = new Motion(body.samples);
     this.isStatic = body.mass === 0;
@@ -33,6 +34,9 @@ class BodyView {
     this.group.add(this.solid);
     this.forces = body.forces && !isRival ? new ForceArrows(body.forces) : null;
     if (this.forces) this.group.add(this.forces.group);
+    this.holds = isRival ? [] : (body.holds || []).map(
+      (hold) => new HoldView(shapes[hold.shape], hold.samples, this.solid));
+    for (const hold of this.holds) this.group.add(hold.group);
     if (!this.isStatic) this.group.add(makePath(this.motion, colour));
   }
 
@@ -58,6 +62,11 @@ class BodyView {
     this.solid.quaternion.copy(this.motion.orientation);
     this.solid.scale.setScalar(this.isStatic ? 1 : magnification);
     if (this.forces) this.forces.moveTo(this.motion, time);
+  }
+
+  // Moves the water in the holds; see HoldView.moveTo().
+  moveHolds(time, toView, seaBelow) {
+    for (const hold of this.holds) hold.moveTo(this.motion, time, toView, seaBelow);
   }
 
   // Colours the faces; this.largest is the largest slip now [m/s].

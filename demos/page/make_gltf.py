@@ -4,6 +4,9 @@
 Metres and seconds. Each body is a node with its triangles and a material, below a root that turns the direction against
 gravity (z without gravity) into y, as glTF demands. Keys are the output steps, and as many between them as it takes that no
 body turns by more than an eighth of a turn from one to the next, because players interpolate along the shorter rotation.
+
+The water in the holds of vessels, of a run with --log holds, is a flip book: its level at up to LEVELS times, of which one is
+shown at a time and the others have the scale zero.
 """
 
 import argparse
@@ -20,12 +23,14 @@ import numpy as np
 sys.path.append(str(Path(__file__).resolve().parent.parent / "plot"))
 
 from files import reading, writing
-from page_data import read_motion
+from page_data import MOTION, read_motion
 
 LARGEST_TURN = math.pi / 4
+LEVELS = 100
 # Linear red, green, blue.
 COLOURS = ((0.013, 0.158, 0.831), (0.694, 0.065, 0.004), (0.024, 0.254, 0.056), (0.332, 0.037, 0.462), (0.807, 0.371, 0), (0.003, 0.198, 0.258))
 STATIC_COLOUR = (0.48, 0.54, 0.6)
+WATER_COLOUR = (0.03, 0.21, 0.46)
 FLOAT, UNSIGNED = 5126, 5125  # glTF's numbers of component types
 
 
@@ -98,6 +103,51 @@ def keys_of(rows):
     return np.array([key[0] for key in keys]), np.array([key[1] for key in keys]), quaternions
 
 
+def cut(points, triangles, place, normal):
+    """The lines (n, 2, 3) in which a plane cuts a closed surface."""
+    heights = (points - place) @ normal
+    lines = []
+    for triangle in triangles:
+        ends = []
+        for a, b in zip(triangle, np.roll(triangle, -1)):
+            if (heights[a] > 0) != (heights[b] > 0):
+                share = heights[a] / (heights[a] - heights[b])
+                ends.append(points[a] + share * (points[b] - points[a]))
+        if ends:
+            lines.append(ends)
+    return np.array(lines).reshape(-1, 2, 3)
+
+
+def fill(lines, normal):
+    """Triangles (n, 3, 3) of the area inside the closed outlines (n, 2, 3) in a plane: in each strip between neighbouring corners
+    every second gap between the lines that cross it."""
+    u = np.cross(normal, np.eye(3)[np.argmin(np.abs(normal))])
+    u /= np.linalg.norm(u)
+    along = lines @ u
+    lines = np.where((along[:, 0] > along[:, 1])[:, None, None], lines[:, ::-1], lines)
+    along = np.sort(along, axis=1)
+    triangles = []
+    corners = np.unique(along)
+    for left, right in zip(corners, corners[1:]):
+        crossing = (along[:, 0] <= left) & (along[:, 1] >= right)
+        span = np.ptp(along[crossing], axis=1)[:, None]
+        ends = [a + (x - along[crossing, :1]) / span * (b - a) for x in (left, right) for a, b in [(lines[crossing, 0], lines[crossing, 1])]]
+        order = np.argsort((ends[0] + ends[1]) @ np.cross(normal, u))
+        for low, high in zip(order[::2], order[1::2]):
+            a, b, c, d = ends[0][low], ends[1][low], ends[1][high], ends[0][high]
+            triangles += [(a, b, c), (a, c, d)]
+    return np.array(triangles).reshape(-1, 3, 3)
+
+
+def levels_of(hold, rows, columns):
+    """Times and levels of the water in a hold in the world: triangles (n, 3, 3), none if it is empty or full."""
+    points, triangles = np.reshape(hold["vertices"], (-1, 3)), np.reshape(hold["triangles"], (-1, 3))
+    for row in rows[:: max(1, math.ceil(len(rows) / LEVELS))]:
+        volume, place, normal = row[columns[0]], row[columns[1:4]], row[columns[4:7]]
+        in_world = np.array([row[1:4] + rotated(row[4:8], point) for point in points])
+        yield row[0], fill(cut(in_world, triangles, place, normal), normal) if volume > 0 else np.empty((0, 3, 3))
+
+
 class Buffer:
     """Arrays of numbers, and what glTF says of them."""
 
@@ -130,41 +180,65 @@ def up_to_y(gravity):
     return (q / np.linalg.norm(q)).tolist()
 
 
-def make_text(name, gravity, bodies, motion):
-    """The JSON of an asset without its buffer, and the buffer."""
-    buffer, meshes, materials, channels, samplers = Buffer(), [], [], [], []
-    nodes = [{"name": name, "rotation": up_to_y(gravity), "children": list(range(1, len(bodies) + 1))}]
+def add_motion(node, values, times, buffer, animation, interpolation="LINEAR"):
+    """Adds keys of a node: values (n, 3 or 4) by the name of what they set."""
+    time = buffer.add(times, FLOAT, "SCALAR")
+    for path, keys in values.items():
+        animation["channels"].append({"sampler": len(animation["samplers"]), "target": {"node": node, "path": path}})
+        output = buffer.add(keys, FLOAT, f"VEC{keys.shape[1]}")
+        animation["samplers"].append({"input": time, "output": output, "interpolation": interpolation})
+
+
+def add_body(body, rows, colour, buffer, text, animation):
+    points = buffer.add(np.reshape(body["vertices"], (-1, 3)), FLOAT, "VEC3", target=34962)
+    corners = buffer.add(body["triangles"], UNSIGNED, "SCALAR", target=34963)
+    primitive = {"attributes": {"POSITION": points}, "indices": corners, "material": len(text["materials"])}
+    text["materials"].append(material(body["name"], [*colour, 1]))
+    times, places, turns = keys_of(rows)
+    turns = np.roll(turns, -1, axis=1).astype("f4")  # x, y, z, w
+    turns /= np.linalg.norm(turns, axis=1, keepdims=True)
+    text["nodes"].append({"name": body["name"], "mesh": len(text["meshes"]), "translation": places[0].tolist(), "rotation": turns[0].tolist()})
+    text["meshes"].append({"name": body["name"], "primitives": [primitive]})
+    if body["mass"] > 0:
+        add_motion(len(text["nodes"]) - 1, {"translation": places, "rotation": turns}, times, buffer, animation)
+
+
+def add_water(name, levels, buffer, text, animation):
+    """Adds the flip book of the level in a hold."""
+    times = [float(time) for time, _ in levels]
+    for k, (_, triangles) in enumerate(levels):
+        if not len(triangles):
+            continue
+        points = buffer.add(triangles.reshape(-1, 3), FLOAT, "VEC3", target=34962)
+        primitive = {"attributes": {"POSITION": points}, "material": len(text["materials"])}
+        text["nodes"].append({"name": f"{name} {k}", "mesh": len(text["meshes"]), "scale": [float(k == 0)] * 3})
+        text["meshes"].append({"name": name, "primitives": [primitive]})
+        shown = range(max(k - 1, 0), min(k + 2, len(levels)))
+        scales = np.array([[float(i == k)] * 3 for i in shown])
+        add_motion(len(text["nodes"]) - 1, {"scale": scales}, [times[i] for i in shown], buffer, animation, "STEP")
+    text["materials"].append({**material(name, [*WATER_COLOUR, 0.7]), "alphaMode": "BLEND"})
+
+
+def material(name, colour):
+    return {"name": name, "pbrMetallicRoughness": {"baseColorFactor": colour, "metallicFactor": 0, "roughnessFactor": 0.6}, "doubleSided": True}
+
+
+def make_text(name, gravity, bodies, motion, more):
+    """The JSON of an asset without its buffer, and the buffer. `more`: columns of the motion as read_motion() names them."""
+    buffer, animation = Buffer(), {"name": name, "channels": [], "samplers": []}
+    text = {"asset": {"version": "2.0", "generator": "bullet_ambient"}, "scene": 0, "scenes": [{"nodes": [0]}]}
+    text.update({"nodes": [{"name": name, "rotation": up_to_y(gravity)}], "meshes": [], "materials": []})
     for index, body in enumerate(bodies):
         rows = motion[body["name"]]
-        points = buffer.add(np.reshape(body["vertices"], (-1, 3)), FLOAT, "VEC3", target=34962)
-        corners = buffer.add(body["triangles"], UNSIGNED, "SCALAR", target=34963)
-        meshes.append({"name": body["name"], "primitives": [{"attributes": {"POSITION": points}, "indices": corners, "material": index}]})
-        colour = COLOURS[index % len(COLOURS)] if body["mass"] > 0 else STATIC_COLOUR
-        surface = {"baseColorFactor": [*colour, 1], "metallicFactor": 0, "roughnessFactor": 0.6}
-        materials.append({"name": body["name"], "pbrMetallicRoughness": surface, "doubleSided": True})
-        times, places, turns = keys_of(rows)
-        turns = np.roll(turns, -1, axis=1).astype("f4")  # x, y, z, w
-        turns /= np.linalg.norm(turns, axis=1, keepdims=True)
-        nodes.append({"name": body["name"], "mesh": index, "translation": places[0].tolist(), "rotation": turns[0].tolist()})
-        if not body["mass"] > 0:
-            continue
-        time = buffer.add(times, FLOAT, "SCALAR")
-        for path, kind, values in (("translation", "VEC3", places), ("rotation", "VEC4", turns)):
-            channels.append({"sampler": len(samplers), "target": {"node": index + 1, "path": path}})
-            samplers.append({"input": time, "output": buffer.add(values, FLOAT, kind), "interpolation": "LINEAR"})
-    text = {
-        "asset": {"version": "2.0", "generator": "bullet_ambient"},
-        "scene": 0,
-        "scenes": [{"nodes": [0]}],
-        "nodes": nodes,
-        "meshes": meshes,
-        "materials": materials,
-        "accessors": buffer.accessors,
-        "bufferViews": buffer.views,
-        "buffers": [{"byteLength": len(buffer.data)}],
-    }
-    if channels:  # an animation must have a channel
-        text["animations"] = [{"name": name, "channels": channels, "samplers": samplers}]
+        add_body(body, rows, COLOURS[index % len(COLOURS)] if body["mass"] > 0 else STATIC_COLOUR, buffer, text, animation)
+        for i, hold in enumerate(body.get("holds", [])):
+            columns = [len(MOTION) + k for k, column in enumerate(more) if column.startswith(f"hold{i}_")]
+            if columns and body["mass"] > 0:
+                add_water(f"water in {body['name']}", list(levels_of(hold, rows, columns)), buffer, text, animation)
+    text["nodes"][0]["children"] = list(range(1, len(text["nodes"])))
+    text.update({"accessors": buffer.accessors, "bufferViews": buffer.views, "buffers": [{"byteLength": len(buffer.data)}]})
+    if animation["channels"]:  # an animation must have a channel
+        text["animations"] = [animation]
     return text, buffer.data
 
 
@@ -192,7 +266,7 @@ def main():
     with reading(folder, "a folder of results of ambient_demo"):
         summary = json.loads((folder / "summary.json").read_text())
         bodies = json.loads((folder / "geometry.json").read_text())["bodies"]
-        made = make_text(summary["scene"], summary["gravity"], bodies, read_motion(folder / "trajectory.csv"))
+        made = make_text(summary["scene"], summary["gravity"], bodies, *read_motion(folder / "trajectory.csv"))
     partial = file.with_name(f".{file.name}.{os.getpid()}.partial")
     with writing(file):
         partial.write_bytes(make_bytes(file, *made))

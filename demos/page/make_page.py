@@ -20,7 +20,7 @@ from sections import sections_as_html
 
 THREE = Path("/usr/share/javascript/three")
 LIBRARY = [THREE / "three.min.js", THREE / "examples/js/controls/OrbitControls.js"]
-SCRIPTS = [HERE / f"{name}.js" for name in ("motion", "slip", "body_view", "flow_arrow", "force_arrows", "water_view", "run_view", "scene_list", "player")]
+SCRIPTS = [HERE / f"{name}.js" for name in ("motion", "slip", "body_view", "flow_arrow", "force_arrows", "hold_view", "water_view", "run_view", "scene_list", "player")]
 LICENCE = "/* three.js, threejs.org, MIT licence, copyright 2010-2019 three.js authors */\n"
 
 

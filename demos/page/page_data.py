@@ -4,6 +4,7 @@ import base64
 import csv
 import json
 import math
+import re
 import sys
 from pathlib import Path
 
@@ -23,15 +24,18 @@ def encode(values, kind):
 
 
 def read_motion(file):
-    """Rows of trajectory.csv by body, of the columns MOTION and then of the forces [N], if there are any."""
+    """Rows of trajectory.csv by body, of the columns MOTION and then of those of the forces [N] and of the water in holds, if there
+    are any, whose names are the other result."""
     motion = {}
     with open(file, newline="") as stream:
         reader = csv.reader(stream)
         names = next(reader)
-        columns = MOTION + [names.index(f"{part}_f{axis}") for part in FORCES if f"{part}_fx" in names for axis in "xyz"]
+        more = [f"{part}_f{axis}" for part in FORCES if f"{part}_fx" in names for axis in "xyz"]
+        more += [name for name in names if re.fullmatch(r"hold\d+_(volume|level_[xyz]|normal_[xyz])", name)]
+        columns = MOTION + [names.index(name) for name in more]
         for row in reader:
-            motion.setdefault(row[1], []).append([float(row[i]) for i in columns])
-    return {name: np.array(rows) for name, rows in motion.items()}
+            motion.setdefault(row[1], []).append([float(row[i] or "nan") for i in columns])
+    return {name: np.array(rows) for name, rows in motion.items()}, more
 
 
 def thin_out(rows, output_step):
@@ -50,17 +54,18 @@ class Shapes:
 
     def add(self, body):
         triangles = np.reshape(body["triangles"], (-1, 3))
-        if body["sheet"]:
+        if body.get("sheet"):
             triangles = np.concatenate([triangles, triangles[:, ::-1]])
         packed = {"vertices": encode(body["vertices"], "<f4"), "triangles": encode(triangles, "<u4")}
         index = self.indices.setdefault(tuple(packed.values()), len(self.packed))
         if index == len(self.packed):
-            self.packed.append({**packed, "sheet": body["sheet"]})
+            self.packed.append({**packed, "sheet": body.get("sheet", False)})
         return index
 
 
 def pack_bodies(folder, summary, geometry, shapes):
-    motion = read_motion(folder / "trajectory.csv")
+    motion, more = read_motion(folder / "trajectory.csv")
+    forces = [len(MOTION) + i for i, name in enumerate(more) if not name.startswith("hold")]
     bodies = []
     for body in geometry["bodies"]:
         rows = motion[body["name"]]
@@ -73,8 +78,12 @@ def pack_bodies(folder, summary, geometry, shapes):
             "shape": shapes.add(body),
             "samples": encode(rows[:, : len(MOTION)], "<f4"),
         }
-        if rows.shape[1] > len(MOTION) and body["mass"] > 0:
-            packed["forces"] = {"parts": FORCES, "samples": encode(rows[:, len(MOTION) :], "<f4")}
+        if forces and body["mass"] > 0:
+            packed["forces"] = {"parts": FORCES, "samples": encode(rows[:, forces], "<f4")}
+        for i, hold in enumerate(body.get("holds", [])):
+            levels = [len(MOTION) + k for k, name in enumerate(more) if name.startswith(f"hold{i}_")]
+            if levels and body["mass"] > 0:
+                packed.setdefault("holds", []).append({"shape": shapes.add(hold), "samples": encode(rows[:, levels], "<f4")})
         bodies.append(packed)
     return bodies
 

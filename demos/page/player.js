@@ -23,7 +23,9 @@ function readData() {
     for (const bodies of [run.bodies, ...run.rivals.map((rival) => rival.bodies)]) {
       for (const body of bodies) {
         body.samples = decodeBase64(body.samples, Float32Array);
-        if (body.forces) body.forces.samples = decodeBase64(body.forces.samples, Float32Array);
+        for (const more of [...(body.forces ? [body.forces] : []), ...(body.holds || [])]) {
+          more.samples = decodeBase64(more.samples, Float32Array);
+        }
       }
     }
   }
@@ -197,9 +199,11 @@ class Player {
   numbers() {
     const moving = this.view.moving();
     if (moving.length === 0) return 'no body moves';
-    const { body, motion, largest } = this.view.followed || moving[0];
+    const { body, motion, largest, holds } = this.view.followed || moving[0];
+    const water = holds.map((hold) => `${digits(hold.volume)} m³`).join(', ');
     return `${words(body.name)}: speed ${digits(motion.velocity.length())} m/s`
-      + ` · spin ${digits(motion.spin.length())} rad/s · largest slip ${digits(largest)} m/s`;
+      + ` · spin ${digits(motion.spin.length())} rad/s · largest slip ${digits(largest)} m/s`
+      + (water ? ` · water inside ${water}` : '');
   }
 
   // Pose of a body of the shown run at the shown time, for tests: position [m], orientation x, y, z, w.

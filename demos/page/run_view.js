@@ -5,6 +5,7 @@ class RunView {
   constructor(renderer, canvas) {
     this.renderer = renderer;
     this.renderer.autoClear = false;
+    this.renderer.localClippingEnabled = true;
     this.scene = new THREE.Scene();
     this.scene.background = new THREE.Color(0xeef2f6);
     this.camera = new THREE.PerspectiveCamera(35, 1, 0.01, 1000);
@@ -38,7 +39,7 @@ class RunView {
     const makeViews = (bodies, colour) => bodies.map((body, i) => {
       const pathColour = colour || PATH_COLOURS[i % PATH_COLOURS.length];
       const inPool = Boolean(run.water && run.water.bounds);
-      const view = new BodyView(body, shapes[body.shape], pathColour, Boolean(colour), inPool);
+      const view = new BodyView(body, shapes, pathColour, Boolean(colour), inPool);
       this.world.add(view.group);
       return view;
     });
@@ -194,6 +195,8 @@ class RunView {
     const before = this.followed && this.placeOf(this.followed);
     for (const view of this.allViews()) view.moveTo(time, this.magnification);
     if (this.water) this.water.moveTo(time);
+    const seaBelow = this.water && ((place) => this.water.planeAt(place, time));
+    for (const view of this.bodies) view.moveHolds(time, this.world.quaternion, seaBelow);
     if (this.followed) {
       const step = this.placeOf(this.followed).sub(before);
       this.controls.target.add(step);

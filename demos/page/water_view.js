@@ -16,7 +16,8 @@ class WaterView {
     this.reach = this.waves.reduce((sum, wave) => sum + wave.amplitude, 0);
     const [low, high] = this.extent(box, viewed);
     this.makeGeometry(low, high, this.cells(high.clone().sub(low)));
-    const look = { transparent: true, depthWrite: false };
+    // Not where holds are.
+    const look = { transparent: true, depthWrite: false, stencilWrite: true, stencilRef: 0, stencilFunc: THREE.EqualStencilFunc };
     this.mesh = new THREE.Mesh(this.geometry, new THREE.MeshLambertMaterial(
       { ...look, vertexColors: THREE.VertexColors, side: THREE.DoubleSide, opacity: 0.55 }));
     this.net = new THREE.LineSegments(this.netGeometry, new THREE.LineBasicMaterial(
@@ -74,6 +75,13 @@ class WaterView {
       height += wave.amplitude * Math.cos(wave.wave_number * along - wave.frequency * time + wave.phase);
     }
     return height;
+  }
+
+  // The plane that touches the surface above a place; its normal points down, to what is kept below it.
+  planeAt(place, time) {
+    const at = (dx, dz) => new THREE.Vector3(place.x + dx, this.height(place.x + dx, place.z + dz, time), place.z + dz);
+    const step = 0.01 * (this.waves.length > 0 ? 1 / Math.max(...this.waves.map((wave) => wave.wave_number)) : 1);
+    return new THREE.Plane().setFromCoplanarPoints(at(0, 0), at(step, 0), at(0, step));
   }
 
   moveTo(time) {

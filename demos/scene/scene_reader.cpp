@@ -167,6 +167,7 @@ HoldSettings toHolds(const json& from) {
   HoldSettings holds;
   holds.are_open = from.value("are_open", holds.are_open);
   holds.water = from.value("water", holds.water);
+  holds.sloshing_damping = from.value("sloshing_damping", holds.sloshing_damping);
   return holds;
 }
 

@@ -6,14 +6,21 @@
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "demos/simulation/robots/robots_in_world.h"
 #include "preprocess/builder/fluid_body_builder.h"
+#include "preprocess/mesh/holds/vessel.h"
 #include "preprocess/shape/shape_mesh.h"
 
 namespace ambient {
 namespace {
 
+// Triangles of a body in F, of a vessel those of its walls.
+Surface surfaceAsSeen(const FluidBody& body) {
+  if (body.holds.empty()) return body.surface;
+  return surfaceOf(wallsOf(meshOf(body.surface), body.holds));
+}
+
 Surface readOrMakeSurface(const ShapeDescription& shape, SceneBodyCache& fluid_bodies) {
   if (const auto* from_file = std::get_if<FluidBodyFile>(&shape.geometry))
-    return readFluidBody(from_file->file).surface;
+    return surfaceAsSeen(readFluidBody(from_file->file));
   const CheckedMesh checked = makeShapeMesh(shape);
   fluid_bodies.warn(checked.warnings);
   return surfaceOf(checked.mesh);
@@ -32,7 +39,7 @@ PreparedBody prepareDynamic(const BodyDef& def, std::shared_ptr<const FluidBody>
   // A fluid body's own frame is its shape's frame if nothing else is known of the shape.
   if (!std::holds_alternative<FluidBodyFile>(def.shape.geometry))
     body.fluid_origin = body.fluid_body->origin;
-  body.surface = moved(body.fluid_body->surface, body.fluid_origin);
+  body.surface = moved(surfaceAsSeen(*body.fluid_body), body.fluid_origin);
   const MassDistribution& per_mass = def.mass_kind == MassKind::kSurface
                                          ? body.fluid_body->surface_mass
                                          : body.fluid_body->uniform_mass;

@@ -16,22 +16,20 @@ namespace ambient {
 struct FluidLog {
   bool wrench = false;  ///< wrenches by part in the step that ends at the row's time, or after it
   bool wet = false;     ///< what is wet of the body after that step
+  bool holds = false;   ///< the water in its holds then
 
-  bool isEmpty() const { return !wrench && !wet; }
+  bool isEmpty() const { return !wrench && !wet && !holds; }
 };
 
 /// Text of a number with 17 significant digits.
 std::string digits17(double value);
 
-/// Reads "wrench", "wet" or "wrench,wet".
+/// Reads words of "wrench", "wet", "holds" with commas between them.
 /// @throws std::invalid_argument naming a word that is none of these.
 FluidLog parseFluidLog(const std::string& words);
 
-/// Names of the columns, each after a comma.
-std::string fluidLogHeader(const FluidLog& log);
-
-/// Values of one body now, each after a comma; 17 significant digits.
-std::string fluidLogRow(const FluidLog& log, const Simulation& simulation, std::size_t body);
+/// Names of the columns, each after a comma; for as many holds as the body with most of them has.
+std::string fluidLogHeader(const FluidLog& log, const std::vector<PreparedBody>& bodies);
 
 /// Results of a run.
 struct RunRecord {

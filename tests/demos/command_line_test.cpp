@@ -105,7 +105,7 @@ TEST(AmbientDemo, LogsWhatTheFluidDoes) {
 TEST(AmbientDemo, RefusesToLogWhatThereIsNot) {
   const ProgramResult result = demo({"sphere_fall", "--log", "wrench,colour"});
   EXPECT_NE(result.exit_code, 0);
-  EXPECT_EQ(result.errors, "ambient_demo: --log: \"colour\" is none of wrench, wet\n");
+  EXPECT_EQ(result.errors, "ambient_demo: --log: \"colour\" is none of wrench, wet, holds\n");
 }
 
 TEST(AmbientDemo, TheSameSceneGivesTheSameBytes) {

@@ -53,12 +53,15 @@ class FloatingRun {
   Vector3 velocity_above = Vector3::Zero();
   FlightSettings settings;
   std::vector<HoldState> water;  ///< in the holds of the body
+  mutable VesselSloshing sloshing;
+  double sloshing_damping = 0.03;
 
   const SurfaceModel& model() const { return model_; }
   Surroundings& surroundings() { return surroundings_; }
   double mass() const { return mass_; }
 
   void step(double duration) {
+    if (sloshing.now.size() != water.size()) sloshing.resize(water.size());
     SurfaceStand stand = this->stand();
     FlightResult body{state, memory, {}};
     SurfaceFlight flight{
@@ -95,16 +98,30 @@ class FloatingRun {
     const SurfaceStand at = stand();
     const Vector6 x = state.twist.vector();
     return 0.5 * x.dot(at.inertia.full() * x) - mass_ * gravity_.dot(state.position) +
-           hydrostaticEnergy(wetVolume(model_, at), at.plane) + waves.energy();
+           hydrostaticEnergy(wetVolume(model_, at), at.plane) + waves.energy() +
+           energyOfWater(at).sum();
+  }
+  /// Energy of the water in the holds as it sloshes [J].
+  SloshingEnergy energyOfWater(const SurfaceStand& at) const {
+    if (!at.inside_F) return {};
+    const WaterAt here{model_, at, state.orientation.toRotationMatrix(), state.position};
+    std::vector<Sloshing> states = sloshing.now;
+    states.resize(water.size());
+    joinVessel(here.sloshing(), state.twist.vector(), states.data());
+    return energyOfSloshing(here.sloshing(), states.data());
   }
 
  private:
   VesselWater inside() const {
     if (water.empty()) return {};
-    return {water.data(), &inside_.emplace_back()};
+    modes_.emplace_back(water.size());
+    return {water.data(), &inside_.emplace_back(), modes_.back().data(), &sloshing,
+            sloshing_damping};
   }
 
-  mutable std::deque<WaterInside> inside_;  // one of each stand that was given away
+  // One of each stand that was given away.
+  mutable std::deque<WaterInside> inside_;
+  mutable std::deque<std::vector<HoldModes>> modes_;
 
   Vector3 gravity_;
   double mass_ = 0;

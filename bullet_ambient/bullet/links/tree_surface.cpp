@@ -222,7 +222,7 @@ double energyOfPlace(const AmbientTree& tree, const Vector3& origin_W, const OfW
 double energyOfWater(const AmbientBody& ambient, int) {
   const SurfaceStand& stand = ambient.stand();
   return hydrostaticEnergy(wetVolume(*ambient.surface(), stand), stand.plane) +
-         ambient.floating->waves.energy();
+         ambient.floating->waves.energy() + (ambient.vessel ? ambient.vessel->sloshing_energy : 0);
 }
 
 // Returns the largest change of the energy by rounding of Bullet's poses [J].
@@ -284,7 +284,8 @@ bool hasGainedEnergy(const AmbientTree& tree, double since_start) noexcept {
       tree, originAfter(tree, since_start), [&](const AmbientBody& ambient, int link) {
         const FrameOffset pose{dynamics.rotation(link), dynamics.position(link)};
         return hydrostaticEnergyAt(ambient, pose, surface.time) +
-               ambient.floating->waves_with_rows.energy();
+               ambient.floating->waves_with_rows.energy() +
+               (ambient.vessel ? ambient.vessel->before_rows.energy : 0);
       });
   return place > surface.energy + surface.rounding;
 }

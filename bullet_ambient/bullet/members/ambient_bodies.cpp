@@ -206,6 +206,7 @@ AmbientBody& AmbientBodies::insert(AmbientBody ambient) {
   added.instance = instanceNumber(*added.body);
   by_object_.reserveOne();
   takePlace(added, find(added.body));
+  has_vessels = has_vessels || added.vessel;
   erase(*added.body);  // or what is left of one that was destroyed at this address
   by_object_.insert(added.body, last.begin());
   bodies_.splice(bodies_.end(), last);

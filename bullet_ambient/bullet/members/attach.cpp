@@ -61,6 +61,10 @@ void checkHolds(const std::string& who, const AttachDef& def) {
     throw std::invalid_argument(who + " has air at the surface of " +
                                 std::to_string(def.holds.atmosphere) +
                                 " Pa, which must be positive and finite");
+  if (!(def.holds.sloshing_damping >= 0) || !std::isfinite(def.holds.sloshing_damping))
+    throw std::invalid_argument(who + " has a damping of sloshing of " +
+                                std::to_string(def.holds.sloshing_damping) +
+                                ", which must be zero or positive and finite");
   if (water.empty()) return;
   if (water.size() != holds.size())
     throw std::invalid_argument(who + " has water for " + std::to_string(water.size()) +
@@ -88,6 +92,7 @@ void checkDef(const std::string& who, const AttachDef& def) {
 void refresh(AmbientBody& ambient, const InverseMass& mass, const MotionView& now,
              AmbientBodies& bodies) {
   refreshModels(ambient, mass, bodies.regions, bodies.load_tables);
+  bodies.has_vessels = bodies.has_vessels || ambient.vessel;
   if (mayBeInRegion(ambient, bodies.regions)) {
     followRegions(ambient, now, bodies.regions, 0, bodies.complaints);
   } else {

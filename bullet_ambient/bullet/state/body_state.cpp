@@ -269,12 +269,14 @@ AmbientState saveAmbient(const AmbientBody& ambient, const InverseMass& mass) {
                      {},
                      {},
                      {},
+                     {},
                      flight.left_W,
                      ambient.counters};
   if (ambient.vessel) {
     state.has_met_water = ambient.vessel->is_known;
     state.has_sunk = ambient.vessel->has_sunk;
     state.holds = ambient.vessel->holds;
+    state.sloshing = ambient.vessel->sloshing.now;
     state.is_shut = ambient.vessel->changes.is_shut;
     state.holes = ambient.vessel->changes.holes;
   }
@@ -300,7 +302,7 @@ namespace {
 // Gives a body the water in its holds.
 void fillHolds(const AmbientState& saved, AmbientBody& ambient) {
   const std::vector<Hold>& holds = ambient.def->fluid_body->holds;
-  bool fits = saved.holds.size() == holds.size();
+  bool fits = saved.holds.size() == holds.size() && saved.sloshing.size() == holds.size();
   std::size_t openings = saved.holes.size();
   for (std::size_t i = 0; i < holds.size() && fits; ++i) {
     fits = saved.holds[i].volume <= holds[i].volume;
@@ -342,6 +344,7 @@ AmbientBody makeAmbient(const AmbientState& saved, const InverseMass& mass,
   flight.left_W = saved.left_W;
   if (ambient.floating && ambient.place.is_at_surface) {
     ambient.floating->waves = saved.waves;
+    if (ambient.vessel) ambient.vessel->sloshing.now = saved.sloshing;
     if (saved.met_B) ambient.floating->setPlane(*saved.met_B);
   }
   if (ambient.wake) *ambient.wake = saved.wake;

@@ -67,7 +67,7 @@ MultiBodySleep sleepOf(btMultiBody& body) noexcept;
 // All stored fields, listed once for all operations: write, read, check, copy from Bullet and back
 // to Bullet. Their order is that of the bytes. To add a field, add it to the structure and here,
 // and raise the version.
-constexpr std::uint32_t kStateVersion = 17;
+constexpr std::uint32_t kStateVersion = 18;
 
 /// Condition that each number of a field must meet, and the words of the message if one does not.
 /// The message begins with the name of the object; the value follows if the words end with a blank.
@@ -139,7 +139,7 @@ void fields(V& v, AttachDef& s) {
   v.choice(s.flow.precision, kLoadPrecisionNames);
   each(v, kAny, s.flow.maximum_load_error);
   each(v, kAny, s.flight.tolerance, s.flight.max_substeps, s.fluid_frame.rotation,
-       s.fluid_frame.translation, s.holds.are_open, s.holds.atmosphere);
+       s.fluid_frame.translation, s.holds.are_open, s.holds.atmosphere, s.holds.sloshing_damping);
 }
 
 template <class V>
@@ -188,6 +188,13 @@ void fields(V& v, HoldState& s) {
 }
 
 template <class V>
+void fields(V& v, Sloshing& s) {
+  each(v, kAny, s.is_known);
+  each(v, finite("hold has water that sloshes without a finite way and velocity"), s.way_W,
+       s.velocity_W);
+}
+
+template <class V>
 void fields(V& v, AddedHole& s) {
   each(v, kAny, s.hold);
   v(s.area, finiteNotNegative("hold has a hole whose area is negative or not finite: "));
@@ -222,6 +229,7 @@ void fields(V& v, AmbientState& s) {
   each(v, kAny, s.wake.velocity_W.angular, s.wake.velocity_W.linear, s.wake.has_begun);
   each(v, kAny, s.has_met_water, s.has_sunk);
   v.list(s.holds, kNoName);
+  v.list(s.sloshing, kNoName);
   v.list(s.is_shut, kNoName);
   v.list(s.holes, kNoName);
   each(v, kAny, s.left_W.angular, s.left_W.linear);

@@ -35,6 +35,7 @@ struct AmbientState {
   bool has_met_water = false;         ///< VesselState::is_known
   bool has_sunk = false;              ///< VesselState::has_sunk
   std::vector<HoldState> holds;       ///< as in FluidBody::holds
+  std::vector<Sloshing> sloshing;     ///< VesselSloshing::now
   std::vector<std::uint8_t> is_shut;  ///< OpeningChanges::is_shut
   std::vector<AddedHole> holes;       ///< OpeningChanges::holes
   Twist left_W;

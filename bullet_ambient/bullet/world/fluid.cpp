@@ -9,6 +9,7 @@
 #include "bullet_ambient/bullet/connection/world_connection.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/bullet/members/attach.h"
+#include "bullet_ambient/bullet/members/bodies_in_holds.h"
 #include "bullet_ambient/bullet/world/fluid_action.h"
 #include "bullet_ambient/immersed/region_following.h"
 #include "bullet_ambient/saved_state.h"
@@ -169,7 +170,9 @@ bool Fluid::removeRegion(RegionId id) {
 WorldState Fluid::save() const { return saveState(connection_->world("save"), *members_); }
 
 void Fluid::restore(const WorldState& state) {
-  restoreState(state, connection_->world("restore"), *members_);
+  btDynamicsWorld& world = connection_->world("restore");
+  restoreState(state, world, *members_);
+  if (members_->has_vessels) findBodiesInHolds(world, *members_);
 }
 
 double Fluid::time() const { return members_->regions.time; }

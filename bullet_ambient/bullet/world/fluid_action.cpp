@@ -11,6 +11,7 @@
 #include "bullet_ambient/bullet/links/tree_step.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/bullet/members/attach.h"
+#include "bullet_ambient/bullet/members/bodies_in_holds.h"
 #include "bullet_ambient/bullet/members/flight_coupling.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
 #include "bullet_ambient/bullet/rows/row_motion.h"
@@ -191,6 +192,7 @@ void FluidAction::updateAction(btCollisionWorld* world, btScalar time_step) {
     bodies_.complaints.say(Complaint::kDuration);
     forgetBrokenImpulses(*world);
   }
+  if (bodies_.has_vessels) findBodiesInHolds(*world, bodies_);
   if (std::exchange(bodies_.regions.has_changed, false)) wakeFollowers(*world, bodies_);
   wakeReloaded(*world, bodies_);
   if (isSolverMissing(*world)) {

@@ -10,6 +10,7 @@
 #include "bullet_ambient/immersed/ambient_body.h"
 #include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/immersed/fluid_reading.h"
+#include "bullet_ambient/immersed/wet_state.h"
 
 AMBIENT_BEGIN
 namespace {
@@ -80,13 +81,35 @@ void drawReading(const FluidReading& reading, const Vector3& place, double lengt
   draw(wrench.added_mass, fluid_colours::kAddedMass);
 }
 
+// Each edge of the holds' triangles once, and the levels of their water.
+void drawHolds(const AmbientBody& ambient, const MotionView& now, const Arrows& arrows,
+               btIDebugDraw& drawer) {
+  if (!ambient.vessel) return;
+  const FrameOffset& frame = ambient.def->fluid_frame;
+  for (const Hold& hold : ambient.vessel->shape->holds) {
+    const auto corner = [&](std::int32_t vertex) {
+      const double* v = hold.surface.vertices.data() + 3 * static_cast<std::size_t>(vertex);
+      return Vector3(frame.rotation * Vector3(v[0], v[1], v[2]) + frame.translation);
+    };
+    const std::vector<std::int32_t>& triangles = hold.surface.triangles;
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      const std::int32_t a = triangles[i], b = triangles[i % 3 == 2 ? i - 2 : i + 1];
+      if (a < b) arrows.draw(corner(a), corner(b) - corner(a), fluid_colours::kHolds);
+    }
+  }
+  for (const HoldWater& water : holdsOf(ambient, now))
+    for (std::size_t i = 0; i + 1 < water.outline.size(); i += 2)
+      drawer.drawLine(toBullet(water.outline[i]), toBullet(water.outline[i + 1]),
+                      fluid_colours::kWater);
+}
+
 }  // namespace
 
 FluidDrawing FluidDrawing::all() {
   FluidDrawing all;
   all.separation = all.slip_velocity = all.pressure = all.friction = true;
-  all.buoyancy = all.total_wrench = all.centre_of_volume = all.water_surface = all.read_forces =
-      true;
+  all.buoyancy = all.total_wrench = all.centre_of_volume = all.water_surface = all.holds =
+      all.read_forces = true;
   return all;
 }
 
@@ -130,6 +153,7 @@ void drawFluid(const AmbientBody& ambient, const MotionView& now, const FluidDra
   Twist relative = state.twist;
   relative.linear -= to_body * s.ambient_velocity;
   if (what.drawsFaces()) drawFaces(ambient, relative, what, arrows);
+  if (what.holds) drawHolds(ambient, now, arrows, drawer);
 
   const Vector3& centre = model.centre_of_volume;
   const Wrench lift =

@@ -238,6 +238,7 @@ void Immersed::setWater(int hold, double volume) const {
              ambient.vessel->shape->holds[static_cast<std::size_t>(hold)].volume);
   state.volume = volume;
   state.is_sealed = false;
+  ambient.vessel->sloshing.now[static_cast<std::size_t>(hold)] = {};
   ambient.vessel->is_known = true;
   if (ambient.floating) ambient.floating->is_valid = false;
   wake(*held.member);

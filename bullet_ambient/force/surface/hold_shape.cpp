@@ -4,8 +4,6 @@
 #include <cmath>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/base/elementary.h"
-#include "bullet_ambient/spatial/inertia.h"
 
 namespace ambient {
 
@@ -40,13 +38,6 @@ HoldFill fillHold(const HoldShape& shape, const Vector3& normal, double volume,
   if (fill.water.volume > 0) fill.water.moment *= volume / fill.water.volume;
   fill.water.volume = volume;
   return fill;
-}
-
-Matrix6 carriedInertia(const HoldShape& shape, const WetVolume& water) noexcept {
-  if (!(water.volume > 0)) return Matrix6::Zero();
-  const double share = water.volume / shape.capacity(), root = portable::cbrt(share);
-  const Matrix3 turning = share * root * root * shape.turningInertia();
-  return shiftOrigin(rigidBodyInertia(water.volume, turning), -water.moment / water.volume);
 }
 
 WetVolume withWaterInside(WetVolume wet, const SurfacePlane& plane, const HoldFill& fill) noexcept {

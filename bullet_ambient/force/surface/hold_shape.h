@@ -40,11 +40,6 @@ struct HoldFill {
 HoldFill fillHold(const HoldShape& shape, const Vector3& normal, double volume,
                   double guess) noexcept;
 
-/// Inertia of the water in a hold as it moves with the body, per unit density, about F's origin.
-/// Its turning part is Hold::turning_inertia times the filled share to the power of 5/3, as of a
-/// smaller hold of the same shape; docs/theory.md eq. (141).
-Matrix6 carriedInertia(const HoldShape& shape, const WetVolume& water) noexcept;
-
 /// Takes what stands in a hold off the wet part of a closed vessel, docs/theory.md eq. (135).
 /// Volume, moment and depth integral become those of both; the waterplane remains that outside.
 /// @param wet of the closed vessel below the plane; in the frame of both planes

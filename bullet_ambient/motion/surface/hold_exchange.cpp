@@ -19,10 +19,10 @@ WaterSide sideOf(const HoldShape& shape, const HoldState& state, double level, d
                  const Vector3& normal) {
   const auto [low, high] = computeExtent(shape.hull(), normal);
   const double end = std::clamp(towards, low, high), head = end - level;
-  const double change = computeWetVolume(shape.hull(), {normal, end, 0, 0}).volume - state.volume;
+  const double change = computeWetVolume(shape.hull(), {normal, end, 0, 0}).volume - state.filled();
   const double area = head * change > 0 ? change / head : 1;  // else nothing flows
   return {level, area, std::min(state.volume, std::max(0.0, -change)),
-          std::min(shape.capacity() - state.volume, std::max(0.0, change))};
+          std::min(shape.capacity() - state.filled(), std::max(0.0, change))};
 }
 
 /// The sea at an opening.
@@ -131,7 +131,7 @@ bool areDryAndClear(const HoldShapes& holds, const SurfacePlane& plane_F, const 
 
 /// Lets the pump of a hold run. Sealed air is pressed together to a half in a step at most.
 void runPump(const HoldShape& shape, double duration, HoldState& state) {
-  const double room = std::max(0.0, shape.capacity() - state.volume);
+  const double room = std::max(0.0, shape.capacity() - state.filled());
   state.inflow = std::clamp(duration * state.pump, -state.volume,
                             state.is_sealed && state.air > 0 ? room / 2 : room);
   state.change = -state.volume;
@@ -173,7 +173,7 @@ Matrix6 exchangeWater(const HoldShapes& holds, const SurfacePlane& plane_F, cons
     const HoldFill fill = fillHold(holds.shapes[i], plane_F.normal, states[i].volume,
                                    std::numeric_limits<double>::quiet_NaN());
     come += std::min(1.0, states[i].inflow / states[i].volume) *
-            carriedInertia(holds.shapes[i], fill.water);
+            carriedInertia(fill.water, modesOf(holds.shapes[i], fill, plane_F));
   }
   return come;
 }

@@ -14,7 +14,25 @@ constexpr double kNoGuess = std::numeric_limits<double>::quiet_NaN();
 constexpr double kRounding = 1e-12;  // of a hold, that of fillHold()
 
 HoldFill levelIn(const HoldShape& shape, const HoldState& state, const SurfacePlane& plane_F) {
-  return fillHold(shape, plane_F.normal, state.volume, kNoGuess);
+  return fillHold(shape, plane_F.normal, state.filled(), kNoGuess);
+}
+
+/// Returns the modes of the water alone, in a hold where other bodies float, too.
+HoldModes modesOfWater(const HoldState& state, HoldModes modes) {
+  if (!(state.displaced > 0)) return modes;
+  const double share = state.volume / state.filled();
+  modes.turning *= share;
+  for (SloshMode& mode : modes.modes) mode.volume *= share;
+  return modes;
+}
+
+/// Returns the inertia of the water alone. `below`: the level, with what floats there.
+Matrix6 inertiaOfWater(const HoldState& state, WetVolume below, const HoldModes& modes) {
+  if (state.displaced > 0) {
+    below.moment *= state.volume / below.volume;
+    below.volume = state.volume;
+  }
+  return carriedInertia(below, modes);
 }
 
 }  // namespace
@@ -34,16 +52,27 @@ void OpeningChanges::add(const AddedHole& hole) {
   is_shut.push_back(0);
 }
 
+void VesselSloshing::resize(std::size_t count) {
+  now.assign(count, {});
+  moved.assign(count, {});
+  modes.assign(count, {});
+  later.assign(count, {});
+}
+
 WaterInside waterInside(const HoldShapes& holds, const HoldState* states,
-                        const SurfacePlane& plane_F) noexcept {
+                        const SurfacePlane& plane_F, HoldModes* modes) noexcept {
   WaterInside all;
+  all.modes = modes;
   Matrix6 inertia = Matrix6::Zero();
   for (std::size_t i = 0; i < holds.shapes.size(); ++i) {
+    if (modes) modes[i].modes[0].volume = modes[i].modes[1].volume = 0;
     if (!(states[i].volume > 0)) continue;
     const HoldFill fill = levelIn(holds.shapes[i], states[i], plane_F);
+    const HoldModes found = modesOfWater(states[i], modesOf(holds.shapes[i], fill, plane_F));
+    if (modes) modes[i] = found;
     all.below = withWaterInside(all.below, plane_F, fill);
     all.spread += fill.water.waterplane.spread;
-    inertia += carriedInertia(holds.shapes[i], fill.water);
+    inertia += inertiaOfWater(states[i], fill.water, found);
     all.is_any = true;
   }
   if (all.is_any) all.inertia = SymmetricMatrix(inertia);
@@ -76,8 +105,28 @@ void fillCoveredHolds(const HoldShapes& holds, const OpeningChanges* changes,
   }
 }
 
+void mixSloshing(const HoldState* states, const HoldModes* before, const SloshingAt& after,
+                 const Vector6& x, Sloshing* sloshing) noexcept {
+  const auto volumeOf = [](const HoldModes& of) { return of.modes[0].volume + of.modes[1].volume; };
+  for (std::size_t i = 0; i < after.count; ++i) {
+    const double was = volumeOf(before[i]), is = volumeOf(after.modes[i]);
+    if (!(is > was)) continue;
+    const HoldState& state = states[i];
+    const double kept = was / is;
+    const double from_sea =
+        state.change > 0 ? std::clamp(state.inflow / state.change, 0.0, 1.0) : 0;
+    Sloshing joined;
+    joinVessel({after.fluid_frame, after.density, after.modes + i, 1, after.to_world}, x, &joined);
+    sloshing[i].way_W *= kept;
+    sloshing[i].velocity_W =
+        kept * sloshing[i].velocity_W + (1 - kept) * (1 - from_sea) * joined.velocity_W;
+    sloshing[i].is_known = true;
+  }
+}
+
 double levelOf(const HoldShape& shape, const Vector3& normal, HoldState& state) noexcept {
-  if (std::isnan(state.level)) state.level = fillHold(shape, normal, state.volume, kNoGuess).height;
+  if (std::isnan(state.level))
+    state.level = fillHold(shape, normal, state.filled(), kNoGuess).height;
   return state.level;
 }
 

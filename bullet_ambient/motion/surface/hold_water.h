@@ -7,6 +7,7 @@
 
 #include "bullet_ambient/force/surface/hold_flow.h"
 #include "bullet_ambient/force/surface/hold_shape.h"
+#include "bullet_ambient/motion/surface/sloshing.h"
 #include "bullet_ambient/motion/surface/symmetric_matrix.h"
 
 namespace ambient {
@@ -61,6 +62,7 @@ void forEachOpening(const HoldShapes& holds, const OpeningChanges* changes,
 /// Water in one hold of a body, from step to step.
 struct HoldState {
   double volume = 0;                ///< [m^3]
+  double displaced = 0;             ///< by other bodies in it [m^3]
   double change = 0;                ///< of the volume in the last step [m^3]
   double inflow = 0;                ///< the part of it from outside; negative: out [m^3]
   double pump = 0;                  ///< from outside by a pump; negative: out [m^3/s]
@@ -71,6 +73,9 @@ struct HoldState {
   /// number of the first hold with the same sealed air, -1: that outside.
   double level = std::numeric_limits<double>::quiet_NaN();
   int air_group = -1;
+
+  /// Volume below its level: of water and of what floats in it [m^3].
+  double filled() const { return volume + displaced; }
 };
 
 /// Air around the holds and a duration in which water flows.
@@ -88,7 +93,9 @@ struct WaterInside {
   /// Terms of V, S and W in docs/theory.md eq. (135): volume and moment are negative.
   WetVolume below;
   Matrix3 spread = Matrix3::Zero();  ///< sum of Waterplane::spread of its levels [m^4]
-  SymmetricMatrix inertia;           ///< of the water, per unit density, about F's origin
+  /// Of the water less that of its modes of sloshing, per unit density, about F's origin.
+  SymmetricMatrix inertia;
+  const HoldModes* modes = nullptr;  ///< of each hold; null: not kept
 
   /// Returns the wet part of the closed vessel less the water; the waterplane is that outside.
   WetVolume with(WetVolume vessel) const noexcept {
@@ -99,11 +106,24 @@ struct WaterInside {
   }
 };
 
-/// States of the holds of a body, and where what follows from them at a place is kept as long as
-/// the place. Null: without holds.
+/// Sloshing in the holds of a body, one of each.
+struct VesselSloshing {
+  std::vector<Sloshing> now;            ///< from step to step
+  std::vector<Sloshing> moved;          ///< in a step
+  std::vector<HoldModes> modes, later;  ///< at the stand of the body; where a step comes to
+
+  /// For a number of holds.
+  void resize(std::size_t count);
+};
+
+/// Water in the holds of a body, and where what follows from it at a place is kept as long as the
+/// place. Null: without holds.
 struct VesselWater {
   const HoldState* states = nullptr;
   WaterInside* inside = nullptr;
+  HoldModes* modes = nullptr;          ///< of each hold; null: not kept
+  VesselSloshing* sloshing = nullptr;  ///< @pre not null in flights
+  double damping = 0.03;               ///< HoldSettings::sloshing_damping
 };
 
 /// Finds the levels of the water in the holds and sums over it. Cost: four to six clips of each
@@ -111,8 +131,9 @@ struct VesselWater {
 /// @param holds of the body
 /// @param states one of each hold
 /// @param plane_F of the water outside
+/// @param modes where those of each hold are kept; null: nowhere
 WaterInside waterInside(const HoldShapes& holds, const HoldState* states,
-                        const SurfacePlane& plane_F) noexcept;
+                        const SurfacePlane& plane_F, HoldModes* modes = nullptr) noexcept;
 
 /// Tells if all holds are full of water.
 bool areFull(const HoldShapes& holds, const HoldState* states) noexcept;
@@ -122,6 +143,13 @@ bool areEmpty(const HoldShapes& holds, const HoldState* states) noexcept;
 /// Fills the holds that have openings and are all below a plane, and empties the others.
 void fillCoveredHolds(const HoldShapes& holds, const OpeningChanges* changes,
                       const SurfacePlane& plane_F, HoldState* states) noexcept;
+
+/// Mixes the sloshing in holds with that of water that has passed: what has come from outside was
+/// at rest there, other water moves with the vessel.
+/// @param before,after modes before and after water has passed
+/// @param x twist of the vessel in B, relative to the water around
+void mixSloshing(const HoldState* states, const HoldModes* before, const SloshingAt& after,
+                 const Vector6& x, Sloshing* sloshing) noexcept;
 
 /// Returns the height of the level in a hold along a normal in F; keeps it in the state.
 double levelOf(const HoldShape& shape, const Vector3& normal, HoldState& state) noexcept;

@@ -25,7 +25,7 @@ struct Holds {
   const HoldShape& shape(int hold) const { return holds.shapes[static_cast<std::size_t>(hold)]; }
   double level(int hold) const { return levelOf(shape(hold), plane_F.normal, states[hold]); }
   double room(int hold) const {
-    return std::max(0.0, shape(hold).capacity() - states[hold].volume);
+    return std::max(0.0, shape(hold).capacity() - states[hold].filled());
   }
   Outside outside() const { return {passage.atmosphere, plane_F.density * plane_F.gravity}; }
   double height(const Vector3& place) const { return plane_F.normal.dot(place); }
@@ -131,7 +131,7 @@ void bound(const Holds& h, int hold, SealedAir& air) {
     const Outside outside = h.outside();
     const SurfacePlane covering{h.plane_F.normal, top, 0, 0};
     const double gain =
-        computeWetVolume(h.shape(hold).hull(), covering).volume - h.states[hold].volume;
+        computeWetVolume(h.shape(hold).hull(), covering).volume - h.states[hold].filled();
     air.most = outside.atmosphere + outside.weight * (sea - top);
     air.kept = std::max(0.0, air.volume - gain);
   }
@@ -211,7 +211,7 @@ class SealedOpening {
     if (lower.hold < 0) return;
     const SurfacePlane covering{up_.normal, top, 0, 0};
     bubbled_ = std::max(0.0, computeWetVolume(h_.shape(lower.hold).hull(), covering).volume -
-                                 h_.states[lower.hold].volume);
+                                 h_.states[lower.hold].filled());
     if (lower.group < 0 || upper.hold < 0) return;
     // The air that rises has the volume of the water that comes down.
     lower.air.most = std::min(lower.air.most, lower.air.product / lower.air.volume);
@@ -245,7 +245,7 @@ class SealedOpening {
  private:
   double levelAfter(const Side& side, double taken) const {
     if (side.hold < 0 || taken == 0) return side.level;
-    const double volume = std::max(0.0, h_.states[side.hold].volume + taken);
+    const double volume = std::max(0.0, h_.states[side.hold].filled() + taken);
     return fillHold(h_.shape(side.hold), up_.normal, volume, side.level).height;
   }
 

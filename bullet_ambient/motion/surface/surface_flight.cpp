@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
@@ -24,23 +24,27 @@ struct Progress {
   RigidState start;
   Vector3 wind_W;
   FlightCount count;
-  int most = 0;                       ///< largest number of substeps
-  int substeps = 0;                   ///< number of substeps of this attempt
-  int made = 0;                       ///< number of them that are made
-  bool is_done = false;               ///< an attempt was accepted
-  bool has_load = false;              ///< flight.load_W holds a load
-  Growth growth;                      ///< of the resistance with it
-  bool has_gained = false;            ///< more energy of place than it had in all
-  double rounding = 0;                ///< energy at the start less that at the stand [J]
-  double swing = 0;                   ///< the largest natural frequency that was met [1/s]
-  double energy = 0;                  ///< at the start of the step [J]
-  double energy_removed = 0;          ///< by the bound of the energy [J]
-  double error = 0;                   ///< the largest of the substeps, eq. (25) and (68b)
-  SurfacePlace later;                 ///< where a substep has come to
-  std::optional<WaterInside> inside;  ///< there
-  SurfacePlace* place = nullptr;      ///< that of now: that of the stand at the start, or `later`
+  int most = 0;                   ///< largest number of substeps
+  int substeps = 0;               ///< number of substeps of this attempt
+  int made = 0;                   ///< number of them that are made
+  bool is_done = false;           ///< an attempt was accepted
+  bool has_load = false;          ///< flight.load_W holds a load
+  Growth growth;                  ///< of the resistance with it
+  bool has_gained = false;        ///< more energy of place than it had in all
+  double rounding = 0;            ///< energy at the start less that at the stand [J]
+  double swing = 0;               ///< the largest natural frequency that was met [1/s]
+  double energy = 0;              ///< at the start of the step [J]
+  double energy_removed = 0;      ///< by the bound of the energy [J]
+  double error = 0;               ///< the largest of the substeps, eq. (25) and (68b)
+  SurfacePlace later;             ///< where a substep has come to
+  WaterInside inside;             ///< there
+  WaterLeft left;                 ///< water in the holds where a substep begins
+  SurfacePlace* place = nullptr;  ///< that of now: that of the stand at the start, or `later`
 
   const SurfaceModel& model() const { return flight->task.model; }
+  /// True: there is water in the holds.
+  bool hasWater() const { return place->inside_F != nullptr; }
+  Sloshing* sloshing() const { return flight->task.water.sloshing->moved.data(); }
 };
 
 /// Number of substeps of at most a length [s].
@@ -144,13 +148,46 @@ class SurfaceFlights {
     lanes_.flight.is_coarse[i] = lanes_.flight.energy_removed[i] = 0;
     p.error = p.energy_removed = 0;
     p.has_gained = false;
+    if (!p.hasWater()) return;
+    VesselSloshing& sloshing = *flight.task.water.sloshing;
+    sloshing.moved = sloshing.now;
+    joinVessel(waterAt(i).sloshing(), p.start.twist.vector(), p.sloshing());
+  }
+
+  /// The water in the holds of a body that has some, where it is now.
+  WaterAt waterAt(int i) const {
+    const Progress& p = progress_[i];
+    return {p.model(), *p.place, orientationOf(lanes_.flight.orientation, i).toRotationMatrix(),
+            vectorOf(lanes_.flight.way_W, i)};
+  }
+
+  /// Finds kinetic energy and energy of place, with that of the water that sloshes.
+  void measure() {
+    kernel_.measure(lanes_);
+    for (int i = 0; i < count_; ++i)
+      if (isActive(i) && progress_[i].hasWater())
+        lanes_.potential[i] +=
+            energyOfSloshing(waterAt(i).sloshing(), progress_[i].sloshing()).sum();
+  }
+
+  /// Lets the water in the holds slosh for half of a kick.
+  void slosh() {
+    for (int i = 0; i < count_; ++i) {
+      const Progress& p = progress_[i];
+      if (!isActive(i) || !p.hasWater()) continue;
+      const Vector6 x = exchangeSloshing(
+          waterAt(i).sloshing(), symmetricOf(lanes_.flight.inverse_inertia, i).full(),
+          p.flight->task.water.damping, lanes_.flight.kick_time[i] / 2,
+          twistOf(lanes_.flight.twist_B, i).vector(), p.sloshing());
+      setLane(lanes_.flight.twist_B, i, Twist::fromVector(x));
+    }
   }
 
   /// Brings the active bodies back to the start of the step.
   void restart() {
     for (int i = 0; i < count_; ++i)
       if (isActive(i)) restartBody(i);
-    kernel_.measure(lanes_);
+    measure();
     for (int i = 0; i < count_; ++i)
       if (isActive(i))
         progress_[i].energy =
@@ -170,7 +207,7 @@ class SurfaceFlights {
       advance();
     }
     choose([&](int i) { return is_run[i]; });
-    kernel_.measure(lanes_);
+    measure();
     for (int i = 0; i < count_; ++i)
       if (is_run[i]) boundEnergy(i);
   }
@@ -212,6 +249,7 @@ class SurfaceFlights {
       kernel_.keepLoad(lanes_);
     }
     if (has_loads_above_) takeWind();
+    slosh();
     keepingSpins([&] { kernel_.exchangeWaves(lanes_); });
     kernel_.fall(lanes_);
   }
@@ -220,9 +258,10 @@ class SurfaceFlights {
   void move() {
     for (int i = 0; i < count_; ++i) {
       if (!isActive(i)) continue;
-      const Progress& p = progress_[i];
+      Progress& p = progress_[i];
       const Twist x = twistOf(lanes_.flight.twist_B, i);
       setLane(lanes_.gradient, i, gradientAt(p.model(), *p.place, x));
+      if (p.hasWater()) p.left = WaterLeft(waterAt(i), p.sloshing());
     }
     flow_.flow(lanes_.flight);
     kernel_.see(lanes_);
@@ -241,11 +280,12 @@ class SurfaceFlights {
   void meetError(int i, double error) { progress_[i].error = std::max(progress_[i].error, error); }
 
   /// The water in the holds has moved to another level, before the surface is passed.
-  void moveWater(int i, const WaterShift& shift) {
-    if (!shift.before && !shift.after) return;
+  void moveWater(int i) {
+    const Progress& p = progress_[i];
     SymmetricMatrix inertia = symmetricOf(lanes_.flight.inertia, i);
     const Vector6 x = twistOf(lanes_.flight.twist_B, i).vector();
-    setLane(lanes_.flight.twist_B, i, Twist::fromVector(shiftWater(shift, x, inertia)));
+    setLane(lanes_.flight.twist_B, i,
+            Twist::fromVector(shiftWater(p.left, waterAt(i), x, inertia, p.sloshing())));
     setLane(lanes_.flight.inertia, i, inertia);
   }
 
@@ -255,15 +295,16 @@ class SurfaceFlights {
     const SurfacePlane plane_B{vectorOf(lanes_.stand.normal, i), lanes_.stand.height[i],
                                plane.density, plane.gravity, plane.sides_F};
     const Immersion before = p.place->immersion_F;
-    if (const HoldState* const states = p.flight->task.water.states) {
-      std::optional<WaterInside> inside;
-      if (p.place->inside_F) inside = *p.place->inside_F;
-      p.later = placeAt(p.model(), plane_B, {states, &p.inside.emplace()});
-      moveWater(i, {p.model(), inside ? &*inside : nullptr, p.later.inside_F, plane_B.normal});
+    if (p.hasWater()) {
+      const VesselWater& water = p.flight->task.water;
+      p.later =
+          placeAt(p.model(), plane_B, {water.states, &p.inside, water.sloshing->later.data()});
+      p.place = &p.later;
+      moveWater(i);
     } else {
       p.later = placeAt(p.model(), plane_B);
+      p.place = &p.later;
     }
-    p.place = &p.later;
     setPlace(lanes_.stand, i, p.model(), p.later);
     setLane(lanes_.centre_of_buoyancy, i, centreOfBuoyancy(p.model(), p.later));
     const MeanDepths depths = meanDepths(before, p.later.immersion_F);
@@ -277,6 +318,7 @@ class SurfaceFlights {
       if (isActive(i)) progress_[i].swing = std::max(progress_[i].swing, lanes_.stand.swing[i]);
     kernel_.fall(lanes_);
     keepingSpins([&] { kernel_.exchangeWaves(lanes_); });
+    slosh();
     if (has_loads_above_) takeWind();
     if (has_loads_below_) takeLoads();
   }
@@ -384,7 +426,7 @@ class SurfaceFlights {
     int reached = 0;
     for (int substep = 1; substep <= p.substeps; ++substep) {
       advance();
-      kernel_.measure(lanes_);
+      measure();
       if (!isGain(i)) reached = substep;
     }
     restart();
@@ -415,7 +457,10 @@ class SurfaceFlights {
     if (p.place == &p.later) {
       static_cast<SurfacePlace&>(flight.stand) = p.later;
       if (p.later.inside_F) {
-        *flight.task.water.inside = *p.inside;
+        VesselSloshing& sloshing = *flight.task.water.sloshing;
+        *flight.task.water.inside = p.inside;  // with the modes, which change places
+        std::swap(sloshing.modes, sloshing.later);
+        std::swap(sloshing.now, sloshing.moved);
         flight.stand.inside_F = flight.task.water.inside;
       }
       readStand(lanes_.stand, i, flight.stand);

@@ -20,7 +20,7 @@ SurfacePlace placeAt(const SurfaceModel& model, const SurfacePlane& plane_B,
   place.immersion_F = immersionOf(model, plane_B);
   const Matrix6 inertia = inertiaAt(model, place.immersion_F);
   if (water.states) {
-    *water.inside = waterInside(*model.holds, water.states, place.immersion_F.plane);
+    *water.inside = waterInside(*model.holds, water.states, place.immersion_F.plane, water.modes);
     if (water.inside->is_any) place.inside_F = water.inside;
   }
   place.inertia = SymmetricMatrix(
@@ -33,23 +33,48 @@ Matrix6 inertiaInside(const SurfaceModel& model, const WaterInside* inside_F) no
   return model.excess_density * model.fluid_frame.inertiaToB(inside_F->inertia.full());
 }
 
-Vector6 shiftWater(const WaterShift& shift, const Vector6& x, SymmetricMatrix& inertia) noexcept {
-  const SurfaceModel& model = shift.model;
-  const Matrix6 before = inertia.full(), after = before - inertiaInside(model, shift.before) +
-                                                 inertiaInside(model, shift.after);
-  const Cholesky<6> factors(after);
+WaterLeft::WaterLeft(const WaterAt& at, const Sloshing* states) noexcept
+    : inertia(inertiaInside(at.model, at.place.inside_F)),
+      momentum_W(momentumOfSloshing(at.sloshing(), states)),
+      energy(energyOfSloshing(at.sloshing(), states).sum()),
+      position_W(at.position_W) {}
+
+namespace {
+
+/// Momentum that the sloshing gives the body on its way, in B: that before, about the centre of
+/// mass after it, less that after.
+Vector6 givenMomentum(const WaterLeft& before, const WaterAt& after, const Sloshing* states) {
+  const Momentum now_W = momentumOfSloshing(after.sloshing(), states);
+  const Momentum& then_W = before.momentum_W;
+  const Vector3 way_W = after.position_W - before.position_W;
+  const Matrix3 to_body = after.to_world.transpose();
+  return stack(to_body * (then_W.angular - way_W.cross(then_W.linear) - now_W.angular),
+               to_body * (then_W.linear - now_W.linear));
+}
+
+}  // namespace
+
+Vector6 shiftWater(const WaterLeft& before, const WaterAt& after, const Vector6& x,
+                   SymmetricMatrix& inertia, Sloshing* states) noexcept {
+  meetModes(after.sloshing(), before.energy, states);
+  const Matrix6 K_before = inertia.full();
+  const Matrix6 K_after =
+      K_before - before.inertia.full() + inertiaInside(after.model, after.place.inside_F);
+  const Cholesky<6> factors(K_after);
   if (!factors.isPositive()) return x;
-  inertia = SymmetricMatrix(after);
-  const Vector6 momentum = before * x;
-  const double twice_before = x.dot(momentum);
+  inertia = SymmetricMatrix(K_after);
+  const Vector6 own = K_before * x, momentum = own + givenMomentum(before, after, states);
+  const double twice_most =
+      x.dot(own) + 2 * (before.energy - energyOfSloshing(after.sloshing(), states).sum());
   Vector6 end = factors.solve(momentum);
   // A torque along the tilt: the part of the spin across the normal.
-  const Vector3 tilt = end.head<3>() - shift.normal.dot(end.head<3>()) * shift.normal;
+  const Vector3& normal = after.place.plane.normal;
+  const Vector3 tilt = end.head<3>() - normal.dot(end.head<3>()) * normal;
   const Vector6 response = factors.solve(stack(tilt, Vector3::Zero()));
   const double a = response.head<3>().dot(tilt), b = tilt.squaredNorm();
-  const double excess = end.dot(momentum) - twice_before, square = b * b - a * excess;
+  const double excess = end.dot(momentum) - twice_most, square = b * b - a * excess;
   if (a > 0 && square > 0) end -= excess / (b + std::sqrt(square)) * response;
-  return scaledWithin(end, end.dot(after * end), twice_before).twist;
+  return scaledWithin(end, end.dot(K_after * end), std::max(0.0, twice_most)).twist;
 }
 
 bool isStable(const SurfaceModel& model, const SurfaceStand& stand) noexcept {

@@ -23,16 +23,33 @@ SurfacePlace placeAt(const SurfaceModel& model, const SurfacePlane& plane_B,
 /// Returns the part of K that is water in the holds, in B. `inside_F`: null: none.
 Matrix6 inertiaInside(const SurfaceModel& model, const WaterInside* inside_F) noexcept;
 
-/// Water in the holds, before and after it has moved to another level; null: none.
-struct WaterShift {
+/// A body with water in its holds at a place. @pre inside_F of the place, with its modes
+struct WaterAt {
   const SurfaceModel& model;
-  const WaterInside *before, *after;
-  Vector3 normal;  ///< of the surface, in B
+  const SurfacePlace& place;
+  Matrix3 to_world;    ///< B to W
+  Vector3 position_W;  ///< of the centre of mass, in a frame that moves with the water [m]
+
+  SloshingAt sloshing() const {
+    return {model.fluid_frame, model.excess_density, place.inside_F->modes,
+            model.holds->shapes.size(), to_world};
+  }
 };
-/// Replaces the water before in an inertia K by that after, and returns the twist thereafter,
-/// docs/theory.md eq. (142): the momentum stays but for a torque along the tilt, by which the
-/// energy does, too, and it never grows. In B.
-Vector6 shiftWater(const WaterShift& shift, const Vector6& x, SymmetricMatrix& inertia) noexcept;
+/// Water in the holds at a place that the body has left: its part of K, in B, and its sloshing.
+struct WaterLeft {
+  WaterLeft() = default;
+  WaterLeft(const WaterAt& at, const Sloshing* states) noexcept;
+
+  SymmetricMatrix inertia;
+  Momentum momentum_W;
+  double energy = 0;  ///< [J]
+  Vector3 position_W{0, 0, 0};
+};
+/// Replaces the water before in an inertia K by that after, takes the sloshing to the modes there,
+/// and returns the twist thereafter, docs/theory.md eq. (142), (154): the momentum of both stays
+/// but for a torque along the tilt, by which the energy does, too, and it never grows. In B.
+Vector6 shiftWater(const WaterLeft& before, const WaterAt& after, const Vector6& x,
+                   SymmetricMatrix& inertia, Sloshing* states) noexcept;
 
 /// A place, and quantities that follow from it: inverse inertia, stiffness, waves.
 struct SurfaceStand : SurfacePlace {

@@ -45,19 +45,27 @@ RoundedJson toRoundedJson(const Vector3& v) {
   return {rounded.x(), rounded.y(), rounded.z()};
 }
 
+RoundedJson toRoundedJson(const Surface& surface) {
+  return {{"vertices", std::vector<float>(surface.vertices.begin(), surface.vertices.end())},
+          {"triangles", surface.triangles}};
+}
+
 bool hasTwoSides(const BodyDef& def, const PreparedBody& prepared) {
   return prepared.fluid_body ? prepared.fluid_body->volume == 0 : isSheet(def.shape);
 }
 
 RoundedJson toRoundedJson(const BodyDef& def, const PreparedBody& prepared) {
-  const Surface surface = moved(prepared.surface, -prepared.centre_of_mass);
-  return {{"name", def.name},
-          {"mass", static_cast<float>(prepared.mass)},
-          {"law", wordOf(kPressureLawNames, def.attach.flow.law)},
-          {"separation_angle", static_cast<float>(def.attach.flow.separation_angle)},
-          {"sheet", hasTwoSides(def, prepared)},
-          {"vertices", std::vector<float>(surface.vertices.begin(), surface.vertices.end())},
-          {"triangles", surface.triangles}};
+  RoundedJson text = {{"name", def.name},
+                      {"mass", static_cast<float>(prepared.mass)},
+                      {"law", wordOf(kPressureLawNames, def.attach.flow.law)},
+                      {"separation_angle", static_cast<float>(def.attach.flow.separation_angle)},
+                      {"sheet", hasTwoSides(def, prepared)}};
+  text.update(toRoundedJson(moved(prepared.surface, -prepared.centre_of_mass)));
+  if (!prepared.fluid_body) return text;
+  const Vector3 origin = prepared.fluid_origin - prepared.centre_of_mass;
+  for (const Hold& hold : prepared.fluid_body->holds)
+    text["holds"].push_back(toRoundedJson(moved(hold.surface, origin)));
+  return text;
 }
 
 RoundedJson toRoundedJson(const JointDef& joint) {

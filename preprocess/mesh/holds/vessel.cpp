@@ -1,11 +1,11 @@
 #include "preprocess/mesh/holds/vessel.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <map>
 #include <sstream>
 
-#include "bullet_ambient/base/elementary.h"
-#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/fluid_body/box_turning.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 
 namespace ambient {
@@ -36,21 +36,12 @@ std::string holdText(const Hold& hold, double unit) {
 }
 
 Matrix3 turningInertia(const Matrix3& inertia) {
-  constexpr double kPi5 = kPi * kPi * kPi * kPi * kPi;
   const SymmetricEigen<3> principal = symmetricEigen<3>(inertia);
   const Vector3 squares =  // of the sides of the box with these moments
       6 * (Vector3::Constant(principal.values.sum()) - 2 * principal.values).cwiseMax(0);
   Vector3 turning;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double a = squares[(axis + 1) % 3], b = squares[(axis + 2) % 3];
-    const double ratio = std::sqrt(std::max(a, b) / std::min(a, b));
-    const double decay = portable::exp(-kPi * ratio);
-    const double tanh = (1 - decay) / (1 + decay);  // of half of that
-    const double part = 1 + ratio * ratio;
-    const double share =
-        std::isfinite(ratio) ? 1 - 4 / part + 768 / kPi5 * (tanh + 0.0045) / (ratio * part) : 1;
-    turning[axis] = (a + b) / 12 * share;
-  }
+  for (int axis = 0; axis < 3; ++axis)
+    turning[axis] = boxTurning(squares[(axis + 1) % 3], squares[(axis + 2) % 3]);
   return principal.vectors * turning.asDiagonal() * principal.vectors.transpose();
 }
 
@@ -85,6 +76,25 @@ TriangleMesh emptied(const std::vector<Hold>& holds) {
     meshes.back().triangles.row(1).swap(meshes.back().triangles.row(2));
   }
   return joinMeshes(meshes);
+}
+
+TriangleMesh wallsOf(const TriangleMesh& closed, const std::vector<Hold>& holds) {
+  TriangleMesh all = joinMeshes({closed, emptied(holds)});
+  using Corners = std::array<std::array<double, 3>, 3>;
+  std::map<Corners, std::vector<Eigen::Index>> faces;
+  for (Eigen::Index face = 0; face < all.triangles.cols(); ++face) {
+    Corners corners;
+    for (int k = 0; k < 3; ++k)
+      Eigen::Map<Vector3>(corners[k].data()) = all.vertices.col(all.triangles(k, face));
+    std::sort(corners.begin(), corners.end());
+    faces[corners].push_back(face);
+  }
+  std::vector<Eigen::Index> kept;
+  for (const auto& [corners, same] : faces)
+    if (same.size() == 1) kept.push_back(same.front());
+  std::sort(kept.begin(), kept.end());
+  all.triangles = Eigen::Matrix3Xi(all.triangles(Eigen::all, kept));
+  return all;
 }
 
 }  // namespace ambient

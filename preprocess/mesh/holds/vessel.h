@@ -45,4 +45,8 @@ Hold moved(Hold hold, const Vector3& by);
 /// Closed surfaces of all holds, normals into them: what the walls leave empty.
 TriangleMesh emptied(const std::vector<Hold>& holds);
 
+/// The walls of a vessel as they are seen: its closed surface and its holds' without the lids, on
+/// which both lie with opposite normals.
+TriangleMesh wallsOf(const TriangleMesh& closed, const std::vector<Hold>& holds);
+
 }  // namespace ambient

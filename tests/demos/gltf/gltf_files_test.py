@@ -20,8 +20,8 @@ DEMO = FOLDER = None
 KINDS = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}
 
 
-def run_scene(out, scene, *changes, gltf=None):
-    words = [word for change in changes for word in ("--set", change)]
+def run_scene(out, scene, *changes, gltf=None, log=()):
+    words = [word for change in changes for word in ("--set", change)] + [word for name in log for word in ("--log", name)]
     subprocess.run([DEMO, SCENES / f"{scene}.json", "--quiet", "--out", out, *words], check=True)
     if gltf:
         subprocess.run(["/usr/bin/python3", "-B", MAKE, out, "-o", gltf], check=True)
@@ -84,13 +84,14 @@ class GltfTest(unittest.TestCase):
         run_scene(cls.out / "golf", "golf_dimpled_spin", "duration=0.5", "output_step=0.005")
         run_scene(cls.out / "b", "ball_on_bottom", "duration=0.2", gltf=cls.out / "floor.glb")
         run_scene(cls.out / "c", "flap_in_current", "duration=0.2", gltf=cls.out / "flap.gltf")
+        run_scene(cls.out / "d", "barge_floods", "duration=50", "output_step=10", gltf=cls.out / "barge.glb", log=["holds"])
 
     def test_khronos_validator_has_nothing_to_say(self):
         for name in ("package.json", "package-lock.json"):
             shutil.copy(HERE / name, FOLDER)
         if not (FOLDER / "node_modules/gltf-validator").exists():
             subprocess.run(["npm", "ci", "--ignore-scripts", "--no-audit", "--no-fund"], cwd=FOLDER, check=True)
-        files = [self.out / name for name in ("golf.glb", "floor.glb", "flap.gltf")]
+        files = [self.out / name for name in ("golf.glb", "floor.glb", "flap.gltf", "barge.glb")]
         found = subprocess.run(["node", HERE / "validate.js", FOLDER, *files], check=True, stdout=subprocess.PIPE)
         reports = json.loads(found.stdout)
         self.assertEqual(len(reports), len(files))
@@ -122,6 +123,24 @@ class GltfTest(unittest.TestCase):
         np.testing.assert_allclose(up, [0, 1, 0], atol=1e-15)
         moved = {channel["target"]["node"] for channel in floor.text["animations"][0]["channels"]}
         self.assertEqual({floor.text["nodes"][node]["name"] for node in moved}, {"ball"})
+
+    def test_water_in_a_hold_is_shown_at_its_level(self):
+        barge = Container(self.out / "barge.glb")
+        names = [node["name"] for node in barge.text["nodes"]]
+        with open(self.out / "d/trajectory.csv", newline="") as stream:
+            rows = list(csv.DictReader(stream))
+        self.assertEqual(names.count("water in barge 0"), 0)  # dry
+        for k, row in enumerate(rows[1:], 1):
+            node = names.index(f"water in barge {k}")
+            primitive = barge.text["meshes"][barge.text["nodes"][node]["mesh"]]["primitives"][0]
+            corners = barge.array(primitive["attributes"]["POSITION"]).reshape(-1, 3, 3)
+            np.testing.assert_allclose(corners[:, :, 2], float(row["hold0_level_z"]), atol=1e-5)
+            areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
+            self.assertAlmostEqual(areas.sum(), 1.96 * 0.96, delta=1e-4)
+            samplers = barge.text["animations"][0]["samplers"]
+            sampler = next(samplers[c["sampler"]] for c in barge.text["animations"][0]["channels"] if c["target"]["node"] == node)
+            shown = dict(zip(barge.array(sampler["input"])[:, 0], barge.array(sampler["output"])[:, 0]))
+            self.assertEqual((sampler["interpolation"], shown[float(row["time"])], sum(shown.values())), ("STEP", 1, 1))
 
     def test_what_is_no_run_is_refused_in_one_line(self):
         for run, file in ((self.out, "a.glb"), (self.out / "golf", "a.obj"), (self.out / "golf", "none/a.glb")):

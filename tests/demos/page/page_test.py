@@ -52,6 +52,11 @@ def rows_of(folder, body):
         return np.array([[float(x) for x in row[:1] + row[2:15]] for row in csv.reader(stream) if row[1] == body])
 
 
+def rows_with_names(folder):
+    with open(folder / "trajectory.csv", newline="") as stream:
+        return list(csv.DictReader(stream))
+
+
 def rotation_matrix(w, x, y, z):
     axis = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
     return np.eye(3) + 2 * w * axis + 2 * axis @ axis
@@ -73,6 +78,7 @@ class PageTest(unittest.TestCase):
         run_scene(cls.out / "flap_in_current", "flap_in_current", "duration=0.3", "bodies.0.separation_angle=2.2")
         run_scene(cls.out / "duck_dive", "duck_dive", "duration=0.5", "water.waves=[{\"amplitude\": 0.05, \"period\": 2}]")
         run_scene(cls.out / "floating_cube", "floating_cube", "duration=1", log=["wrench"])
+        run_scene(cls.out / "barge_floods", "barge_floods", "duration=60", "output_step=1", log=["holds"])
         cls.page = cls.out / "page.html"
         make_page(cls.page, *sorted(cls.out.iterdir()), "--tables", ROOT / "docs/experiments.md")
         cls.browser = start_browser(cls.out / "profile")
@@ -144,6 +150,27 @@ class PageTest(unittest.TestCase):
             x, y, z, w = pose["orientation"]
             np.testing.assert_allclose(rotation_matrix(w, x, y, z), rotation_matrix(*row[4:8]), atol=1e-4)
         self.assertGreater(np.mean(np.abs(self.pixels() - before).max(axis=2) > 0.05), 1e-3)
+
+    def test_water_is_in_the_hold_and_the_sea_is_not(self):
+        self.choose("barge floods")
+        # From straight above, the camera close over the barge.
+        look = """
+            const view = player.view; view.lookAt(view.moving()[0], player.time);
+            view.controls.target.copy(view.placeOf(view.moving()[0]));
+            view.camera.position.copy(view.controls.target).add(new THREE.Vector3(0, 6, 0.01));
+            view.controls.update(); player.changed = true;"""
+        middles = []
+        for time in (0, 60):
+            self.scrub(time)
+            self.browser.execute_script(look)
+            picture = self.pixels()
+            rows, columns = picture.shape[:2]
+            middles.append(picture[rows // 2 - 3 : rows // 2 + 3, columns // 2 - 3 : columns // 2 + 3].mean(axis=(0, 1)))
+        dry, wet = middles
+        self.assertGreater(wet[2] - wet[0], 0.2)  # blue
+        self.assertGreater(np.abs(wet - dry).max(), 0.1)
+        water = float(rows_with_names(self.out / "barge_floods")[-1]["hold0_volume"])
+        self.assertIn(f"water inside {water:.3g} m³", self.browser.find_element(By.ID, "numbers").text)
 
     def test_slip_is_that_of_the_faces(self):
         geometry = json.loads((self.out / "flap_in_current/geometry.json").read_text())

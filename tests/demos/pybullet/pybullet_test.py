@@ -188,6 +188,23 @@ class MotionTest(Case):
         self.steps(60)
         self.assertGreater(self.speed(body), 0.1)
 
+    def test_a_current_that_is_set_anew_in_each_step_carries_what_is_in_it(self):
+        """0.5 sin(2 pi t / 4) m/s: the water moves by 0.6366 m to and fro, and a neutral ball without friction with it."""
+        self.fluid.settings(law="published", separation=math.pi)
+        shape = p.createCollisionShape(p.GEOM_SPHERE, radius=0.1, physicsClientId=self.client)
+        for maximal in (False, True):
+            with self.subTest(maximal=maximal):
+                ball = p.createMultiBody(1000 * 4 / 3 * math.pi * 0.1**3, shape, useMaximalCoordinates=maximal, physicsClientId=self.client)
+                p.changeDynamics(ball, -1, linearDamping=0, angularDamping=0, physicsClientId=self.client)
+                places = []
+                for step in range(240 * 4):
+                    speed = 0.5 * math.sin(2 * math.pi * step / 240 / 4)
+                    self.fluid.region("sea", density=1000, viscosity=0, velocity=(speed, 0, 0))
+                    self.steps(1)
+                    places.append(p.getBasePositionAndOrientation(ball, physicsClientId=self.client)[0][0])
+                self.assertAlmostEqual(max(places) - min(places), 0.5 * 4 / math.pi, delta=0.003)
+                p.removeBody(ball, physicsClientId=self.client)
+
     def hovers(self, **chosen):
         """How far a quadrotor of 27 g comes off its place in a wind of 3 m/s, with the gains of gym-pybullet-drones [m]."""
         shape = p.createCollisionShape(p.GEOM_CYLINDER, radius=0.06, height=0.025, physicsClientId=self.client)
@@ -252,6 +269,21 @@ class LifeTest(Case):
             p.resetSimulation(flags, physicsClientId=self.client)
             self.steps(2)
         self.assertTrue(self.floats())
+
+    def test_light_bodies_are_told_of_once(self):
+        """Not again after each reset, nor for each of several that are alike."""
+        said = []
+        for _ in range(3):
+            p.resetSimulation(physicsClientId=self.client)
+            fluid = Fluid(self.client)
+            fluid.region(density=1000)
+            self.gravity()
+            for _ in range(4):
+                self.box(mass=0.5)
+            self.steps(2)
+            said.append([line for line in fluid.status()["said"] if "so that it rises" in line])
+        self.assertEqual(len({line for lines in said for line in lines}), 1)
+        self.assertLessEqual(max(map(len, said)), 1)
 
     def test_a_deformable_world_is_refused_and_left_alone(self):
         p.resetSimulation(p.RESET_USE_DEFORMABLE_WORLD, physicsClientId=self.client)

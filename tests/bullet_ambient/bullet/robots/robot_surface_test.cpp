@@ -2,7 +2,7 @@
 
 #include "bullet_ambient/force/medium/waves.h"
 #include "tests/bullet_ambient/bullet/robots/robot_world.h"
-#include "tests/support/bodies/part_bodies.h"
+#include "tests/support/bodies/vessel_bodies.h"
 
 // Links at the surface of water float as bodies do.
 namespace ambient::test {
@@ -26,6 +26,7 @@ struct Floater {
   Vector3 gyration_squared{0.2 / 12, 0.2 / 12, 0.32 / 12};  ///< [m^2]
   Twist twist_W;
   int max_substeps = 0;  ///< FlightSettings
+  HoldSettings holds;
 };
 
 /// A floater as a rigid body and as a multibody without links. Neither collides. Both are let go at
@@ -62,6 +63,7 @@ class FloatingPair {
     def.fluid_body = std::make_shared<FluidBody>(floater.shape);
     def.medium = air();
     def.flight.max_substeps = floater.max_substeps;
+    def.holds = floater.holds;
     world.fluid.add(rigid, def);
     world.fluid.add(multi, -1, def);
   }
@@ -98,6 +100,30 @@ class FloatingPair {
 TEST(LinksAtASurface, FloatAsABody) {
   FloatingPair pair({});
   EXPECT_LT(pair.distanceIn(20), byPrecision(1e-6, 1e-2));
+}
+
+/// A barge of 200 kg with 0.2 m^3 of water, and a hole of an area in its floor [m^2].
+Floater bargeWithWater(double hole) {
+  OpenBarge barge;
+  barge.hole = hole;
+  return {openBarge(barge), 0.2, {0.13, 0.42, 0.5}, {}, 0, {true, {0.2}}};
+}
+
+// Its water pushes a link once a step, a body in two halves.
+TEST(LinksAtASurface, SloshAsABody) {
+  const btTransform heeled(btQuaternion(btVector3(1, 0, 0), bt(0.05)), {0, 0, bt(0.05)});
+  FloatingPair pair({}, heeled, bargeWithWater(0));
+  EXPECT_LT(pair.distanceIn(5), 0.01);
+}
+
+TEST(LinksAtASurface, SinkAsABody) {
+  FloatingPair pair({}, btTransform(btQuaternion::getIdentity(), {0, 0, bt(0.05)}),
+                    bargeWithWater(0.02));
+  EXPECT_LT(pair.distanceIn(10), 0.01);
+  const double in_body = pair.world.fluid.find(pair.rigid)->holds().at(0).volume;
+  const double in_link = pair.world.fluid.find(pair.multi, -1)->holds().at(0).volume;
+  EXPECT_GT(in_body, 0.25);
+  EXPECT_NEAR(in_link, in_body, 1e-3);
 }
 
 TEST(LinksAtASurface, RideWavesAsABody) {

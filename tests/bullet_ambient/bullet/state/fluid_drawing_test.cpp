@@ -11,6 +11,7 @@
 #include "bullet_ambient/spatial/rotation.h"
 #include "preprocess/base/surface_form.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
+#include "tests/support/bodies/vessel_bodies.h"
 
 namespace ambient::test {
 namespace {
@@ -306,6 +307,50 @@ TEST(DrawingOfWater, IsANetOnTheSurfaceWithinTheBounds) {
     EXPECT_LE(std::abs(from.x()), 1 + 1e-6);
     EXPECT_LE(std::abs(from.y()), 2 + 1e-6);
   }
+  scene.world.setDebugDrawer(nullptr);
+}
+
+TEST(DrawingOfHolds, IsTheirEdgesAndTheLevelOfTheirWater) {
+  Recorder recorder;
+  FluidWorld scene;
+  scene.world.setDebugDrawer(&recorder);
+  scene.world.setGravity(btVector3(0, 0, btScalar(-kGravity)));
+  scene.fluid.addRegion(waterBelow(0));
+  BodyDef def;
+  def.mass = 200;
+  def.moments = Vector3(26, 84, 100);
+  def.start.orientation = rotationFromVector(Vector3(0.1, 0.05, 0.3));
+  btRigidBody& body = scene.add(def);
+  AttachDef attach;
+  attach.fluid_body = std::make_shared<FluidBody>(openBarge({}));
+  attach.fluid_frame.translation.z() = 0.12;
+  attach.holds.water = {0.2};
+  const Immersed afloat = scene.fluid.add(body, attach);
+  scene.step(1e-3);
+  const auto draw = [&] {
+    recorder.clear();
+    scene.world.debugDrawWorld();
+  };
+  draw();
+  EXPECT_TRUE(recorder.linesOf(fluid_colours::kHolds).empty());
+  scene.fluid.drawing.holds = true;
+  draw();
+  EXPECT_EQ(recorder.linesOf(fluid_colours::kHolds).size(), 18u);  // of 12 triangles
+  const double tolerance = byPrecision(1e-12, 1e-5);
+  const HoldWater water = afloat.holds()[0];
+  Vector3 area = Vector3::Zero();
+  for (const Line& line : recorder.linesOf(fluid_colours::kWater)) {
+    const Vector3 from = toVector3(line.from) - water.level, to = toVector3(line.to) - water.level;
+    EXPECT_NEAR(from.dot(water.normal), 0, tolerance);
+    area += from.cross(to) / 2;
+  }
+  EXPECT_LT((area - area.norm() * water.normal).norm(), tolerance);
+  EXPECT_NEAR(area.z(), water.area, tolerance);
+  EXPECT_GT(water.area, 1.96 * 0.96);
+  EXPECT_LT(recorder.sumOf(fluid_colours::kWater).norm(), tolerance);
+  afloat.setWater(0, water.capacity);
+  draw();
+  EXPECT_TRUE(recorder.linesOf(fluid_colours::kWater).empty());
   scene.world.setDebugDrawer(nullptr);
 }
 

@@ -241,8 +241,8 @@ void fill(Numbers& n, AmbientState& s) {
   n(def.medium.density, def.medium.viscosity, def.medium.velocity, def.medium.acceleration,
     def.follow_regions, def.wave_damping, def.flow.separation_angle, def.flow.skin_friction,
     def.flow.stall_lag, def.flow.maximum_load_error, def.flight.tolerance, def.flight.max_substeps,
-    def.fluid_frame.rotation, def.fluid_frame.translation, def.holds.are_open,
-    def.holds.atmosphere);
+    def.fluid_frame.rotation, def.fluid_frame.translation, def.holds.are_open, def.holds.atmosphere,
+    def.holds.sloshing_damping);
   n(s.medium.density, s.medium.viscosity, s.medium.velocity, s.medium.acceleration, s.place.region,
     s.place.is_above, s.place.is_at_surface, s.flow.until, s.flow.position, s.flow.velocity,
     s.flow.change, s.flow.parts, s.flow.region, s.flow.is_above);
@@ -258,6 +258,8 @@ void fill(Numbers& n, AmbientState& s) {
     n(hole.hold, hole.area, hole.place, hole.normal);
   for (HoldState& hold : s.holds)
     n(hold.volume, hold.pump, hold.flooded, hold.drained, hold.is_sealed, hold.air);
+  for (Sloshing& sloshing : s.sloshing = std::vector<Sloshing>(2))
+    n(sloshing.is_known, sloshing.way_W, sloshing.velocity_W);
   AmbientCounters& c = s.counters;
   n(c.substeps, c.load_evaluations, c.faces, c.guarded, c.coarse, c.halted, c.energy_removed,
     c.rows, c.joint_rows, c.rejected, c.regions_asked, c.medium_changes, c.too_long);
@@ -314,8 +316,8 @@ WorldState filledState() {
   return s;
 }
 
-// Recorded with the first program of version 17. Who changes the bytes raises the version.
-TEST(StateFormat, HasTheBytesOfVersion17) {
+// Recorded with the first program of version 18. Who changes the bytes raises the version.
+TEST(StateFormat, HasTheBytesOfVersion18) {
   const std::string bytes = encodeState(filledState());
   const bool in_double = sizeof(btScalar) == 8;
   EXPECT_EQ(bytes.size(), in_double ? 5611u : 4339u);
