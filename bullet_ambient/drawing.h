@@ -70,13 +70,9 @@ inline const btVector3 kAttached(0, 1, 0), kSeparated(1, 0, 0),
 void drawFluid(const AmbientBody& ambient, const MotionView& now, const FluidDrawing& what,
                btIDebugDraw& drawer);
 
-/// Water surface of a region at a time.
-struct DrawnSurface {
-  const FluidRegion& region;
-  btVector3 gravity;
-  double time;  ///< [s]
-};
-/// Draws a water surface as a net; nothing without gravity, which says what is up.
-void drawSurface(const DrawnSurface& surface, const FluidDrawing& what, btIDebugDraw& drawer);
+/// Draws the water surface of a region at a time [s] as a net; nothing without gravity, which says
+/// what is up.
+void drawSurface(const FluidRegion& region, const btVector3& gravity, double time,
+                 const FluidDrawing& what, btIDebugDraw& drawer);
 
 AMBIENT_END

@@ -11,14 +11,12 @@
 #include <vector>
 
 #include "bullet_ambient/attach_world.h"
-#include "bullet_ambient/bullet/connection/fitted_solvers.h"
+#include "bullet_ambient/bullet/connection/world_connection.h"
 #include "bullet_ambient/bullet/core/precision_check.h"
-#include "bullet_ambient/bullet/members/member_slots.h"
 #include "bullet_ambient/bullet/solver/fluid_solver.h"
 #include "bullet_ambient/drawing.h"
 #include "bullet_ambient/force/medium/fluid_region.h"
 #include "bullet_ambient/immersed/attach_def.h"
-#include "bullet_ambient/immersed/region_id.h"
 #include "bullet_ambient/immersed/wet_state.h"
 
 class btCollisionObject;
@@ -28,6 +26,7 @@ class btRigidBody;
 
 namespace ambient {
 
+struct AmbientBody;
 struct FluidWrench;
 
 class TaskRunner;
@@ -131,16 +130,16 @@ class Immersed {
   friend class WorldAttachment;
   Immersed(AmbientBodies& bodies, const AmbientBody& ambient);
 
-  /// Members of the fluid while it exists, and the entry of this handle.
+  /// Members of the fluid while it exists, and the one of this handle; null: it was removed.
   struct Held {
     std::shared_ptr<AmbientBodies> bodies;
-    Member member;
+    AmbientBody* member;
   };
   Held hold() const noexcept;
   Held require(const char* function) const;
 
   std::weak_ptr<AmbientBodies> bodies_;
-  MemberId id_;
+  std::weak_ptr<AmbientBody*> handle_;
 };
 
 class FluidAction;

@@ -2,5 +2,4 @@
 
 // Regions of fluid: pools, seas, wind zones, currents, and their surfaces.
 #include "bullet_ambient/force/medium/fluid_region.h"
-#include "bullet_ambient/force/medium/water_surface.h"
-#include "bullet_ambient/immersed/region_id.h"
+#include "bullet_ambient/force/medium/waves.h"

@@ -37,3 +37,11 @@ double hypot(double x, double y) noexcept;            ///< 1.2 ulp; sqrt(x^2 + y
 double hypot(double x, double y, double z) noexcept;  ///< 1.6 ulp; sqrt(x^2 + y^2 + z^2)
 
 }  // namespace ambient::portable
+
+namespace ambient {
+
+/// Rounds to the nearest number of single precision, which files hold. Never inlined: gcc 12 drops
+/// the conversion (double)(float)x when it vectorises over neighbours in memory.
+double roundedToSingle(double value) noexcept;
+
+}  // namespace ambient

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "bullet_ambient/fluid_body/part_block.h"
+#include "bullet_ambient/fluid_body/blocks.h"
 #include "bullet_ambient/spatial/vector_types.h"
 
 namespace ambient {

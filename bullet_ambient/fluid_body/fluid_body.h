@@ -8,11 +8,87 @@
 #include <vector>
 
 #include "bullet_ambient/fluid_body/added_mass_parts.h"
-#include "bullet_ambient/fluid_body/hold.h"
-#include "bullet_ambient/fluid_body/viscous_form.h"
 #include "bullet_ambient/spatial/vector_types.h"
 
 namespace ambient {
+
+/// Triangles of a shape in F: for drawing, hydrostatics and the form law.
+struct Surface {
+  std::vector<double> vertices;  ///< x, y, z per vertex [m]
+  std::vector<std::int32_t>
+      triangles;  ///< three vertex indices per triangle, counter-clockwise from the fluid
+};
+
+/// An opening of a hold: where water comes in over its rim or through it.
+struct HoldOpening {
+  std::vector<double> outline;    ///< x, y, z of its corners, counter-clockwise from outside [m]
+  std::vector<std::int32_t> lid;  ///< triangles across it: three corners of the outline each
+  int to = -1;                    ///< the hold that it leads to; -1: the fluid outside
+};
+
+/// A room inside a body that keeps water out or in up to its openings. Per unit density, in F.
+struct Hold {
+  std::string name;
+  Surface surface;          ///< its walls and lids, closed, counter-clockwise from outside the hold
+  double volume = 0;        ///< [m^3]
+  Vector3 centre{0, 0, 0};  ///< of its volume [m]
+  /// Inertia of the fluid that fills it, about its centre, as it resists turning, docs/theory.md
+  /// eq. (133) [m^5].
+  Matrix3 turning_inertia = Matrix3::Zero();
+  std::vector<HoldOpening> openings;  ///< each once: one between two holds is the first hold's
+};
+
+/// What boundary layers make of the flow past a body that moves one way; docs/theory.md eq. (97) to
+/// (99). On its frontal area and D_A, without unit. The first four of a state of the layers:
+/// laminar; laminar to its separation and turbulent from there (a bubble); turbulent from the nose,
+/// smooth and rough (four times the growth).
+struct SeparationWay {
+  static constexpr std::size_t kNumbers = 8;
+  double wake_laminar = 0, wake_bubble = 0, wake_turbulent = 0,
+         wake_rough = 0;  ///< k_L, k_B, k_1, k_4
+  double thickness =
+      0;  ///< N: momentum thickness where the laminar layer leaves, over D_A Re^(-1/2)
+  double friction_laminar = 0;    ///< f_L, times Re^(-1/2)
+  double friction_bubble = 0;     ///< f_B, times Re^(-1/5)
+  double friction_turbulent = 0;  ///< f_T, times Re^(-1/5)
+};
+
+/// Where boundary layers leave a shape that moves along an axis of its added mass, either way;
+/// docs/theory.md eq. (97) to (100). Without unit: the same for a larger shape.
+struct Separation {
+  Matrix3 axes{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  ///< columns q_j, right-handed
+  std::array<SeparationWay, 6> ways;              ///< of +q_1, -q_1, +q_2, ...
+  Vector3 smooth_base{0, 0, 0};  ///< B_j in [0, 1]: 0 where edges make all of the base
+};
+
+/// Sizes of a surface that Reynolds numbers, areas and the twist of separated flow are made of;
+/// docs/theory.md eq. (101). Both sides of a sheet count.
+struct SurfaceNumbers {
+  double diameter = 0;       ///< D_A = sqrt(area/pi): of the ball with this area [m]
+  Vector3 frontal{0, 0, 0};  ///< A_j: half of the projected area of all faces along q_j [m^2]
+  Vector3 moments{0, 0, 0};  ///< m_j: mean square of the place along q_j [m^2]
+  Matrix3 gyration =
+      Matrix3::Zero();  ///< G: mean of |r|^2 I - r r^T about the centre of reaction [m^2]
+};
+
+/// What a shape needs for a fluid with viscosity, docs/theory.md section 18. Frame F.
+struct ViscousForm {
+  static constexpr std::size_t kNumbers = 116;
+  /// Resistance in creeping flow about F's origin, rotation first, per unit viscosity: as Re -> 0
+  /// the wrench is -mu R (w, v). Symmetric, positive semi-definite [m^3, m^2, m]. 0: not known.
+  Matrix6 resistance = Matrix6::Zero();
+  Vector3 centre_of_reaction{0, 0, 0};  ///< where the coupling of R is symmetric [m]
+  Separation separation;  ///< smooth_base is 0 where it is not known: all of the base is by edges
+  SurfaceNumbers surface;
+  double sharp_share = 1;  ///< eps': how far edges and thin plates fix where the flow leaves
+  /// True if `smooth_base` is that of a simple shape, whose rims are no edges in (J1).
+  bool is_primitive = false;
+
+  bool isKnown() const { return !resistance.isZero(0); }
+  /// All numbers in the order above, matrices by columns, which is that of files.
+  std::array<double*, kNumbers> numbers();
+  std::array<const double*, kNumbers> numbers() const;
+};
 
 /// Correction of the added mass at the surface of still water, docs/theory.md eq. (61a): boundary
 /// elements minus the sum over parts (60). Per unit density, about F's origin.
@@ -223,5 +299,17 @@ void requirePrepared(const FluidBody& body);
 /// mass, waterline table and holds. Name and provenance do not count. Saved states hold the hash to
 /// recognise their fluid body. Detects accidental change, not forgery.
 std::uint64_t contentHash(const FluidBody& body);
+
+/// Mass of a body, and mass of the medium that it displaces; afloat: of the fluid above the
+/// surface, since it may float however light it is, but not on air.
+struct DisplacedMass {
+  double body = 0;    ///< [kg]
+  double medium = 0;  ///< [kg]
+
+  bool isLighter() const { return body < medium; }
+  /// True if the body has less than half the mass of the medium and so rises fast, which is hardly
+  /// meant in air.
+  bool isMuchLighter() const { return 2 * body < medium; }
+};
 
 }  // namespace ambient

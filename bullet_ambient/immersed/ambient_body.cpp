@@ -54,7 +54,12 @@ void followWake(AmbientBody& ambient, const Twist& twist_W, double duration) noe
   }
 }
 
-void keepName(const std::string& name, AmbientBody& ambient) {
+void takePlace(AmbientBody& ambient, const AmbientBody* before) {
+  ambient.handle = before ? before->handle : std::make_shared<AmbientBody*>();
+  *ambient.handle = &ambient;
+  if (!before) return;
+  ambient.reading = before->reading;
+  const std::string& name = before->def->name;  // no state has it
   if (name.empty() || !ambient.def->name.empty()) return;
   AttachDef named = *ambient.def;
   named.name = name;

@@ -9,30 +9,30 @@
 #include <vector>
 
 #include "bullet_ambient/force/loads/surface_loads.h"
+#include "bullet_ambient/force/medium/fluid_region.h"
 #include "bullet_ambient/immersed/attach_def.h"
 #include "bullet_ambient/immersed/fluid_models.h"
-#include "bullet_ambient/immersed/motion_view.h"
-#include "bullet_ambient/immersed/region_id.h"
 #include "bullet_ambient/motion/body/body_model.h"
-#include "bullet_ambient/motion/body/wake.h"
 #include "bullet_ambient/motion/flight/flight.h"
-#include "bullet_ambient/motion/flight/flight_task.h"
 #include "bullet_ambient/motion/lanes/surface_lanes.h"
-#include "bullet_ambient/motion/rows/axis_locks.h"
+#include "bullet_ambient/motion/rows/row_velocity.h"
 #include "bullet_ambient/motion/surface/surface_stand.h"
 
+class btMultiBody;
 class btRigidBody;
 
 namespace ambient {
 
-/// Outcome of a substep for a body, from the solver; docs/bullet_step.md has the transitions.
+/// Outcome of a substep for a body or tree, from the solver; docs/bullet_step.md has the
+/// transitions.
 enum class Outcome : std::uint8_t {
-  kNotSolved,  ///< the solver has not worked on it since the action took the last outcome
+  kNotSolved,  ///< the solver has not worked on it since the action took the last outcome; of a
+               ///< tree also: it sleeps
   kStock,      ///< moves as in stock Bullet: not in a fluid, static, or of no physical mass
-  kRows,       ///< moved by rows
+  kRows,       ///< moved by rows; a tree: by rows that turn with it (contacts, joints to bodies)
   kAdrift,     ///< moved by no row and by no flight: locked axes, too fast a spin among rows, or a
                ///< failed flight
-  kFlown,      ///< moved by no row, and has flown
+  kFlown,      ///< has flown, moved by no row; a tree: by none but those of its own joints
   kHeld,       ///< moved by nothing: the substep has no finite duration
 };
 
@@ -183,8 +183,9 @@ struct AmbientBody {
                                ///< load on the body depends on it
   /// In this step; null: no region makes the fluid differ along the body.
   std::unique_ptr<FlowAlongBody> flow_along;
-  std::unique_ptr<VesselState> vessel;  ///< null: the body has no holds
-  int slot = -1;                        ///< in MemberSlots; -1: not yet there
+  std::unique_ptr<VesselState> vessel;   ///< null: the body has no holds
+  btMultiBody* multi_body = nullptr;     ///< that of a link; null: a rigid body
+  std::shared_ptr<AmbientBody*> handle;  ///< where it is kept, for its Immersed: ends with it
   int gaping =
       0;  ///< number of steps in a row in which a joint of the body was open by much of its size
 
@@ -265,8 +266,9 @@ void forgetWake(AmbientBody& ambient) noexcept;
 /// Forgets the waves that a body has made and where its surface was.
 void forgetSurface(AmbientBody& ambient) noexcept;
 
-/// Gives a body without a name one that it had before.
-void keepName(const std::string& name, AmbientBody& ambient);
+/// Gives a body a handle, once it is where it is kept: that of the entry that it replaces (null:
+/// none), whose name and reading it keeps, too.
+void takePlace(AmbientBody& ambient, const AmbientBody* before);
 
 /// Gives a body other models, of its present mass or an earlier one. It stays in its medium, and at
 /// its surface unless they lack that.

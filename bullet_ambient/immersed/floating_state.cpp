@@ -84,9 +84,17 @@ void completeAll(AmbientBody* const* bodies, int count) {
   if (made > 0) completeStands(models, stands, made);
 }
 
-WetPart wetPart(const SurfaceModel& model, const SurfaceStand& stand) {
-  return {seenFrom(stand.plane, model.loads_below.frame),
-          wetShare(stand.immersion_F, model.shape->volume)};
+// Returns the model of a body with the inertia, displacement and loads of its stand.
+BodyModel modelAt(const SurfaceModel& at, const SurfaceStand& stand) {
+  BodyModel model = frozenAt(at, stand);
+  const PartLoads& below = at.loads_below;
+  if (!below.loads) return model;
+  model.loads = below.loads;
+  model.load_frame = below.frame;
+  model.wet =
+      WetPart{seenFrom(stand.plane, below.frame), wetShare(stand.immersion_F, at.shape->volume)};
+  giveResistance(model, below.resistance);
+  return model;
 }
 
 }  // namespace
@@ -123,15 +131,15 @@ SurfaceSide withWater(const AmbientBody& ambient, const SurfaceModel& model, Sur
 }  // namespace
 
 NearSurface nearSurface(const AmbientBody& ambient, const MotionView& now, const SurfaceKind& kind,
-                        const SampleAt& at, double duration) noexcept {
-  const RegionSample& sample = at.sample;
+                        const RegionSample& sample, const Vector3& point_W,
+                        double duration) noexcept {
   const Vector3& gravity = now.gravity;
   const int media = ambient.models->findSurface(kind);
   if (media < 0 || !hasSurface(sample, gravity))
     return {sample.isAbove() ? SurfaceSide::kAbove : SurfaceSide::kBelow};
   const SurfaceModel& model = ambient.models->surfaces[static_cast<std::size_t>(media)].model;
   const RigidState& state = now.state;
-  const SurfacePlane plane_W = planeNear(at.point_W, sample, gravity);
+  const SurfacePlane plane_W = planeNear(point_W, sample, gravity);
   const double speed = (now.twist_W.linear - sample.below.velocity).norm();
   const double travel =
       duration * (speed + model.radius * state.twist.angular.norm() + duration * gravity.norm());
@@ -176,16 +184,8 @@ BodyModel modelNow(const AmbientBody& ambient, const MotionView& now) {
   const SurfaceModel* surface = ambient.surface();
   if (!surface) return ambient.model();
   WaterInside inside;
-  const SurfaceStand stand =
-      standAtSurface(*surface, planeAt(ambient, now.state), {waterOf(ambient), &inside});
-  BodyModel model = frozenAt(*surface, stand);
-  if (surface->loads_below.loads) {
-    model.loads =
-        std::make_shared<LoadsAtSurface>(surface->loads_below.loads, wetPart(*surface, stand));
-    model.load_frame = surface->loads_below.frame;
-    giveResistance(model, surface->loads_below.resistance);
-  }
-  return model;
+  return modelAt(
+      *surface, standAtSurface(*surface, planeAt(ambient, now.state), {waterOf(ambient), &inside}));
 }
 
 const SurfaceStand& standNow(AmbientBody& ambient, const MotionView& now) noexcept {
@@ -309,15 +309,8 @@ StepModel::StepModel(const AmbientBody& ambient, double duration) noexcept {
   }
 }
 
-// Makes the model in place: a copy of it costs as much as making it.
 StepModel::AtSurface::AtSurface(const SurfaceModel& at, const SurfaceStand& stand)
-    : model(frozenAt(at, stand)) {
-  if (!at.loads_below.loads) return;
-  loads = {at.loads_below.loads, wetPart(at, stand)};
-  model.loads = {std::shared_ptr<void>(), &loads};
-  model.load_frame = at.loads_below.frame;
-  giveResistance(model, at.loads_below.resistance);
-}
+    : model(modelAt(at, stand)) {}
 
 void StepModel::freeze(const AmbientBody& ambient) noexcept {
   model_ = &at_surface_.emplace(*ambient.surface(), ambient.stand()).model;
@@ -418,24 +411,17 @@ struct Departure {
   Fall fall;
 };
 
-struct RowStep {
-  const Fall& before;
-  Fall after;
-  const Matrix6& inverse;  ///< of the inertia after it
-  Vector6 x_before;
-  double duration;
-};
-
 /// One buoyancy has acted over the whole step, and the body has come to where it is another one:
-/// gives back the energy that weight and water did not have, docs/theory.md eq. (68a).
-BoundedTwist withinPotential(const RowStep& step, const Vector6& x) {
-  const Fall &before = step.before, &after = step.after;
-  const double given = step.duration / 2 * before.wrench.dot(step.x_before + x);
+/// gives back the energy that weight and water did not have, docs/theory.md eq. (68a). `inverse`:
+/// of the inertia after it; x_before, x: twists.
+BoundedTwist withinPotential(const Fall& before, const Fall& after, const Matrix6& inverse,
+                             double duration, const Vector6& x_before, const Vector6& x) {
+  const double given = duration / 2 * before.wrench.dot(x_before + x);
   const double excess = given - (before.potential - after.potential);
   const Vector6 along = before.lift + after.lift;
   const double rate = along.dot(x);
   if (!(excess > 0) || rate == 0) return {x};
-  const Vector6 response = step.inverse * along;
+  const Vector6 response = inverse * along;
   const double per_part = along.dot(response), square = rate * rate - 2 * per_part * excess;
   const double part =
       square > 0 ? 2 * excess / (std::abs(rate) + std::sqrt(square)) : std::abs(rate) / per_part;
@@ -510,8 +496,8 @@ BoundedTwist passedFrom(const Departure& before, AmbientBody& ambient, Axes axes
   }
   const Matrix6 inverse = after.inverse.full();
   const double duration = arrival.duration;
-  const BoundedTwist moved = withinPotential(
-      {before.fall, fallOf(ambient), inverse, ambient.floating->twist_before_rows, duration}, x);
+  const BoundedTwist moved = withinPotential(before.fall, fallOf(ambient), inverse, duration,
+                                             ambient.floating->twist_before_rows, x);
   BoundedTwist end = passSurface({model, place, after, duration}, withWater(moved.twist));
   end.energy_removed += moved.energy_removed;
   return end;

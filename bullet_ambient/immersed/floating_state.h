@@ -23,23 +23,18 @@ Vector3 leanOf(const RegionSample& sample, const Vector3& gravity) noexcept;
 SurfacePlane planeNear(const Vector3& position, const RegionSample& sample,
                        const Vector3& gravity) noexcept;
 
-/// A region sampled at a point.
-struct SampleAt {
-  const RegionSample& sample;
-  Vector3 point_W;
-};
-
 /// A body near the surface of a region.
 struct NearSurface {
   SurfaceSide side = SurfaceSide::kAt;
   int media = -1;             ///< index into FluidModels::surfaces; -1: it meets no surface
   SurfacePlane plane_W = {};  ///< where it meets one
 };
-/// Decides whether the surface matters to the body in a step of `duration` [s]. `at`: region where
-/// the body is. Without gravity there is no surface, and the place of the sample decides. Allocates
-/// nothing.
+/// Decides whether the surface matters to the body in a step of `duration` [s]. `sample`: of the
+/// region where the body is, at `point_W`. Without gravity there is no surface, and the place of
+/// the sample decides. Allocates nothing.
 NearSurface nearSurface(const AmbientBody& ambient, const MotionView& now, const SurfaceKind& kind,
-                        const SampleAt& at, double duration) noexcept;
+                        const RegionSample& sample, const Vector3& point_W,
+                        double duration) noexcept;
 
 /// Decides which holds of a body that first meets a surface are full. Allocates nothing. @pre it
 /// has holds
@@ -75,28 +70,8 @@ double sloshingEnergyNow(const AmbientBody& ambient, const MotionView& now);
 /// @pre it has holds, and a surface is near
 void exchangeWater(AmbientBody& ambient, const MotionView& now, double duration) noexcept;
 
-/// Loads on the wet part of a body at one moment.
-class LoadsAtSurface final : public SurfaceLoads {
- public:
-  LoadsAtSurface() = default;
-  LoadsAtSurface(std::shared_ptr<const SurfaceLoads> loads, const WetPart& part)
-      : loads_(std::move(loads)), part_(part) {}
-
-  Wrench load(const Twist& x) const noexcept override { return loads_->wetLoad(x, part_); }
-  SplitLoad split(const Twist& x, const WetPart*) const noexcept override {
-    return loads_->split(x, &part_);
-  }
-  int faces() const noexcept override { return loads_->faces(); }
-  bool needsGuard() const noexcept override { return loads_->needsGuard(); }
-
- private:
-  std::shared_ptr<const SurfaceLoads> loads_;
-  WetPart part_;
-};
-
 /// Model of a body for a step in which rows or joints move it: at a water surface with the inertia,
-/// displacement and loads of its stand. Allocates nothing; not to be copied, as the model holds
-/// loads that are here.
+/// displacement and loads of its stand. Allocates nothing.
 class StepModel {
  public:
   StepModel() = default;
@@ -119,10 +94,10 @@ class StepModel {
   const BodyModel* operator->() const noexcept { return model_; }
 
  private:
+  // Makes the model in place: a copy of it costs as much as making it.
   struct AtSurface {
     AtSurface(const SurfaceModel& at, const SurfaceStand& stand);
     BodyModel model;
-    LoadsAtSurface loads;
   };
 
   const BodyModel* model_ = nullptr;

@@ -9,7 +9,7 @@
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "bullet_ambient/spatial/cholesky.h"
 #include "bullet_ambient/spatial/inertia.h"
-#include "bullet_ambient/spatial/principal_frame.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
 
 namespace ambient {
 

@@ -1,6 +1,6 @@
 #include "bullet_ambient/immersed/fluid_reading.h"
 
-#include "bullet_ambient/force/surface/buoyancy.h"
+#include "bullet_ambient/force/surface/hydrostatics.h"
 #include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/motion/surface/body_waves.h"
 #include "bullet_ambient/motion/surface/stand_lanes.h"
@@ -49,10 +49,7 @@ void readRows(AmbientBody& ambient, const Twist& change_W,
   reading.moved_W.linear += rows.flow_W;
   const Quaternion& q = reading.start.orientation;
   const Twist change_B = turned(q.conjugate(), change_W);
-  if (ambient.surface()) {
-    reading.model = *StepModel(ambient, time_step);
-    reading.model.loads = nullptr;  // which the StepModel holds
-  }
+  if (ambient.surface()) reading.model = *StepModel(ambient, time_step);
   const Matrix6& inertia = settled_inertia ? *settled_inertia : reading.model.inertia;
   const Wrench impulse_B = Wrench::fromVector(inertia * change_B.vector());
   reading.impulse_W = {q * impulse_B.torque, q * impulse_B.force};

@@ -7,9 +7,8 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/immersed/floating_state.h"
+#include "bullet_ambient/immersed/flow_along.h"
 #include "bullet_ambient/immersed/fluid_regions.h"
-#include "bullet_ambient/immersed/pool_rim.h"
-#include "bullet_ambient/immersed/station_samples.h"
 #include "bullet_ambient/immersed/vessel_step.h"
 
 namespace ambient {
@@ -175,8 +174,8 @@ void enterOwnMedium(AmbientBody& ambient, const FlowStep& step, const RegionsAro
 SurfaceSide findWaterSide(AmbientBody& ambient, const FlowStep& step, bool is_alone,
                           const RegionSample& sample) noexcept {
   const FluidRegion& region = step.entry->region;
-  const SampleAt at{sample, pointIn(region, step.now->centre())};
-  const NearSurface near = nearSurface(ambient, *step.now, SurfaceKind(region), at, step.duration);
+  const NearSurface near = nearSurface(ambient, *step.now, SurfaceKind(region), sample,
+                                       pointIn(region, step.now->centre()), step.duration);
   if (ambient.vessel) meetHolds(ambient, *step.now, near);
   const bool has_sides = !is_alone && near.side != SurfaceSide::kAbove;
   return enterSurface(

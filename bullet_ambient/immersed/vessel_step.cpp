@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "bullet_ambient/immersed/station_samples.h"
+#include "bullet_ambient/immersed/flow_along.h"
 
 namespace ambient {
 namespace {

@@ -7,9 +7,8 @@
 
 #include "bullet_ambient/force/surface/wet_polygon.h"
 #include "bullet_ambient/immersed/floating_state.h"
+#include "bullet_ambient/immersed/flow_along.h"
 #include "bullet_ambient/immersed/fluid_regions.h"
-#include "bullet_ambient/immersed/pool_rim.h"
-#include "bullet_ambient/immersed/station_samples.h"
 #include "bullet_ambient/immersed/vessel_step.h"
 
 namespace ambient {
@@ -144,10 +143,6 @@ WetState inRegion(const AmbientBody& ambient, const MotionView& now, const Regio
   return cutBy(plane_W, ambient.models->surfaces[static_cast<std::size_t>(media)].model, ambient,
                now.state);
 }
-
-}  // namespace
-
-namespace {
 
 /// Height above zero of the lowest corner of what is open of a hold; infinite: nothing is.
 double lowestCorner(const VesselState& vessel, std::size_t hold, const Vector3& up_F) {

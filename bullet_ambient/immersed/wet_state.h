@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "bullet_ambient/immersed/region_id.h"
+#include "bullet_ambient/force/medium/fluid_region.h"
 #include "bullet_ambient/spatial/vector_types.h"
 
 namespace ambient {

@@ -5,7 +5,6 @@
 
 #include "bullet_ambient/motion/body/body_model.h"
 #include "bullet_ambient/motion/flight/flight.h"
-#include "bullet_ambient/motion/flight/flight_task.h"
 
 namespace ambient {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "bullet_ambient/bullet/core/conversions.h"
-#include "bullet_ambient/spatial/principal_frame.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/robot/link_shape.h"
 #include "preprocess/shape/shape_mesh.h"

@@ -8,7 +8,6 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/base/single_precision.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/base/surface_form.h"
 #include "preprocess/base/surface_triangles.h"

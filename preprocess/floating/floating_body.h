@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
-#include "bullet_ambient/fluid_body/packed/packed_hull.h"
+#include "bullet_ambient/fluid_body/packed/packed_shape.h"
 #include "bullet_ambient/force/surface/hold_shape.h"
 #include "bullet_ambient/force/surface/hydrostatics.h"
 

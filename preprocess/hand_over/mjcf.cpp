@@ -8,7 +8,6 @@
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/spatial/cholesky.h"
 #include "bullet_ambient/spatial/inertia.h"
-#include "bullet_ambient/spatial/principal_frame.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/hand_over/handed_body.h"
 #include "preprocess/polar/polar.h"

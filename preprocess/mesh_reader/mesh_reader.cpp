@@ -28,7 +28,7 @@
 #include <string>
 #include <vector>
 
-#include "bullet_ambient/base/single_precision.h"
+#include "bullet_ambient/base/elementary.h"
 #include "preprocess/mesh/geometry.h"
 #include "preprocess/mesh/import/scene_triangles.h"
 #include "preprocess/mesh/triangle_mesh.h"

@@ -11,7 +11,7 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/fluid_body/packed/packed_faces.h"
+#include "bullet_ambient/fluid_body/packed/packed_shape.h"
 #include "bullet_ambient/force/law/form_law.h"
 #include "bullet_ambient/force/loads/face_loads.h"
 #include "preprocess/base/matrices.h"

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "bullet_ambient/fluid_body/viscous_form.h"
+#include "bullet_ambient/fluid_body/fluid_body.h"
 #include "preprocess/resistance/surface_flow.h"
 
 namespace ambient {

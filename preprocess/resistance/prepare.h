@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
-#include "bullet_ambient/fluid_body/viscous_form.h"
 #include "preprocess/base/surface_form.h"
 #include "preprocess/mesh/triangle_mesh.h"
 

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "bullet_ambient/fluid_body/viscous_form.h"
+#include "bullet_ambient/fluid_body/fluid_body.h"
 #include "preprocess/added_mass_tables/table_places.h"
 
 namespace ambient {

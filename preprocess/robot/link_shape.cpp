@@ -4,7 +4,7 @@
 #include <BulletCollision/CollisionShapes/btMultiSphereShape.h>
 
 #include "bullet_ambient/bullet/core/conversions.h"
-#include "bullet_ambient/spatial/principal_frame.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/mesh/import/mesh_import.h"
 #include "preprocess/mesh/input_error.h"
 

@@ -10,7 +10,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "bullet_ambient/bullet/core/attitude.h"
+#include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/bullet/core/conversions.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/resistance/prepare.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "bullet_ambient/spatial/principal_frame.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/mesh/input_error.h"
 
 namespace ambient {

@@ -16,7 +16,7 @@
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/fluid_body/added_mass_parts.h"
 #include "bullet_ambient/fluid_body/octahedral_lattice.h"
-#include "bullet_ambient/fluid_body/packed/packed_hull.h"
+#include "bullet_ambient/fluid_body/packed/packed_shape.h"
 #include "bullet_ambient/force/surface/wetted_parts.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "preprocess/base/matrices.h"

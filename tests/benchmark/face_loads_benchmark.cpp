@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "bullet_ambient/fluid_body/packed/packed_faces.h"
+#include "bullet_ambient/fluid_body/packed/packed_shape.h"
 #include "bullet_ambient/force/kernels/single_sums.h"
 #include "bullet_ambient/force/law/skin_friction.h"
 #include "bullet_ambient/force/law/viscous_law.h"

@@ -13,8 +13,16 @@ AMBIENT_BEGIN
 
 class AmbientBodies;
 
+/// How the owner of a world deletes its solver.
+enum class SolverOwner {
+  kKeepsPointer,  ///< by a pointer of its own
+  /// By the pointer that it finds in the world, as PyBullet does when asked for another type of
+  /// solver. If that is the fluid's solver, nobody else knows the replaced one: the fluid deletes
+  /// it.
+  kAsksWorld,
+};
+
 class FittedSolvers;
-enum class SolverOwner;
 struct WorldLife;
 
 /// Gives a world fitting solvers and an action, and takes both back on destruction. World, solvers

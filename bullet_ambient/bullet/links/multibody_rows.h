@@ -1,7 +1,9 @@
 #pragma once
 
+#include <BulletDynamics/ConstraintSolver/btSolverBody.h>
 #include <BulletDynamics/Featherstone/btMultiBodyConstraint.h>
 #include <BulletDynamics/Featherstone/btMultiBodySolverConstraint.h>
+#include <LinearMath/btAlignedObjectArray.h>
 
 #include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/bullet/rows/row_rewriting.h"
@@ -22,14 +24,23 @@ void rewriteMultiBodyRows(const MultiBodyRows& rows, const btContactSolverInfo& 
 /// These bodies are known only once Bullet has made the rows.
 template <class Visit>
 void forEachJoinedBody(const btMultiBodyConstraintArray& joints, const Visit& visit) {
-  for (int i = 0; i < joints.size(); ++i) {
-    if (!joints[i].m_multiBodyA && joints[i].m_solverBodyIdA >= 0) visit(joints[i].m_solverBodyIdA);
-    if (!joints[i].m_multiBodyB && joints[i].m_solverBodyIdB >= 0) visit(joints[i].m_solverBodyIdB);
-  }
+  for (int i = 0; i < joints.size(); ++i)
+    for (const int id : {rigidBodyA(joints[i]), rigidBodyB(joints[i])})
+      if (id >= 0) visit(id);
 }
 
-/// Applies the warm-starting impulses of rewritten rows to their ambient bodies.
-void reapplyMultiBodyImpulses(const btMultiBodyConstraintArray& rows, RowBodies& bodies,
-                              btAlignedObjectArray<btSolverBody>& solver_bodies) noexcept;
+/// The two friction rows of a contact of a multibody, and what their solution reads and writes.
+struct FrictionPair {
+  const btMultiBodySolverConstraint& first;
+  const btMultiBodySolverConstraint& second;
+  btMultiBodyJacobianData& data;
+  btAlignedObjectArray<btSolverBody>& solver_bodies;
+};
+
+/// Solves two friction rows together, their impulse within the circle of their limits, like
+/// btMultiBodyConstraintSolver::resolveConeFrictionConstraintRows(), but without the C library's
+/// arc tangent, sine and cosine. Returns the sum of the velocities along the rows that the impulses
+/// change [m/s].
+btScalar solveFrictionPair(const FrictionPair& pair) noexcept;
 
 AMBIENT_END

@@ -1,15 +1,12 @@
-#include "bullet_ambient/bullet/links/tree_flight.h"
-
 #include <algorithm>
 #include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/bullet/core/body_motion.h"
-#include "bullet_ambient/bullet/links/tree_links.h"
-#include "bullet_ambient/bullet/links/tree_surface.h"
+#include "bullet_ambient/bullet/links/tree_step.h"
 #include "bullet_ambient/bullet/members/flight_coupling.h"
 #include "bullet_ambient/immersed/floating_state.h"
-#include "bullet_ambient/motion/flight/flight_task.h"
+#include "bullet_ambient/motion/flight/flight.h"
 
 // Flights of trees without joints, as rigid bodies.
 
@@ -29,12 +26,13 @@ void readDepartures(AmbientTree* const* trees, int count, Departures& departures
     rotations[i] = toBulletMatrix(dynamics.rotation(0));
     all[i] = &rotations[i];
   }
-  Attitudes attitudes;
-  computeAttitudes(all, departures.twists_W, count, attitudes);
+  Quaternion orientations[kFlightsTogether];
+  Twist twists_B[kFlightsTogether];
+  computeAttitudes(all, departures.twists_W, count, orientations, twists_B);
   for (int i = 0; i < count; ++i) {
     const AmbientLink& base = baseOf(*trees[i]);
     const MotionView& now = base.now;
-    departures.states[i] = {attitudes.orientations[i], now.centre(), attitudes.twists_B[i]};
+    departures.states[i] = {orientations[i], now.centre(), twists_B[i]};
     // That of the flow along it is added below.
     Wrench applied = trees[i]->flight.dynamics().appliedWrench(0);
     applied -= pushByFlow(base.ambient, now.state.orientation);
@@ -45,7 +43,7 @@ void readDepartures(AmbientTree* const* trees, int count, Departures& departures
 }
 
 void setFlown(TreeStep& step) {
-  step.outcome = TreeOutcome::kFlown;
+  step.outcome = Outcome::kFlown;
   step.reserve = 0;
 }
 
@@ -149,12 +147,7 @@ class TreeFlight {
     const LinkFlightResult result = tree_.flight.fly(step_.pose, step_.start, duration, settings_);
     is_finite_ = is_finite_ && result.is_finite;
     step_.end = tree_.flight.endVelocity();
-    count_.substeps += result.count.substeps;
-    count_.load_evaluations += result.count.load_evaluations;
-    count_.guarded += result.count.guarded;
-    count_.coarse = count_.coarse || result.count.coarse;
-    count_.error = std::max(count_.error, result.count.error);
-    count_.energy_removed += result.count.energy_removed;
+    count_ += result.count;
   }
 
   // True if the energy has grown after `made` of `parts` parts. The pose is the end of the last

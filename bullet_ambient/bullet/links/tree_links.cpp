@@ -1,11 +1,13 @@
-#include "bullet_ambient/bullet/links/tree_links.h"
-
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <vector>
 
 #include "bullet_ambient/bullet/core/body_motion.h"
+#include "bullet_ambient/bullet/core/conversions.h"
+#include "bullet_ambient/bullet/links/tree_step.h"
 #include "bullet_ambient/bullet/members/attach.h"
 #include "bullet_ambient/bullet/members/flight_coupling.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
@@ -13,15 +15,14 @@
 #include "bullet_ambient/immersed/floating_state.h"
 
 AMBIENT_BEGIN
-
 namespace {
 
 void prepareLink(AmbientLink& link, AmbientTree& tree, const TreeTask& task) {
   Link& in_tree = tree.tree.links[link.link + 1];
   AmbientBody& ambient = link.ambient;
   in_tree.surroundings.flow = nullptr;
-  const StepStart start{&link.now, link.now.twist_W, link.mass};
-  if (link.mass.mass == 0 || !prepareFluid(ambient, start, task.bodies, task.duration)) {
+  if (link.mass.mass == 0 ||
+      !prepareFluid(ambient, &link.now, link.now.twist_W, link.mass, task.bodies, task.duration)) {
     in_tree.model = nullptr;
     in_tree.surroundings.ambient_velocity.setZero();
     return;
@@ -56,17 +57,14 @@ bool hasWakes(const AmbientTree& tree) {
   });
 }
 
-// True if a link moves by more than a hundredth of its size in 2 s, Bullet's time before sleep.
+// True if a link drifts.
 bool moves(AmbientTree& tree) {
-  constexpr double kRestingTravel = 0.01, kRestingTime = 2;  // those of bodies
   LinkDynamics& dynamics = tree.flight.dynamics();
   dynamics.setVelocity(tree.step.end);
   return std::any_of(tree.links.begin(), tree.links.end(), [&dynamics](const auto& link) {
-    const AmbientBody& ambient = link->ambient;
     const Twist twist = dynamics.twist(link->link + 1);
-    const double size = ambient.model().reference_length;
-    const double travel = kRestingTime * (twist.linear.norm() + size * twist.angular.norm());
-    return travel > kRestingTravel * size;
+    return drifts(twist.linear.norm(), twist.angular.norm(),
+                  link->ambient.model().reference_length);
   });
 }
 
@@ -147,12 +145,109 @@ void countEnergyRemoved(double energy, AmbientTree& tree) noexcept {
 
 void keepTreeAwake(AmbientTree& tree) noexcept {
   if (!tree.multi_body->getCanSleep()) return;
-  const bool has_rows = tree.step.outcome == TreeOutcome::kRows;
+  const bool has_rows = tree.step.outcome == Outcome::kRows;
   const auto floats = [](const AmbientBody& ambient) { return ambient.surface() != nullptr; };
   const bool is_carried = !has_rows || isOfAny(tree, floats);
   const bool is_unsteady = isOfAny(tree, [](const auto& ambient) { return !ambient.may_rest; });
   if (is_unsteady || (is_carried && moves(tree)) || (!has_rows && standsOnSaddle(tree)))
     tree.multi_body->wakeUp();
+}
+
+namespace {
+
+// Sets a turn that Bullet has computed up to kTurnRounding. Returns true if a number has changed.
+bool settleTurn(btQuaternion& now, btQuaternion exact) {
+  exact.normalize();
+  if (now == exact) return false;
+  const auto half_angle = static_cast<double>((now - exact).length());
+  if (!(2 * half_angle <= kTurnRounding)) return false;
+  now = exact;
+  return true;
+}
+
+// A tree that Bullet has moved.
+class MovedTree {
+ public:
+  MovedTree(AmbientTree& tree, double h)
+      : step_(tree.step),
+        links_(tree.tree.links),
+        body_(*tree.multi_body),
+        h_(static_cast<btScalar>(h)) {}
+
+  // Each function returns true if it has changed a number.
+
+  bool settleBase() {
+    const btVector3 spin = velocityAlong(0);
+    if (links_.front().keeps_position || spin.isZero()) return false;
+    btQuaternion to_base = body_.getWorldToBaseRot();
+    if (!settleTurn(to_base, step_.to_base * turnInStep(spin, h_).inverse())) return false;
+    body_.setWorldToBaseRot(to_base);
+    return true;
+  }
+
+  bool settleJoints() {
+    bool has_changed = false;
+    int first = 6;
+    for (int i = 0; i < body_.getNumLinks(); ++i) {
+      const Link& link = links_[static_cast<std::size_t>(i) + 1];
+      btMultibodyLink& bullet = body_.getLink(i);
+      const JointPosition& from = step_.pose.joints[static_cast<std::size_t>(i) + 1];
+      if (link.joint.kind == JointKind::kSpherical && !link.keeps_position)
+        has_changed |= settleSpherical(from, velocityAlong(first), bullet);
+      if (link.joint.kind == JointKind::kPlanar && !link.keeps_position)
+        settlePlanar(from, velocityAlong(first), bullet);
+      has_changed |= settleLink(bullet);
+      first += axisCount(link.joint.kind);
+    }
+    return has_changed;
+  }
+
+ private:
+  // Returns three coordinates, from `first` on, of the velocity that Bullet has moved the tree by.
+  btVector3 velocityAlong(int first) const {
+    return toBullet(Vector3(step_.moved.segment<3>(first)));
+  }
+
+  bool settleSpherical(const JointPosition& from, const btVector3& spin,
+                       btMultibodyLink& link) const {
+    if (spin.isZero()) return false;
+    btScalar* p = link.m_jointPos;
+    btQuaternion now(p[0], p[1], p[2], p[3]);
+    const btQuaternion start = toBullet(Quaternion(from[3], from[0], from[1], from[2]));
+    if (!settleTurn(now, turnInStep(quatRotate(start, spin), h_) * start)) return false;
+    for (int i = 0; i < 4; ++i) p[i] = now[i];
+    link.updateCacheMultiDof();
+    return true;
+  }
+
+  // Bullet has turned the way by the angle at the end of the step.
+  void settlePlanar(const JointPosition& from, const btVector3& velocity,
+                    btMultibodyLink& link) const {
+    constexpr btScalar kRounding = 16 * std::numeric_limits<btScalar>::epsilon();
+    const btVector3 turned =
+        quatRotate(turnAbout(link.getAxisTop(0), link.m_jointPos[0]),
+                   velocity[1] * link.getAxisBottom(1) + velocity[2] * link.getAxisBottom(2));
+    for (int i : {1, 2}) {
+      const auto start = static_cast<btScalar>(from[static_cast<std::size_t>(i)]);
+      const btScalar way = link.getAxisBottom(i).dot(turned) * h_, exact = start + way;
+      const btScalar rounding = kRounding * (std::abs(start) + std::abs(way));
+      if (std::abs(link.m_jointPos[i] - exact) <= rounding) link.m_jointPos[i] = exact;
+    }
+  }
+
+  const TreeStep& step_;
+  const std::vector<Link>& links_;
+  btMultiBody& body_;
+  const btScalar h_;
+};
+
+}  // namespace
+
+void settleTree(AmbientTree& tree, double h) noexcept {
+  MovedTree moved(tree, h);
+  const bool has_turned = moved.settleBase();
+  if (moved.settleJoints() || has_turned)
+    tree.multi_body->updateCollisionObjectWorldTransforms(tree.to_local, tree.origins);
 }
 
 AMBIENT_END

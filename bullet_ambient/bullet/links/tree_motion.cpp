@@ -1,5 +1,3 @@
-#include "bullet_ambient/bullet/links/tree_motion.h"
-
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 
 #include <algorithm>
@@ -7,11 +5,7 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/bullet/links/tree_flight.h"
-#include "bullet_ambient/bullet/links/tree_links.h"
-#include "bullet_ambient/bullet/links/tree_pose.h"
-#include "bullet_ambient/bullet/links/tree_reading.h"
-#include "bullet_ambient/bullet/links/tree_surface.h"
+#include "bullet_ambient/bullet/links/tree_step.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
 #include "bullet_ambient/motion/rows/row_velocity.h"
 
@@ -68,7 +62,7 @@ void stopIfNotFinite(AmbientTree& tree, AmbientBodies& bodies) {
 // Gives a tree the velocity that it had before the substep; its motion in the fluid is not finite.
 void giveUp(AmbientTree& tree, AmbientBodies& bodies) {
   forgetLoads(tree);
-  tree.step.outcome = TreeOutcome::kStock;
+  tree.step.outcome = Outcome::kStock;
   writeVelocity(*tree.multi_body, tree.step.start);
   reject(tree, bodies);
 }
@@ -81,7 +75,7 @@ bool prepareRows(AmbientTree& tree, double h) {
   const LinkFlightResult result = flight.computeRowVelocity(step.pose, step.start, h);
   addCount(result.count, tree);
   if (!result.is_finite) return false;
-  step.outcome = TreeOutcome::kRows;
+  step.outcome = Outcome::kRows;
   forgetLoads(tree);
   step.end = flight.rowVelocity();
   step.moved = step.end;
@@ -99,7 +93,7 @@ bool prepareWoken(AmbientTree& tree) {
   forgetLoads(tree);
   tree.flight.dynamics().setPose(step.pose);
   if (!tree.flight.dynamics().factor()) return false;
-  step.outcome = TreeOutcome::kRows;
+  step.outcome = Outcome::kRows;
   step.moved = step.end = step.start;
   step.share.setZero();
   step.extent = 0;
@@ -226,7 +220,7 @@ void beginAlone(AmbientTree& tree, const TreeTask& task) {
     return;
   }
   const TreeStep& step = tree.step;
-  writeVelocity(*tree.multi_body, step.outcome == TreeOutcome::kFlown ? step.end : step.moved);
+  writeVelocity(*tree.multi_body, step.outcome == Outcome::kFlown ? step.end : step.moved);
 }
 
 // Reports links that their joints turn by half a turn or more in a step: blades then meet the flow
@@ -252,7 +246,7 @@ bool prepareTree(AmbientTree& tree, const TreeTask& task) noexcept {
   TreeStep& step = tree.step;
   btMultiBody& body = *tree.multi_body;
   if (isAsleep(body)) return true;
-  step.outcome = TreeOutcome::kStock;
+  step.outcome = Outcome::kStock;
   step.meets_surface = false;
   readPose(body, step.pose);
   step.to_base = body.getWorldToBaseRot();
@@ -289,7 +283,7 @@ void finishTree(AmbientTree& tree, const TreeTask& task) noexcept {
     step.change.setZero();
     reject(tree, task.bodies);
   }
-  if (step.outcome == TreeOutcome::kFlown) {
+  if (step.outcome == Outcome::kFlown) {
     finishFlown(tree);
   } else {
     finishRows(tree, task);
@@ -302,7 +296,7 @@ void completeTree(AmbientTree& tree, const TreeTask& task) noexcept {
   btMultiBody& body = *tree.multi_body;
   if (!isSolved(tree) || isAsleep(body)) return;
   settleTree(tree, task.duration);
-  if (step.outcome == TreeOutcome::kRows) {
+  if (step.outcome == Outcome::kRows) {
     turnAfterRows(tree, task.duration);
   } else {
     keepIntegrals(tree, task.duration);

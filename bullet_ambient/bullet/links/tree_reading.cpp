@@ -1,5 +1,3 @@
-#include "bullet_ambient/bullet/links/tree_reading.h"
-
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 #include <BulletDynamics/Featherstone/btMultiBodyJointFeedback.h>
@@ -7,6 +5,7 @@
 #include <algorithm>
 
 #include "bullet_ambient/bullet/core/conversions.h"
+#include "bullet_ambient/bullet/links/tree_step.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
 #include "bullet_ambient/immersed/fluid_reading.h"
 
@@ -34,7 +33,7 @@ RigidState stateOf(const LinkDynamics& dynamics, int link) {
 /// Whether nothing but the fluid and applied forces have moved it.
 bool isFree(const AmbientTree& tree) {
   return tree.tree.size() == 1 && !tree.tree.links.front().keeps_velocity &&
-         tree.step.outcome == TreeOutcome::kFlown;
+         tree.step.outcome == Outcome::kFlown;
 }
 
 }  // namespace
@@ -76,7 +75,7 @@ void finishTreeReading(AmbientTree& tree, double duration) noexcept {
     FluidReading& reading = *read.ambient.reading;
     finishReading(read.ambient,
                   {stateOf(dynamics, link), reading.end, reading.model,
-                   step.outcome == TreeOutcome::kFlown, duration},
+                   step.outcome == Outcome::kFlown, duration},
                   reading);
   });
 }

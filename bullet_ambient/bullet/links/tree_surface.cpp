@@ -1,10 +1,9 @@
-#include "bullet_ambient/bullet/links/tree_surface.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/bullet/links/tree_step.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
 #include "bullet_ambient/immersed/floating_state.h"
 
@@ -314,7 +313,7 @@ void passSurface(AmbientTree& tree, const TreeTask& task) noexcept {
   if (!step.meets_surface) return;
   readPose(*tree.multi_body, step.pose);
   const double removed = arriveAtSurface(tree);
-  const bool has_rows = step.outcome == TreeOutcome::kRows || !step.change.isZero(0);
+  const bool has_rows = step.outcome == Outcome::kRows || !step.change.isZero(0);
   countEnergyRemoved(removed + (has_rows ? 0 : boundEnergy(tree, task.duration)), tree);
 }
 

@@ -120,6 +120,14 @@ void wake(btMultiBody& body) noexcept {
     if (body.getLink(i).m_collider) body.getLink(i).m_collider->activate();
 }
 
+void wake(const AmbientBody& ambient) noexcept {
+  if (ambient.body) {
+    ambient.body->activate();
+  } else {
+    wake(*ambient.multi_body);
+  }
+}
+
 namespace {
 
 bool isFixed(const btMultiBody& body, int link) {
@@ -249,75 +257,75 @@ AmbientBody& attachBody(AmbientBodies& bodies, btRigidBody& body, AttachDef def)
 
 namespace {
 
-void checkTreeOf(const std::string& who, const LinkOf& at) {
-  if (at.link < -1 || at.link >= at.multi_body.getNumLinks()) {
+void checkTreeOf(const std::string& who, const btMultiBody& body, int link) {
+  if (link < -1 || link >= body.getNumLinks()) {
     throw std::invalid_argument(who + ": the btMultiBody has links 0 to " +
-                                std::to_string(at.multi_body.getNumLinks() - 1) +
+                                std::to_string(body.getNumLinks() - 1) +
                                 ", and its base is link -1");
   }
-  if (at.multi_body.isUsingRK4Integration()) {
+  if (body.isUsingRK4Integration()) {
     throw std::invalid_argument(
         who + ": useRK4Integration moves a btMultiBody by its dry mass; switch it off");
   }
 }
 
-void checkLinkMass(const std::string& who, const LinkOf& at) {
-  if (at.link < 0 && at.multi_body.isBaseStaticOrKinematic()) {
+void checkLinkMass(const std::string& who, const btMultiBody& body, int link) {
+  if (link < 0 && body.isBaseStaticOrKinematic()) {
     throw std::invalid_argument(who + " is static or kinematic; only what moves feels a fluid");
   }
-  const btScalar mass = massOf(at.multi_body, at.link);
+  const btScalar mass = massOf(body, link);
   if (!(mass > 0)) {
     throw std::invalid_argument(who + " has a mass of " + std::to_string(mass) +
                                 " kg; must be positive, or that of a link at a fixed joint");
   }
 }
 
-// Moves a definition to the link that carries the given one.
-LinkOf carry(const LinkOf& at, AttachDef& def) {
-  const auto carrier = carrierOf(at.multi_body, at.link);
-  if (!carrier || carrier->link == at.link) return at;
+// Moves a definition to the link that carries the given one. Returns that link.
+int carry(const btMultiBody& body, int link, AttachDef& def) {
+  const auto carrier = carrierOf(body, link);
+  if (!carrier || carrier->link == link) return link;
   const Matrix3 turn = toQuaternion(carrier->pose.getRotation()).toRotationMatrix();
   def.fluid_frame.translation =
       turn * def.fluid_frame.translation + toVector3(carrier->pose.getOrigin());
   def.fluid_frame.rotation = turn * def.fluid_frame.rotation;
-  return {at.multi_body, carrier->link};
+  return carrier->link;
 }
 
 }  // namespace
 
-AmbientBody& attachLink(AmbientBodies& bodies, btMultiBodyDynamicsWorld& world, const LinkOf& given,
-                        AttachDef def) {
+AmbientBody& attachLink(AmbientBodies& bodies, btMultiBodyDynamicsWorld& world, btMultiBody& body,
+                        int given, AttachDef def) {
   requireShape(def);
-  const std::string link_name = "add: link " + std::to_string(given.link);
-  checkTreeOf(link_name + " with fluid body '" + def.fluid_body->name + "'", given);
-  const btCollisionObject* collider = given.link < 0 ? given.multi_body.getBaseCollider()
-                                                     : given.multi_body.getLinkCollider(given.link);
+  const std::string link_name = "add: link " + std::to_string(given);
+  checkTreeOf(link_name + " with fluid body '" + def.fluid_body->name + "'", body, given);
+  const btCollisionObject* collider =
+      given < 0 ? body.getBaseCollider() : body.getLinkCollider(given);
   if (def.name.empty() && collider && bodies.naming) def.name = bodies.naming(*collider);
   const std::string who = def.name.empty()
                               ? link_name + " with fluid body '" + def.fluid_body->name + "'"
                               : link_name + ", '" + def.name + "',";
-  const LinkOf at = carry(given, def);
-  checkLinkMass(who, at);
-  const AmbientTree* known = bodies.trees.at(&at.multi_body);
-  if (known && !(known->isSame() && hasLinksOf(at.multi_body, known->tree))) {
-    bodies.trees.erase(at.multi_body);  // of another one that was destroyed at this address
+  const int at = carry(body, given, def);
+  checkLinkMass(who, body, at);
+  const AmbientTree* known = bodies.trees.at(&body);
+  if (known && !(known->isSame() && hasLinksOf(body, known->tree))) {
+    bodies.trees.erase(body);  // of another one that was destroyed at this address
     known = nullptr;
   }
-  if (known && known->find(at.link)) {
-    if (at.link != given.link)
-      throw std::invalid_argument(who + " has no mass, and link " + std::to_string(at.link) +
+  if (known && known->find(at)) {
+    if (at != given)
+      throw std::invalid_argument(who + " has no mass, and link " + std::to_string(at) +
                                   ", which carries it, was added already");
     refuseTwice(who);
   }
-  auto link = std::make_unique<AmbientLink>(at.link);
-  link->mass = inverseMassOf(at.multi_body, at.link);
+  auto link = std::make_unique<AmbientLink>(at);
+  link->mass = inverseMassOf(body, at);
   link->now.gravity = toVector3(world.getGravity());
-  readLinkPose(at.multi_body, *link);
+  readLinkPose(body, *link);
   AmbientBody& attached = link->ambient;
   immerse(attached, who, std::move(def), link->mass, link->now, bodies);
   warnOfDoubts(attached, bodies.complaints);
-  bodies.trees.insert(world, at.multi_body, std::move(link));
-  wake(at.multi_body);
+  bodies.trees.insert(world, body, std::move(link));
+  wake(body);
   return attached;
 }
 
@@ -346,9 +354,10 @@ DisplacedMass displacedMassOf(const AmbientTree& tree) {
 
 }  // namespace
 
-std::optional<DisplacedMass> risingMass(const AmbientBody& ambient, const AmbientTree* tree,
+std::optional<DisplacedMass> risingMass(const AmbientBody& ambient, const AmbientTrees& trees,
                                         const btVector3& gravity) {
   const btRigidBody* body = ambient.body;
+  const AmbientTree* tree = body ? nullptr : &trees.treeOf(ambient);
   const bool falls =
       (body && !body->getGravity().isZero()) || (!(body && body->isInWorld()) && !gravity.isZero());
   if (!falls) return std::nullopt;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bullet_ambient/bullet/core/precision_check.h"
-#include "bullet_ambient/fluid_body/displaced_mass.h"
+#include "bullet_ambient/fluid_body/fluid_body.h"
 #include "bullet_ambient/immersed/ambient_body.h"
 #include "bullet_ambient/immersed/complaints.h"
 
@@ -39,12 +39,6 @@ void checkWater(const std::string& who, int hold, double volume, double capacity
 /// @throws std::invalid_argument as Fluid::add().
 AmbientBody& attachBody(AmbientBodies& bodies, btRigidBody& body, AttachDef def);
 
-/// A link of a btMultiBody by Bullet's number; -1: the base.
-struct LinkOf {
-  btMultiBody& multi_body;
-  int link;
-};
-
 /// Inverts a mass and moments as btRigidBody::setMassProps() does; 0 stays 0.
 InverseMass inverseOf(btScalar mass, const btVector3& inertia) noexcept;
 /// Returns the inverse mass of a link; 0: it has no mass.
@@ -56,8 +50,8 @@ void readLinkPose(const btMultiBody& multi_body, AmbientLink& link) noexcept;
 /// Implements Fluid::add() for a link, except the warning about light links. A link without mass is
 /// carried by one at a fixed joint, carrierOf(): then that one is added. @throws
 /// std::invalid_argument as Fluid::add()
-AmbientBody& attachLink(AmbientBodies& bodies, btMultiBodyDynamicsWorld& world, const LinkOf& link,
-                        AttachDef def);
+AmbientBody& attachLink(AmbientBodies& bodies, btMultiBodyDynamicsWorld& world,
+                        btMultiBody& multi_body, int link, AttachDef def);
 
 /// A link that fixed joints hold to another one, and its pose in the frame of that one's centre of
 /// mass.
@@ -80,9 +74,9 @@ DisplacedMass displacedMass(const AmbientBody& ambient);
 
 /// Returns the masses of a new member by which it rises: it is much lighter than what it displaces,
 /// and there is gravity; else none. A robot is judged as a whole, when the link comes that makes it
-/// that light; one on a fixed base never. `tree`: that of the link; null: the member is a body.
+/// that light; one on a fixed base never. `trees`: of the fluid.
 /// `gravity`: of the world, for bodies that are not in it yet [m/s^2].
-std::optional<DisplacedMass> risingMass(const AmbientBody& ambient, const AmbientTree* tree,
+std::optional<DisplacedMass> risingMass(const AmbientBody& ambient, const AmbientTrees& trees,
                                         const btVector3& gravity);
 
 /// Warns once of bodies much lighter than the medium that they displace. `def`, `mass`: of the
@@ -92,5 +86,7 @@ void warnOfLightBody(Complaints& complaints, const AttachDef& def, const Displac
 
 /// Wakes a multibody and its colliders, like btCollisionObject::activate() for bodies.
 void wake(btMultiBody& multi_body) noexcept;
+/// Wakes a body, or the multibody of a link. @pre it is alive
+void wake(const AmbientBody& ambient) noexcept;
 
 AMBIENT_END

@@ -1,26 +1,33 @@
 #include "bullet_ambient/bullet/members/flight_coupling.h"
 
+#include <algorithm>
 #include <exception>
+#include <limits>
+#include <optional>
+#include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/immersed/floating_state.h"
+#include "bullet_ambient/immersed/flow_along.h"
 #include "bullet_ambient/immersed/region_following.h"
-#include "bullet_ambient/immersed/station_samples.h"
 #include "bullet_ambient/immersed/vessel_step.h"
-#include "bullet_ambient/motion/flight/flight_group.h"
+#include "bullet_ambient/motion/flight/flight.h"
+#include "bullet_ambient/motion/surface/surface_flight.h"
+#include "bullet_ambient/spatial/rotation.h"
 
 AMBIENT_BEGIN
 
 void readAttitudes(AmbientBody* const* bodies, const Twist* twists_W, int count,
-                   Attitudes& attitudes) noexcept {
+                   Quaternion* orientations, Twist* twists_B) noexcept {
   const btMatrix3x3* rotations[kFlightsTogether] = {};
   for (int i = 0; i < count; ++i) rotations[i] = &bodies[i]->body->getWorldTransform().getBasis();
-  computeAttitudes(rotations, twists_W, count, attitudes);
+  computeAttitudes(rotations, twists_W, count, orientations, twists_B);
 }
 
 void computeAttitudes(const btMatrix3x3* const* rotations, const Twist* twists_W, int count,
-                      Attitudes& attitudes) noexcept {
+                      Quaternion* orientations, Twist* twists_B) noexcept {
   AMBIENT_ASSERT(count > 0 && count <= kFlightsTogether);
   DepartureLanes lanes{};
   for (int i = 0; i < count; ++i) {
@@ -30,28 +37,22 @@ void computeAttitudes(const btMatrix3x3* const* rotations, const Twist* twists_W
   }
   kFlightKernels.fastest()->depart(lanes);
   for (int i = 0; i < count; ++i) {
-    attitudes.orientations[i] = orientationOf(lanes.orientation, i);
-    attitudes.twists_B[i] = twistOf(lanes.twist_B, i);
+    orientations[i] = orientationOf(lanes.orientation, i);
+    twists_B[i] = twistOf(lanes.twist_B, i);
   }
 }
 
 void readDepartures(AmbientBody* const* bodies, int count, Departures& departures) noexcept {
   for (int i = 0; i < count; ++i) departures.twists_W[i] = velocityOf(*bodies[i]->body);
-  Attitudes attitudes;
-  readAttitudes(bodies, departures.twists_W, count, attitudes);
+  Quaternion orientations[kFlightsTogether];
+  Twist twists_B[kFlightsTogether];
+  readAttitudes(bodies, departures.twists_W, count, orientations, twists_B);
   for (int i = 0; i < count; ++i) {
     const Vector3 position = toVector3(bodies[i]->body->getWorldTransform().getOrigin());
-    departures.states[i] = {attitudes.orientations[i], position, attitudes.twists_B[i]};
+    departures.states[i] = {orientations[i], position, twists_B[i]};
     departures.surroundings[i] = readSurroundings(*bodies[i]);
   }
 }
-
-namespace {
-
-constexpr double kRestingTravel = 0.01;  // of the body's size, within kRestingTime
-constexpr double kRestingTime = 2;       // [s], Bullet's gDeactivationTime by default
-
-}  // namespace
 
 bool prepareStep(AmbientBody& ambient, AmbientBodies& bodies, double time_step) noexcept {
   SubstepOutcome& outcome = ambient.outcome;
@@ -63,35 +64,35 @@ bool prepareStep(AmbientBody& ambient, AmbientBodies& bodies, double time_step) 
   const Twist twist_W = velocityOf(body);
   const InverseMass mass = inverseMassOf(body);
   if (!mayBeInRegion(ambient, bodies.regions))
-    return prepareFluid(ambient, {nullptr, twist_W, mass}, bodies, time_step);
+    return prepareFluid(ambient, nullptr, twist_W, mass, bodies, time_step);
   const MotionView now = motionOf(body);
-  return prepareFluid(ambient, {&now, twist_W, mass}, bodies, time_step);
+  return prepareFluid(ambient, &now, twist_W, mass, bodies, time_step);
 }
 
-bool prepareFluid(AmbientBody& ambient, const StepStart& start, AmbientBodies& bodies,
-                  double time_step) noexcept {
+bool prepareFluid(AmbientBody& ambient, const MotionView* now, const Twist& twist_W,
+                  const InverseMass& mass, AmbientBodies& bodies, double time_step) noexcept {
   AMBIENT_ASSERT(time_step >= 0);
   const bool may_be_in_region = mayBeInRegion(ambient, bodies.regions);
-  AMBIENT_ASSERT(start.now || !may_be_in_region);
+  AMBIENT_ASSERT(now || !may_be_in_region);
   if (may_be_in_region) {
-    followRegions(ambient, *start.now, bodies.regions, time_step, bodies.complaints);
+    followRegions(ambient, *now, bodies.regions, time_step, bodies.complaints);
   } else {
     stayInOwnMedium(ambient, bodies.regions, time_step);
   }
   if (!ambient.isInFluid()) return false;
   try {
-    if (isModelStale(ambient, start.mass)) rebuildModels(ambient, start.mass);
+    if (isModelStale(ambient, mass)) rebuildModels(ambient, mass);
   } catch (const std::exception&) {
     bodies.complaints.say(Complaint::kNotPhysical);
     return false;
   }
-  followWake(ambient, start.twist_W, time_step);
+  followWake(ambient, twist_W, time_step);
   if (ambient.vessel && ambient.surface()) {
-    findRimWaves(ambient, *start.now, bodies.regions);
-    exchangeWater(ambient, *start.now, time_step);
+    findRimWaves(ambient, *now, bodies.regions);
+    exchangeWater(ambient, *now, time_step);
     saySunk(ambient, bodies.complaints);
   }
-  if (may_be_in_region) findPushes(ambient, *start.now, time_step);
+  if (may_be_in_region) findPushes(ambient, *now, time_step);
   return true;
 }
 
@@ -121,22 +122,225 @@ void stopIfNotFinite(AmbientBody& ambient, Complaints& complaints) noexcept {
   complaints.say(Complaint::kNotFinite);
 }
 
-void keepAwakeWhileMoving(AmbientBody& ambient, Outcome kind) noexcept {
-  const bool has_rows = kind == Outcome::kRows;
-  if (has_rows && !ambient.surface()) return;
+void keepAwake(AmbientBody& ambient, Outcome kind) noexcept {
   btRigidBody& body = *ambient.body;
-  const double size = ambient.model().reference_length;
-  const double travel =
-      kRestingTime * (static_cast<double>(body.getLinearVelocity().length()) +
-                      size * static_cast<double>(body.getAngularVelocity().length()));
-  const bool moves = travel > kRestingTravel * size;
+  const bool has_rows = kind == Outcome::kRows;
+  const bool moves = (!has_rows || ambient.surface()) &&
+                     drifts(static_cast<double>(body.getLinearVelocity().length()),
+                            static_cast<double>(body.getAngularVelocity().length()),
+                            ambient.model().reference_length);
   const bool may_turn_over =
       ambient.surface() && !has_rows && !mayRestAtSurface(ambient, motionOf(body));
-  if (moves || may_turn_over) body.setDeactivationTime(0);
+  if (moves || may_turn_over || !ambient.may_rest) body.setDeactivationTime(0);
 }
 
-void keepAwakeInUnsteadyFluid(const AmbientBody& ambient) noexcept {
-  if (!ambient.may_rest) ambient.body->setDeactivationTime(0);
+namespace {
+
+// Relative change of the velocity by others, in the norm of K, beyond which the load kept from the
+// last flight is not used.
+constexpr double kSameVelocity = 1e-3;
+constexpr double kBulletMaxTurn = kPi / 4;  // [rad] per step in integrateTransform
+// FlightTask::precision. Its error grows with the number of steps, rounding with the root of it.
+constexpr double kPrecision = std::max(1e-16, 1e-4 * kBulletRounding);
+
+// True if a velocity in Bullet is `b` up to a few of its roundings.
+bool isWithinRounding(const Vector3& a, const Vector3& b) {
+  constexpr double kRounding = std::max(1e-12, 8 * kBulletRounding);
+  return (a - b).squaredNorm() <= kRounding * kRounding * b.squaredNorm();
+}
+
+// True if the velocity `now` (world axes) differs from `left`, the one that the last flight left.
+bool wasMovedByOthers(const AmbientBody& ambient, const Twist& left, const RigidState& start,
+                      const Twist& now) {
+  if (isWithinRounding(now.angular, left.angular) && isWithinRounding(now.linear, left.linear))
+    return false;
+  const Quaternion to_body = start.orientation.conjugate();
+  const Twist change{to_body * (now.angular - left.angular), to_body * (now.linear - left.linear)};
+  return inertiaNormSquared(ambient.metric(), change.vector()) >
+         kSameVelocity * kSameVelocity * inertiaNormSquared(ambient.metric(), start.twist.vector());
+}
+
+SurfaceFlight surfaceFlight(AmbientBody& ambient, Flight& flight) {
+  FloatingState& floating = *ambient.floating;
+  const FlightTask& task = flight.task;
+  RigidState& start = flight.body.state;
+  AmbientBody* const body = &ambient;
+  standAt(&body, &start, 1, kBulletRounding);
+  const SurfaceModel* model = ambient.surface();
+  AMBIENT_ASSERT(model);
+  if (ambient.vessel)
+    start.twist = Twist::fromVector(start.twist.vector() + ambient.vessel->change_B);
+  return {{*model, floating.plane_W, task.surroundings, floating.velocity_above, task.settings,
+           task.duration, waterAtStand(ambient)},
+          flight.body,
+          floating.waves,
+          ambient.floating->stand};
+}
+
+void flyNearSurface(AmbientBody* const* bodies, Flight* const* flights, int count) {
+  std::optional<SurfaceFlight> near[kFlightsTogether];
+  SurfaceFlight* all[kFlightsTogether];
+  for (int i = 0; i < count; ++i) all[i] = &near[i].emplace(surfaceFlight(*bodies[i], *flights[i]));
+  flyAtSurface(all, count);
+}
+
+// Flies the bodies at a water surface side by side, and then all others side by side.
+void flyAll(AmbientBody* const* bodies, Flight* const* flights, int count) {
+  AmbientBody* at_surface[kFlightsTogether];
+  Flight *near[kFlightsTogether], *free[kFlightsTogether];
+  int near_count = 0, free_count = 0;
+  for (int i = 0; i < count; ++i) {
+    if (bodies[i]->surface()) {
+      at_surface[near_count] = bodies[i];
+      near[near_count++] = flights[i];
+    } else {
+      free[free_count++] = flights[i];
+    }
+  }
+  if (near_count > 0) flyNearSurface(at_surface, near, near_count);
+  if (free_count > 0) flyTogether(free, free_count);
+}
+
+// Writes the twists at the end of the flights, and the mean twists u_eff of docs/theory.md eq.
+// (29); world axes.
+void computeArrivals(const Departures& departures, const Flight* const* flights, int count,
+                     double time_step, Twist* ends_W, Twist* means_W) {
+  ArrivalLanes lanes{};
+  lanes.duration = time_step;
+  lanes.least = leastVelocity(time_step);
+  for (int i = 0; i < count; ++i) {
+    const RigidState &start = departures.states[i], &end = flights[i]->body.state;
+    setLane(lanes.start_orientation, i, start.orientation);
+    setLane(lanes.start_position, i, start.position);
+    setLane(lanes.orientation, i, end.orientation);
+    setLane(lanes.position, i, end.position);
+    setLane(lanes.twist_B, i, end.twist);
+  }
+  kFlightKernels.fastest()->arrive(lanes);
+  for (int i = 0; i < count; ++i) {
+    ends_W[i] = twistOf(lanes.twist_W, i);
+    means_W[i] = twistOf(lanes.mean_W, i);
+  }
+}
+
+// False if a number is not finite in Bullet's precision, or its square not in double. An
+// orientation that is not finite gives such a twist.
+bool fitsBullet(const Vector3& position, const Twist& twist_W) {
+  constexpr auto kLargest = static_cast<double>(std::numeric_limits<btScalar>::max());
+  return position.squaredNorm() / kLargest < kLargest &&
+         twist_W.linear.squaredNorm() / kLargest < kLargest &&
+         twist_W.angular.squaredNorm() / kLargest < kLargest;
+}
+
+void add(const FlightCount& count, AmbientBody& ambient) {
+  ambient.counters.substeps += count.substeps;
+  countLoads(ambient, count.load_evaluations);
+  ambient.counters.guarded += count.guarded;
+  ambient.counters.coarse += count.coarse;
+  ambient.counters.halted += count.halted;
+}
+
+// Stores the end of a flight in the outcome of the body. An end that is not finite in Bullet's
+// precision is dropped and counted: the body is adrift.
+void keep(const FlightResult& flight, const Twist& end_W, const Twist& mean_W,
+          AmbientBody& ambient) {
+  add(flight.count, ambient);
+  SubstepOutcome& outcome = ambient.outcome;
+  // No warning if the user limits max_substeps.
+  outcome.is_too_long =
+      ambient.step_errors.add(flight.count.error) && ambient.def->flight.max_substeps == 0;
+  if (outcome.is_too_long) ambient.counters.too_long = 1;
+  if (!fitsBullet(flight.state.position, end_W)) {
+    outcome.kind = Outcome::kAdrift;
+    outcome.motion = RowMotion{};
+    ++ambient.counters.rejected;
+    forgetSurface(ambient);
+    return;
+  }
+  outcome.kind = Outcome::kFlown;
+  ambient.counters.energy_removed += flight.count.energy_removed;
+  outcome.motion =
+      LastFlight{end_W, mean_W, flight.memory, flight.state.orientation, flight.state.position};
+}
+
+// True if Bullet does not reach the end orientation: it limits the rotation per step. Also true
+// from half a turn on: u_eff contains the rotation modulo a turn only, and its rounding would
+// change the angular momentum.
+bool turnsTooFarForBullet(const LastFlight& flight, double time_step) {
+  return flight.effective_W.angular.norm() * time_step > kBulletMaxTurn * (1 - 1e-6) ||
+         flight.left_W.angular.norm() * time_step > kPi;
+}
+
+// Returns the part of its way that the body lacks: 0 at the end of its flight to rounding, more if
+// continuous collision detection has stopped it; none if others have moved it.
+std::optional<double> missingPart(const AmbientBody& ambient, const LastFlight& flight,
+                                  double time_step) {
+  const Vector3 missing =
+      flight.position - toVector3(ambient.body->getWorldTransform().getOrigin());
+  const Vector3 way = time_step * flight.effective_W.linear;
+  const double size = flight.position.norm() + ambient.model().reference_length + way.norm();
+  const double rounding = 16 * kBulletRounding * size;
+  if (missing.norm() <= rounding) return 0;
+  const double part = std::clamp(missing.dot(way) / way.squaredNorm(), 0.0, 1.0);
+  if (!((missing - part * way).norm() <= rounding)) return std::nullopt;
+  return part;
+}
+
+// Turns a body that Bullet has moved to where its flight was then.
+void settle(AmbientBody& ambient, const LastFlight& flight, double time_step) {
+  btRigidBody& body = *ambient.body;
+  const auto missing = missingPart(ambient, flight, time_step);
+  if (!missing) return;
+  if (*missing > 0) {
+    const Vector3 turn_W = -*missing * time_step * flight.effective_W.angular;
+    settleAttitude(body, rotationFromVector(turn_W) * flight.orientation);
+  } else if (turnsTooFarForBullet(flight, time_step)) {
+    btTransform end = body.getWorldTransform();
+    end.setRotation(toBullet(flight.orientation));
+    body.setCenterOfMassTransform(end);
+  } else {
+    settleAttitude(body, flight.orientation);
+  }
+}
+
+}  // namespace
+
+void beginFlights(AmbientBody* const* bodies, const Departures& departures, int count,
+                  double time_step, Twist* changes_W) noexcept {
+  AMBIENT_ASSERT(count > 0 && count <= kFlightsTogether);
+  AMBIENT_ASSERT(time_step > 0);
+  std::optional<Flight> flights[kFlightsTogether];
+  Flight* all[kFlightsTogether] = {};
+  for (int i = 0; i < count; ++i) {
+    AmbientBody& ambient = *bodies[i];
+    const RigidState& start = departures.states[i];
+    LastFlight& last = ambient.outcome.flight();
+    if (wasMovedByOthers(ambient, last.left_W, start, departures.twists_W[i]))
+      last.memory.has_load = false;
+    const FlightTask task{ambient.model(), departures.surroundings[i], ambient.def->flight,
+                          time_step, kPrecision};
+    all[i] = &flights[i].emplace(task, start, last.memory);
+  }
+  flyAll(bodies, all, count);
+  Twist ends_W[kFlightsTogether], means_W[kFlightsTogether];
+  computeArrivals(departures, all, count, time_step, ends_W, means_W);
+  for (int i = 0; i < count; ++i) {
+    AmbientBody& ambient = *bodies[i];
+    const FlightResult& flight = all[i]->body;
+    const Twist &mean_W = means_W[i], &before_W = departures.twists_W[i];
+    keep(flight, ends_W[i], mean_W, ambient);
+    changes_W[i] = {};
+    if (ambient.outcome.kind == Outcome::kFlown)
+      changes_W[i] = {mean_W.angular - before_W.angular, mean_W.linear - before_W.linear};
+  }
+}
+
+void endFlight(AmbientBody& ambient, double time_step) noexcept {
+  btRigidBody& body = *ambient.body;
+  const LastFlight& flight = std::as_const(ambient.outcome).flight();
+  settle(ambient, flight, time_step);
+  const Twist &end = flight.left_W, &effective = flight.effective_W;
+  addVelocity(body, {end.angular - effective.angular, end.linear - effective.linear});
 }
 
 AMBIENT_END

@@ -9,18 +9,12 @@ AMBIENT_BEGIN
 
 // States of several bodies of Bullet, read side by side. `count`: at most kFlightsTogether.
 
-/// Attitudes of bodies, and twists in their axes.
-struct Attitudes {
-  Quaternion orientations[kFlightsTogether];  ///< B to W, unit
-  Twist twists_B[kFlightsTogether];
-};
-
-/// Reads the orientations of bodies and turns one twist of each into its axes.
+/// Reads the orientations of bodies, B to W, and turns one twist of each into its axes.
 void readAttitudes(AmbientBody* const* bodies, const Twist* twists_W, int count,
-                   Attitudes& attitudes) noexcept;
-/// Computes them from orthogonal matrices, up to their rounding, B to W.
+                   Quaternion* orientations, Twist* twists_B) noexcept;
+/// Computes them from matrices B to W that are orthogonal up to rounding.
 void computeAttitudes(const btMatrix3x3* const* rotations, const Twist* twists_W, int count,
-                      Attitudes& attitudes) noexcept;
+                      Quaternion* orientations, Twist* twists_B) noexcept;
 
 /// Bodies at the start of a step.
 struct Departures {
@@ -35,16 +29,11 @@ void readDepartures(AmbientBody* const* bodies, int count, Departures& departure
 /// action, calls prepareFluid(). Returns true if the fluid acts on the body.
 bool prepareStep(AmbientBody& ambient, AmbientBodies& bodies, double time_step) noexcept;
 
-/// Motion of a body or link at the start of a substep. `now`: null: it is in no region.
-struct StepStart {
-  const MotionView* now;
-  const Twist& twist_W;
-  const InverseMass& mass;
-};
 /// Finds the region of a body or link among those of `bodies`, and rebuilds a stale model. Returns
-/// true if the fluid acts on it. @pre StepStart::now is set if mayBeInRegion()
-bool prepareFluid(AmbientBody& ambient, const StepStart& start, AmbientBodies& bodies,
-                  double time_step) noexcept;
+/// true if the fluid acts on it. `now`: motion at the start of the substep; null: it is in no
+/// region. @pre `now` is set if mayBeInRegion()
+bool prepareFluid(AmbientBody& ambient, const MotionView* now, const Twist& twist_W,
+                  const InverseMass& mass, AmbientBodies& bodies, double time_step) noexcept;
 
 /// Disables the body for a substep whose duration is not finite, in which Bullet must not move it.
 void hold(AmbientBody& ambient, AmbientBodies& bodies) noexcept;
@@ -56,13 +45,17 @@ void release(AmbientBody& ambient) noexcept;
 /// Counts and reports it.
 void stopIfNotFinite(AmbientBody& ambient, Complaints& complaints) noexcept;
 
-/// Keeps Bullet from putting a body to sleep that drifts freely or floats: it may rest only when it
-/// moves by less than a hundredth of its size within Bullet's two seconds and, unless joints or
-/// contacts hold it, would not turn over.
-void keepAwakeWhileMoving(AmbientBody& ambient, Outcome kind) noexcept;
+/// True if a body moves by more than a hundredth of its size [m] within the 2 s that Bullet waits
+/// before it sleeps (gDeactivationTime).
+inline bool drifts(double speed, double spin, double size) noexcept {
+  constexpr double kRestingTravel = 0.01, kRestingTime = 2;
+  return kRestingTime * (speed + size * spin) > kRestingTravel * size;
+}
 
-/// Keeps a body awake if the fluid around it changes with time.
-void keepAwakeInUnsteadyFluid(const AmbientBody& ambient) noexcept;
+/// Keeps Bullet from putting a body to sleep whose fluid changes with time, or that drifts freely
+/// or floats: it may rest only when it does not drift and, unless joints or contacts hold it, would
+/// not turn over.
+void keepAwake(AmbientBody& ambient, Outcome kind) noexcept;
 
 /// Flies up to kFlightsTogether bodies from `departures` over `time_step` [s] and keeps where they
 /// end. Writes the velocity changes in world axes that make Bullet's integrateTransform reach those

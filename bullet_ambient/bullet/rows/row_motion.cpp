@@ -6,12 +6,10 @@
 #include <optional>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/bullet/core/attitude.h"
 #include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/bullet/members/flight_coupling.h"
 #include "bullet_ambient/immersed/floating_state.h"
-#include "bullet_ambient/motion/flight/flight_group.h"
-#include "bullet_ambient/motion/rows/axis_locks.h"
+#include "bullet_ambient/motion/flight/flight.h"
 #include "bullet_ambient/motion/rows/row_velocity.h"
 #include "bullet_ambient/spatial/cholesky.h"
 #include "bullet_ambient/spatial/rotation.h"
@@ -151,8 +149,9 @@ int findArrivals(AmbientBody* const* bodies, int count, double time_step, Arriva
     changing[found++] = bodies[i];
   }
   if (found == 0) return 0;
-  Attitudes now;
-  readAttitudes(changing, moved_W, found, now);
+  Quaternion orientations[kFlightsTogether];
+  Twist moved_B[kFlightsTogether];
+  readAttitudes(changing, moved_W, found, orientations, moved_B);
   int arrived = 0;
   for (int i = 0; i < found; ++i) {
     AmbientBody& ambient = *changing[i];
@@ -160,16 +159,16 @@ int findArrivals(AmbientBody* const* bodies, int count, double time_step, Arriva
     const RowMotion& rows = ambient.outcome.rows();
     const auto part = partOfWay(rows, position, time_step);
     const bool is_turned_by_others =
-        isTurnedFurther(rows.orientation, now.orientations[i], rows.turn + kTurnRounding);
+        isTurnedFurther(rows.orientation, orientations[i], rows.turn + kTurnRounding);
     if (!part || is_turned_by_others) continue;
     Arrival& arrival = arrivals[arrived++];
     arrival.ambient = &ambient;
-    arrival.orientation = now.orientations[i];
+    arrival.orientation = orientations[i];
     arrival.part = *part;
     if (ambient.surface())
       arrival.pose =
           poseAfter(ambient.outcome.rows(), arrival.orientation, position, *part, time_step);
-    arrival.moved = now.twists_B[i].vector();
+    arrival.moved = moved_B[i].vector();
     arrival.model.emplace(ambient, time_step);
   }
   return arrived;

@@ -2,19 +2,40 @@
 
 #include <BulletDynamics/ConstraintSolver/btSolverBody.h>
 #include <BulletDynamics/ConstraintSolver/btSolverConstraint.h>
+#include <BulletDynamics/Featherstone/btMultiBodySolverConstraint.h>
+#include <LinearMath/btMatrix3x3.h>
 
 #include <vector>
 
 #include "bullet_ambient/bullet/core/four_numbers.h"
 #include "bullet_ambient/bullet/core/precision_check.h"
-#include "bullet_ambient/bullet/core/velocity_basis.h"
 #include "bullet_ambient/immersed/ambient_body.h"
 #include "bullet_ambient/motion/body/body_model.h"
+#include "bullet_ambient/motion/rows/row_velocity.h"
 
 struct btMultiBodyJacobianData;
-struct btMultiBodySolverConstraint;
 
 AMBIENT_BEGIN
+
+/// Velocity basis T of docs/theory.md eq. (26) in world axes, in Bullet's precision: u = T u' with
+/// u = (w, v). The lower left block is zero.
+struct WorldBasis {
+  btMatrix3x3 angular = btMatrix3x3::getIdentity();    ///< w from w'
+  btMatrix3x3 coupling = {0, 0, 0, 0, 0, 0, 0, 0, 0};  ///< w from v'
+  btMatrix3x3 linear = btMatrix3x3::getIdentity();     ///< v from v'
+};
+WorldBasis toWorld(const Matrix6& basis_B, const Matrix3& rotation_WB);
+/// Rotates a diagonal basis into world axes.
+WorldBasis toWorld(const Vector6& basis_B, const Matrix3& rotation_WB);
+
+/// T in world axes for a body with locked axes: T D T^T = K_eff^-1 of docs/theory.md eq. (30). T is
+/// not constant in body axes, and it is singular: components of u' along locked axes do not move
+/// the body. `inertia`: K in B; `mass` of the dry body [kg].
+WorldBasis makeLockedBasis(const Matrix6& inertia, double mass, const Matrix3& root_inertia_W,
+                           const Matrix3& rotation_WB, const AxisFactors& factors);
+
+/// sqrt(I) in world axes, for principal moments I [kg m^2].
+Matrix3 rootInertia(const Vector3& inertia_diagonal, const Matrix3& rotation_WB);
 
 /// Applies an impulse to a body like btSolverBody::internalApplyImpulse, with the same bits.
 /// `linear`: linear part of the row's Jacobian; `spin`: spin change by a unit impulse.
@@ -115,6 +136,16 @@ class RowBodies {
   std::vector<int> index_;  // by solver body; -1: not ambient
 };
 
+/// Solver bodies of a row; none (-1) where a multibody is.
+inline int rigidBodyA(const btSolverConstraint& row) { return row.m_solverBodyIdA; }
+inline int rigidBodyB(const btSolverConstraint& row) { return row.m_solverBodyIdB; }
+inline int rigidBodyA(const btMultiBodySolverConstraint& row) {
+  return row.m_multiBodyA ? -1 : row.m_solverBodyIdA;
+}
+inline int rigidBodyB(const btMultiBodySolverConstraint& row) {
+  return row.m_multiBodyB ? -1 : row.m_solverBodyIdB;
+}
+
 /// Kinds of rows of the sequential impulse solver. They differ in the velocities that Bullet puts
 /// into their right-hand sides.
 enum class RowKind { kContact, kFriction, kTorsionalFriction, kJoint };
@@ -141,9 +172,22 @@ btScalar inverseEffectiveMass(const btSolverBody& body, const RowSide& side) noe
 void rewriteRows(btConstraintArray& rows, RowKind kind, btScalar relaxation, RowBodies& bodies,
                  const btAlignedObjectArray<btSolverBody>& solver_bodies) noexcept;
 
-/// Applies the warm-starting impulses of rewritten contact rows to their ambient bodies.
-void reapplyImpulses(const btConstraintArray& rows, RowBodies& bodies,
-                     btAlignedObjectArray<btSolverBody>& solver_bodies) noexcept;
+/// Applies the warm-starting impulses of rewritten rows to their ambient bodies. `Row`:
+/// btSolverConstraint or btMultiBodySolverConstraint.
+template <class Row>
+void reapplyImpulses(const btAlignedObjectArray<Row>& rows, RowBodies& bodies,
+                     btAlignedObjectArray<btSolverBody>& solver_bodies) noexcept {
+  for (int i = 0; i < rows.size(); ++i) {
+    const Row& row = rows[i];
+    const btScalar impulse = row.m_appliedImpulse;
+    if (impulse == 0) continue;
+    const int a = rigidBodyA(row), b = rigidBodyB(row);
+    if (bodies.find(a))
+      applyImpulse(solver_bodies[a], row.m_contactNormal1, row.m_angularComponentA, impulse);
+    if (bodies.find(b))
+      applyImpulse(solver_bodies[b], row.m_contactNormal2, row.m_angularComponentB, impulse);
+  }
+}
 
 // Finds contacts that need two friction rows; docs/theory.md, section 7, "Friction".
 

@@ -7,10 +7,9 @@
 #include <utility>
 
 #include "bullet_ambient/bullet/core/precision_check.h"
-#include "bullet_ambient/bullet/links/cone_friction.h"
+#include "bullet_ambient/bullet/links/multibody_rows.h"
 #include "bullet_ambient/bullet/rows/quick_rows.h"
 #include "bullet_ambient/bullet/solver/solver_group.h"
-#include "bullet_ambient/bullet/solver/tree_group.h"
 
 class btMLCPSolver;
 class btMultiBodyConstraintSolver;

@@ -1,20 +1,96 @@
 #include "bullet_ambient/bullet/solver/solver_group.h"
 
+#include <BulletCollision/BroadphaseCollision/btDispatcher.h>
 #include <BulletCollision/NarrowPhaseCollision/btManifoldPoint.h>
+#include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
 #include <BulletDynamics/ConstraintSolver/btContactSolverInfo.h>
 #include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
+#include <BulletDynamics/Featherstone/btMultiBody.h>
+#include <BulletDynamics/Featherstone/btMultiBodyConstraint.h>
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 #include <BulletDynamics/Featherstone/btMultiBodySolverConstraint.h>
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/bullet/links/multibody_rows.h"
+#include "bullet_ambient/bullet/links/tree_step.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
-#include "bullet_ambient/bullet/rows/joint_chains.h"
-#include "bullet_ambient/bullet/rows/joint_gaps.h"
+#include "bullet_ambient/bullet/members/attach.h"
+#include "bullet_ambient/bullet/members/flight_coupling.h"
+#include "bullet_ambient/bullet/members/tree_state.h"
+#include "bullet_ambient/bullet/rows/joint_rows.h"
 #include "bullet_ambient/bullet/rows/row_motion.h"
 #include "bullet_ambient/bullet/rows/row_rewriting.h"
+#include "bullet_ambient/immersed/fluid_reading.h"
+#include "bullet_ambient/motion/flight/flight.h"
+#include "bullet_ambient/motion/rows/row_velocity.h"
+#include "bullet_ambient/threads.h"
 
 AMBIENT_BEGIN
+namespace {
+
+// Task that calls fly(item). Keeps a reference to `fly` and allocates nothing.
+template <class Fly>
+class FlightTasks final : public Task {
+ public:
+  explicit FlightTasks(const Fly& fly) : fly_(fly) {}
+  void run(int item) const noexcept override { fly_(item); }
+
+ private:
+  const Fly& fly_;
+};
+
+// Tells what may move a body in this substep. Written into its companion id while bodies are
+// selected: Bullet overwrites the id when it converts the body.
+struct Marks {
+  bool is_near = false;   // has a joint, or a pair with another body in the broadphase
+  bool has_rows = false;  // has a joint or contact
+  bool is_held = false;   // has a joint, or a contact with a body that cannot move
+};
+
+// Companion ids. Bullet's own are from -2 on: -1, not converted; -2, cannot move.
+constexpr int kNear = -3, kRows = -4, kHeld = -5;
+
+Marks marksOf(const btCollisionObject& body) {
+  const int id = body.getCompanionId();
+  return {id <= kNear && id >= kHeld, id <= kRows && id >= kHeld, id == kHeld};
+}
+
+// Leaves bodies that cannot move alone: solvers of other groups may read them at the same time.
+void mark(const btCollisionObject& body, int id) {
+  if (body.isStaticOrKinematicObject() || !btRigidBody::upcast(&body)) return;
+  const bool is_marked = marksOf(body).is_near;
+  const int known = body.getCompanionId();
+  // Bullet writes to bodies of manifolds, too.
+  const_cast<btCollisionObject&>(body).setCompanionId(is_marked && known < id ? known : id);
+}
+
+// Marks the bodies in contact manifolds and joints.
+void markPairs(const GroupInput& input) {
+  for (int i = 0; i < input.manifold_count; ++i) {
+    const btPersistentManifold& manifold = *input.manifolds[i];
+    const bool has_rows = manifold.getNumContacts() > 0;
+    const btCollisionObject &a = *manifold.getBody0(), &b = *manifold.getBody1();
+    const auto idBeside = [has_rows](const btCollisionObject& other) {
+      if (!has_rows) return kNear;
+      return other.isStaticOrKinematicObject() ? kHeld : kRows;
+    };
+    mark(a, idBeside(b));
+    mark(b, idBeside(a));
+  }
+  for (int i = 0; i < input.constraint_count; ++i) {
+    const btTypedConstraint& constraint = *input.constraints[i];
+    if (!constraint.isEnabled()) continue;
+    mark(constraint.getRigidBodyA(), kHeld);
+    mark(constraint.getRigidBodyB(), kHeld);
+  }
+}
+
+}  // namespace
 
 SolverGroup::SolverGroup(AmbientBodies& bodies)
     : bodies_(bodies),
@@ -23,6 +99,139 @@ SolverGroup::SolverGroup(AmbientBodies& bodies)
       joint_gaps_(std::make_unique<JointGaps>()) {}
 
 SolverGroup::~SolverGroup() = default;
+
+GroupBodies SolverGroup::select(const GroupBodies& bodies, const GroupInput& input,
+                                btScalar time_step, bool all_stay) noexcept {
+  time_step_ = static_cast<double>(time_step);
+  members_.clear();
+  saved_.clear();
+  batch_count_ = 0;
+  is_held_ = false;
+  if (bodies_.size() == 0) return bodies;
+  bodies_.solved.fetch_add(1, std::memory_order_relaxed);
+  if (!std::isfinite(time_step_)) {
+    is_held_ = holdAll(bodies);
+    return bodies;
+  }
+  if (!hasAmbientBody(bodies)) return bodies;
+  reserve(bodies.count);
+  markPairs(input);
+  findMembers(bodies, all_stay);
+  return {converted_.data(), static_cast<int>(converted_.size())};
+}
+
+bool SolverGroup::hasAmbientBody(const GroupBodies& bodies) const noexcept {
+  for (int i = 0; i < bodies.count; ++i)
+    if (bodies_.find(bodies.first[i])) return true;
+  return false;
+}
+
+// Reserves for all bodies of the group: the number of converted ones changes from step to step, and
+// later steps must not allocate.
+void SolverGroup::reserve(int bodies) noexcept {
+  const auto count = static_cast<std::size_t>(bodies);
+  members_.reserve(count);
+  // Some solvers of Bullet convert one body more, which cannot move.
+  converted_.reserve(count);
+  member_of_solver_body_.reserve(count + 1);
+  free_.reserve(bodies_.task_runner ? count : kFlightsTogether);
+  // One batch of bodies joined to multibodies may be begun besides.
+  const std::size_t batches = count / kFlightsTogether + 2;
+  if (batches_.size() < batches) batches_.resize(batches);
+  row_bodies_->reserve(bodies + 1);
+  joint_chains_->reserve(bodies);
+}
+
+// Fills members_ and converted_. Flies the ambient bodies that no row can move.
+void SolverGroup::findMembers(const GroupBodies& bodies, bool all_stay) noexcept {
+  converted_.clear();
+  for (int i = 0; i < bodies.count; ++i) {
+    btCollisionObject& object = *bodies.first[i];
+    AmbientBody* ambient = bodies_.find(&object);
+    if (!ambient || !prepareStep(*ambient, bodies_, time_step_)) {
+      converted_.push_back(&object);
+      continue;
+    }
+    stopIfNotFinite(*ambient, bodies_.complaints);
+    const Marks marks = marksOf(object);
+    const bool is_locked = !axisFactors(*ambient->body).areFree();
+    if (ambient->reading)
+      beginBodyReading(*ambient, readState(*ambient->body), readSurroundings(*ambient), is_locked);
+    if (all_stay || is_locked || marks.is_near) {
+      converted_.push_back(&object);
+      members_.push_back({ambient, &object, is_locked, marks.has_rows, marks.is_held});
+    } else {
+      object.setCompanionId(kAlone);
+      flyLater({ambient, kAlone}, nullptr);
+    }
+  }
+  flyFreely(nullptr);
+}
+
+// Disables the ambient bodies, so that Bullet does not move them. Returns true if there are any.
+bool SolverGroup::holdAll(const GroupBodies& bodies) noexcept {
+  bool is_any = false;
+  for (int i = 0; i < bodies.count; ++i) {
+    AmbientBody* ambient = bodies_.find(bodies.first[i]);
+    if (!ambient || !ambient->isInFluid() || ambient->body->isStaticOrKinematicObject()) continue;
+    is_any = true;
+    hold(*ambient, bodies_);
+  }
+  return is_any;
+}
+
+// Flies a body as soon as there are kFlightsTogether of them, while their data are in the cache; on
+// several threads, when there is no further one.
+void SolverGroup::flyLater(const FreeBody& body, SolverBodies* solver_bodies) noexcept {
+  free_.push_back(body);
+  if (!bodies_.task_runner && free_.size() == kFlightsTogether) flyFreely(solver_bodies);
+}
+
+// Flies free_. A flight changes its own body only, so that any thread may compute it.
+// kFlightsTogether flights side by side are quickest on one thread; few bodies are spread over the
+// threads in smaller groups. `solver_bodies`: null: Bullet converts none of the bodies.
+void SolverGroup::flyFreely(SolverBodies* solver_bodies) noexcept {
+  if (free_.empty()) return;
+  constexpr int kLeastGroups = 8;  // groups to make before a group is filled
+  const int count = static_cast<int>(free_.size());
+  TaskRunner* runner = bodies_.task_runner;
+  const int together =
+      runner ? std::clamp(count / kLeastGroups, 1, kFlightsTogether) : kFlightsTogether;
+  const auto fly = [&](int group) {
+    const int first = group * together;
+    flyTogether(first, std::min(together, count - first), solver_bodies);
+  };
+  const FlightTasks flights(fly);
+  const int groups = (count + together - 1) / together;
+  if (runner) {
+    runner->runAll(flights, groups);
+  } else {
+    for (int i = 0; i < groups; ++i) flights.run(i);
+  }
+  for (const FreeBody& body : free_) {
+    const SubstepOutcome& outcome = body.ambient->outcome;
+    if (outcome.kind != Outcome::kFlown) bodies_.complaints.say(Complaint::kNotFinite);
+    if (outcome.is_too_long) bodies_.complaints.sayTooLong(*body.ambient->def);
+  }
+  free_.clear();
+}
+
+void SolverGroup::flyTogether(int first, int count, SolverBodies* solver_bodies) const noexcept {
+  AmbientBody* bodies[kFlightsTogether] = {};
+  Twist changes_W[kFlightsTogether];
+  const FreeBody* free = free_.data() + first;
+  for (int i = 0; i < count; ++i) bodies[i] = free[i].ambient;
+  Departures departures;
+  readDepartures(bodies, count, departures);
+  beginFlights(bodies, departures, count, time_step_, changes_W);
+  for (int i = 0; i < count; ++i) {
+    if (free[i].solver_body == kAlone) {
+      addVelocity(*bodies[i]->body, changes_W[i]);
+    } else {
+      setExternalImpulse((*solver_bodies)[free[i].solver_body], changes_W[i]);
+    }
+  }
+}
 
 void SolverGroup::showPush(SolverBodies& solver_bodies, Push push) noexcept {
   for (const Member& member : members_) {
@@ -100,10 +309,10 @@ void SolverGroup::reapplyWarmStart(SolverBodies& solver_bodies, const RowPools& 
   }
   reapplyImpulses(rows.contacts, *row_bodies_, solver_bodies);
   if (!for_multibodies) return;
-  reapplyMultiBodyImpulses(multibodies->contacts, *row_bodies_, solver_bodies);
-  reapplyMultiBodyImpulses(multibodies->frictions, *row_bodies_, solver_bodies);
+  reapplyImpulses(multibodies->contacts, *row_bodies_, solver_bodies);
+  reapplyImpulses(multibodies->frictions, *row_bodies_, solver_bodies);
   // Stock Bullet applies the impulses of joints to the multibody only, which loses momentum.
-  reapplyMultiBodyImpulses(multibodies->joints, *row_bodies_, solver_bodies);
+  reapplyImpulses(multibodies->joints, *row_bodies_, solver_bodies);
 }
 
 void SolverGroup::saveFeedbackJacobians(const btConstraintArray& joints) noexcept {
@@ -136,6 +345,113 @@ const SolverGroup::Member* SolverGroup::memberOf(int solver_body) const noexcept
 
 SolverGroup::Member* SolverGroup::memberOf(int solver_body) noexcept {
   return const_cast<Member*>(std::as_const(*this).memberOf(solver_body));
+}
+
+namespace {
+
+// Value of MULTIBODY_CONSTRAINT_SPHERICAL_LIMIT, which Bullet has since 3.22.
+constexpr int kSphericalLimit = MULTIBODY_CONSTRAINT_FIXED + 1;
+
+// True for limits, motors and gears of a tree's own joints, whose Jacobians do not change while the
+// tree moves.
+bool isOfJoints(int constraint_type) {
+  switch (constraint_type) {
+    case MULTIBODY_CONSTRAINT_LIMIT:
+    case MULTIBODY_CONSTRAINT_1DOF_JOINT_MOTOR:
+    case MULTIBODY_CONSTRAINT_GEAR:
+    case MULTIBODY_CONSTRAINT_SPHERICAL_MOTOR:
+    case kSphericalLimit:
+      return true;
+    default:
+      return false;
+  }
+}
+
+AmbientTree* treeOf(const AmbientTrees& trees, const btCollisionObject* object) {
+  const btMultiBodyLinkCollider* collider = btMultiBodyLinkCollider::upcast(object);
+  return collider ? trees.find(collider->m_multiBody) : nullptr;
+}
+
+void markTurning(AmbientTree* tree) {
+  if (tree) tree->step.turns_rows = true;
+}
+
+}  // namespace
+
+TreeGroup::TreeGroup(AmbientBodies& bodies) : bodies_(bodies) {}
+
+void TreeGroup::detachReplacedTrees() noexcept {
+  btMultiBodyDynamicsWorld& world = *bodies_.trees.world();
+  for (int i = 0; i < world.getNumMultibodies(); ++i) {
+    const btMultiBody& body = *world.getMultiBody(i);
+    const AmbientTree* tree = bodies_.trees.at(&body);
+    if (!tree || (tree->isSame() && hasLinksOf(body, tree->tree))) continue;
+    bodies_.complaints.say(Complaint::kOtherLinks);
+    bodies_.trees.erase(body);
+    if (bodies_.trees.empty()) return;
+  }
+}
+
+void TreeGroup::begin() noexcept {
+  is_begun_ = false;
+  if (bodies_.trees.empty()) return;
+  detachReplacedTrees();
+  if (bodies_.trees.empty()) return;
+  is_begun_ = true;
+  forEachTree(*bodies_.trees.world(), bodies_.trees, [this](AmbientTree& tree) {
+    TreeStep& step = tree.step;
+    if (isSolved(tree)) bodies_.complaints.say(Complaint::kNoAction);
+    step.outcome = Outcome::kNotSolved;
+    step.was_awake = !isAsleep(*tree.multi_body);
+    step.turns_rows = false;
+    readVelocity(*tree.multi_body, step.start);
+  });
+}
+
+void TreeGroup::markTurningRows() noexcept {
+  btMultiBodyDynamicsWorld& world = *bodies_.trees.world();
+  btDispatcher& dispatcher = *world.getDispatcher();
+  for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+    const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
+    if (manifold.getNumContacts() == 0) continue;
+    markTurning(treeOf(bodies_.trees, manifold.getBody0()));
+    markTurning(treeOf(bodies_.trees, manifold.getBody1()));
+  }
+  for (int i = 0; i < world.getNumMultiBodyConstraints(); ++i) {
+    btMultiBodyConstraint& constraint = *world.getMultiBodyConstraint(i);
+    if (isOfJoints(constraint.getConstraintType())) continue;
+    markTurning(bodies_.trees.find(constraint.getMultiBodyA()));
+    markTurning(bodies_.trees.find(constraint.getMultiBodyB()));
+  }
+}
+
+void TreeGroup::prepare(const btContactSolverInfo& info) noexcept {
+  if (!is_begun_) return;
+  is_begun_ = false;
+  bodies_.solved.fetch_add(1, std::memory_order_relaxed);
+  markTurningRows();
+  const TreeTask task = taskOf(bodies_, info.m_timeStep);
+  AmbientTree* lone[kFlightsTogether];
+  int count = 0;
+  forEachTree(*bodies_.trees.world(), bodies_.trees, [&](AmbientTree& tree) {
+    if (prepareTree(tree, task)) return;
+    lone[count++] = &tree;
+    if (count == kFlightsTogether) flyLoneTrees(lone, std::exchange(count, 0), task);
+  });
+  if (count > 0) flyLoneTrees(lone, count, task);
+}
+
+const AmbientTrees* TreeGroup::solvedTrees() const noexcept {
+  return bodies_.trees.empty() ? nullptr : &bodies_.trees;
+}
+
+void TreeGroup::finish(const btContactSolverInfo& info) noexcept {
+  if (bodies_.trees.empty()) return;
+  if (is_begun_) bodies_.complaints.say(Complaint::kNoMultiBodySolver);
+  is_begun_ = false;
+  const TreeTask task = taskOf(bodies_, info.m_timeStep);
+  forEachTree(*bodies_.trees.world(), bodies_.trees,
+              [&task](AmbientTree& tree) { finishTree(tree, task); });
 }
 
 AMBIENT_END

@@ -1,16 +1,68 @@
 #pragma once
 
 #include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
+#include <BulletDynamics/Featherstone/btMultiBody.h>
 
 #include <cmath>
+#include <functional>
 #include <string>
+#include <type_traits>
 
 #include "bullet_ambient/bullet/core/precision_check.h"
-#include "bullet_ambient/bullet/state/bullet_access.h"
 #include "bullet_ambient/bullet/state/world_state_structs.h"
 #include "bullet_ambient/force/medium/medium.h"
 
 AMBIENT_BEGIN
+
+// Getters and setters of stored fields in Bullet's objects, where Bullet has no pair of
+// functions for one.
+
+/// Selects the const overload of a getter.
+template <class Result, class Object>
+constexpr auto constant(Result (Object::*get)() const) {
+  return get;
+}
+
+/// Setter of a field that is restored together with others, by the named function; does nothing.
+struct SetElsewhere {
+  template <class Object, class Field>
+  void operator()(Object&, const Field&) const {}
+};
+constexpr SetElsewhere kByRestoreMass{}, kByRestoreForces{}, kByRestoreSleep{};
+
+/// An array of numbers in an object of Bullet.
+struct Numbers {
+  btScalar* first;
+  int count;
+};
+
+/// A link of a multibody, or its base.
+struct LinkPlace {
+  btMultiBody& body;
+  btMultibodyLink* link;  ///< null: the base
+
+  LinkPlace(btMultiBody& of, int number)
+      : body(of), link(number < 0 ? nullptr : &of.getLink(number)) {}
+
+  /// Returns the first numbers of an array of the joint, as many as the joint uses; none for a
+  /// base.
+  template <std::size_t kSize>
+  Numbers joint(btScalar (btMultibodyLink::*numbers)[kSize], int btMultibodyLink::*count) const {
+    return link ? Numbers{link->*numbers, link->*count} : Numbers{nullptr, 0};
+  }
+};
+
+/// Velocities of base and joints, to be written as Bullet does itself (btMultiBodyDynamicsWorld,
+/// RK4).
+inline Numbers velocitiesOf(btMultiBody& body) {
+  return {const_cast<btScalar*>(body.getVelocityVector()), 6 + body.getNumDofs()};
+}
+
+/// Sleep data of a multibody, for which Bullet has no public getters.
+struct MultiBodySleep {
+  btScalar &timer, &threshold, &timeout;
+};
+MultiBodySleep sleepOf(btMultiBody& body) noexcept;
 
 // All stored fields, listed once for all operations: write, read, check, copy from Bullet and back
 // to Bullet. Their order is that of the bytes. To add a field, add it to the structure and here,
@@ -258,28 +310,23 @@ void fields(V& v, MultiBodyLinkState& s) {
   constexpr Rule kInertia = finiteNotNegative("inertia is negative or not finite");
   constexpr Rule kForce = finite("force or torque is not finite");
   constexpr Rule kPosition = finite("pose or position of its joint is not finite");
-  v(
-      s.mass, kMass, [](Place& l) { return l.link ? l.link->m_mass : l.body.getBaseMass(); },
-      [](Place& l, btScalar x) { l.link ? void(l.link->m_mass = x) : l.body.setBaseMass(x); });
-  v(
-      s.inertia, kInertia,
-      [](Place& l) { return l.link ? l.link->m_inertiaLocal : l.body.getBaseInertia(); },
-      [](Place& l, const btVector3& x) {
-        l.link ? void(l.link->m_inertiaLocal = x) : l.body.setBaseInertia(x);
-      });
+  // `get`, `set`: of the base.
+  const auto linkField = [&v](auto& field, const Rule& rule, auto of_link, auto get, auto set) {
+    using Field = std::remove_reference_t<decltype(field)>;
+    v(
+        field, rule,
+        [=](Place& l) -> Field { return l.link ? l.link->*of_link : std::invoke(get, l.body); },
+        [=](Place& l, const Field& x) {
+          l.link ? void(l.link->*of_link = x) : std::invoke(set, l.body, x);
+        });
+  };
+  using Body = btMultiBody;
+  linkField(s.mass, kMass, &Link::m_mass, &Body::getBaseMass, &Body::setBaseMass);
+  linkField(s.inertia, kInertia, &Link::m_inertiaLocal, &Body::getBaseInertia,
+            &Body::setBaseInertia);
   // Added to zero: a base has no setter.
-  v(
-      s.force, kForce,
-      [](Place& l) { return l.link ? l.link->m_appliedForce : l.body.getBaseForce(); },
-      [](Place& l, const btVector3& x) {
-        l.link ? void(l.link->m_appliedForce = x) : l.body.addBaseForce(x);
-      });
-  v(
-      s.torque, kForce,
-      [](Place& l) { return l.link ? l.link->m_appliedTorque : l.body.getBaseTorque(); },
-      [](Place& l, const btVector3& x) {
-        l.link ? void(l.link->m_appliedTorque = x) : l.body.addBaseTorque(x);
-      });
+  linkField(s.force, kForce, &Link::m_appliedForce, &Body::getBaseForce, &Body::addBaseForce);
+  linkField(s.torque, kForce, &Link::m_appliedTorque, &Body::getBaseTorque, &Body::addBaseTorque);
   v(s.joint_position, kPosition,
     [](Place& l) { return l.joint(&Link::m_jointPos, &Link::m_posVarCount); });
   v(s.joint_force, kForce,

@@ -6,14 +6,15 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "bullet_ambient/bullet/core/precision_check.h"
+#include "bullet_ambient/force/medium/fluid_region.h"
 #include "bullet_ambient/force/medium/surface_plane.h"
 #include "bullet_ambient/immersed/attach_def.h"
-#include "bullet_ambient/immersed/region_id.h"
-#include "bullet_ambient/motion/body/wake.h"
-#include "bullet_ambient/motion/flight/flight_task.h"
+#include "bullet_ambient/motion/body/body_model.h"
+#include "bullet_ambient/motion/flight/flight.h"
 #include "bullet_ambient/motion/lanes/surface_lanes.h"
 #include "bullet_ambient/motion/surface/hold_water.h"
 
@@ -134,5 +135,10 @@ struct WorldState {
   double time = 0;                ///< Fluid::time() [s]
   std::uint64_t random_seed = 0;  ///< random seed of a solver that shuffles its rows
 };
+
+/// Returns the first fault of a saved state that no world can have had, as words that follow "the
+/// saved state", with body or contact and value; empty if there is none. Of the fluid it checks
+/// only the flight's memory: makeBodyModel() checks the rest.
+std::string findFault(const WorldState& state);
 
 AMBIENT_END

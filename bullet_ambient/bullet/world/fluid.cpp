@@ -17,10 +17,13 @@
 AMBIENT_BEGIN
 namespace {
 
-// Gives all bodies the models for the fluids of the regions and for further ones. Makes all models
-// first: what throws changes nothing.
-void knowFluids(AmbientBodies& bodies, const RegionFluids& further) {
-  const RegionFluids fluids = bodies.regions.fluids(further);
+// Where the regions lack a fluid of a region that is to come, gives all bodies the models for it,
+// too; where they lack one of a region that has gone, takes those away. Makes all models first:
+// what throws changes nothing.
+void knowFluids(AmbientBodies& bodies, const FluidRegion& region, bool is_coming) {
+  const RegionFluids missing = bodies.regions.missing(region);
+  if (missing.empty()) return;
+  const RegionFluids fluids = bodies.regions.fluids(is_coming ? missing : RegionFluids{});
   std::vector<std::shared_ptr<const FluidModels>> made;
   bodies.forEach([&](const AmbientBody& ambient) {
     made.push_back(
@@ -28,14 +31,6 @@ void knowFluids(AmbientBodies& bodies, const RegionFluids& further) {
   });
   std::size_t next = 0;
   bodies.forEach([&](AmbientBody& ambient) { setModels(ambient, std::move(made[next++])); });
-}
-
-void learnAll(AmbientBodies& bodies, const RegionFluids& missing) {
-  if (!missing.empty()) knowFluids(bodies, missing);
-}
-
-void forgetAll(AmbientBodies& bodies, const RegionFluids& forgotten) {
-  if (!forgotten.empty()) knowFluids(bodies, {});
 }
 
 // Makes room for what differs of the fluid along each body.
@@ -51,8 +46,8 @@ Object& requireObject(Object* object) {
 
 // Reports a new member that is light beside what it displaces. Returns the member.
 const AmbientBody& reportIfLight(AmbientBodies& members, const AmbientBody& ambient,
-                                 const AmbientTree* tree, const btVector3& gravity) {
-  if (const auto mass = risingMass(ambient, tree, gravity))
+                                 const btVector3& gravity) {
+  if (const auto mass = risingMass(ambient, members.trees, gravity))
     warnOfLightBody(members.complaints, *ambient.def, *mass, 1);
   return ambient;
 }
@@ -83,7 +78,7 @@ Immersed Fluid::add(btRigidBody& body, AttachDef def) {
   const btDynamicsWorld& world = connection_->world("add");
   members_->requireChangeable("add");
   const AmbientBody& ambient = attachBody(*members_, body, std::move(def));
-  return Immersed(*members_, reportIfLight(*members_, ambient, nullptr, world.getGravity()));
+  return Immersed(*members_, reportIfLight(*members_, ambient, world.getGravity()));
 }
 
 Immersed Fluid::add(btMultiBody* multi_body, int link, AttachDef def) {
@@ -93,9 +88,8 @@ Immersed Fluid::add(btMultiBody* multi_body, int link, AttachDef def) {
 Immersed Fluid::add(btMultiBody& multi_body, int link, AttachDef def) {
   btMultiBodyDynamicsWorld& world = connection_->multiBodyWorld("add");
   members_->requireChangeable("add");
-  const AmbientBody& ambient = attachLink(*members_, world, {multi_body, link}, std::move(def));
-  const AmbientTree* tree = members_->trees.find(&multi_body);
-  return Immersed(*members_, reportIfLight(*members_, ambient, tree, world.getGravity()));
+  const AmbientBody& ambient = attachLink(*members_, world, multi_body, link, std::move(def));
+  return Immersed(*members_, reportIfLight(*members_, ambient, world.getGravity()));
 }
 
 AttachReport Fluid::addAll(FluidBodySource& shapes, const Medium& medium, AttachSettings settings) {
@@ -143,7 +137,7 @@ RegionId Fluid::addRegion(FluidRegion region) {
   members_->requireChangeable("addRegion");
   FluidRegions& regions = members_->regions;
   checkRegion(regions.next(), region);
-  learnAll(*members_, regions.missing(region));
+  knowFluids(*members_, region, true);
   const bool knew = regions.mayDiffer();
   const RegionId id = regions.add(std::move(region));
   if (!knew) takeAllStations(*members_);
@@ -155,11 +149,11 @@ void Fluid::setRegion(RegionId id, FluidRegion region) {
   FluidRegions& regions = members_->regions;
   checkRegion(id, region);
   const FluidRegion before = regions.require(id);
-  learnAll(*members_, regions.missing(region));
+  knowFluids(*members_, region, true);
   const bool knew = regions.mayDiffer();
   regions.set(id, std::move(region));
   if (!knew) takeAllStations(*members_);
-  forgetAll(*members_, regions.missing(before));
+  knowFluids(*members_, before, false);
 }
 
 bool Fluid::removeRegion(RegionId id) {
@@ -169,7 +163,7 @@ bool Fluid::removeRegion(RegionId id) {
   if (found == regions.all().end()) return false;
   const FluidRegion before = found->second.region;
   regions.remove(id);
-  forgetAll(*members_, regions.missing(before));
+  knowFluids(*members_, before, false);
   return true;
 }
 

@@ -8,8 +8,7 @@
 #include <utility>
 
 #include "bullet_ambient/bullet/core/body_motion.h"
-#include "bullet_ambient/bullet/links/tree_links.h"
-#include "bullet_ambient/bullet/links/tree_motion.h"
+#include "bullet_ambient/bullet/links/tree_step.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/bullet/members/attach.h"
 #include "bullet_ambient/bullet/members/bodies_in_holds.h"
@@ -34,19 +33,29 @@ void forEachTreeIn(const btCollisionWorld& world, const AmbientBodies& bodies, c
   if (isOf(world, bodies.trees)) forEachTree(*bodies.trees.world(), bodies.trees, visit);
 }
 
-// Asks the world, not the fluid: a body there may have been destroyed.
-bool hasAwakeMember(const btCollisionWorld& world, const AmbientBodies& bodies) {
+// Calls visit(AmbientBody&) for the bodies and links that a world has. Asks the world, not the
+// fluid: a body there may have been destroyed.
+template <class Visit>
+void forEachIn(const btCollisionWorld& world, const AmbientBodies& bodies, const Visit& visit) {
   const btCollisionObjectArray& objects = world.getCollisionObjectArray();
-  for (int i = 0; i < objects.size(); ++i) {
-    const AmbientBody* ambient = bodies.find(objects[i]);
-    if (ambient && ambient->isInFluid() && objects[i]->isActive() &&
-        !objects[i]->isStaticOrKinematicObject()) {
-      return true;
-    }
-  }
+  for (int i = 0; i < objects.size(); ++i)
+    if (AmbientBody* ambient = bodies.find(objects[i])) visit(*ambient);
+  forEachTreeIn(world, bodies, [&visit](const AmbientTree& tree) {
+    for (const auto& link : tree.links) visit(link->ambient);
+  });
+}
+
+// True if the fluid acts on a body that is awake.
+bool isMoved(const AmbientBody& ambient) {
+  return ambient.isInFluid() && ambient.body->isActive() &&
+         !ambient.body->isStaticOrKinematicObject();
+}
+
+bool hasAwakeMember(const btCollisionWorld& world, const AmbientBodies& bodies) {
   bool is_awake = false;
-  forEachTreeIn(world, bodies,
-                [&](const AmbientTree& tree) { is_awake |= !isAsleep(*tree.multi_body); });
+  forEachIn(world, bodies, [&is_awake](const AmbientBody& ambient) {
+    is_awake |= ambient.body ? isMoved(ambient) : !isAsleep(*ambient.multi_body);
+  });
   return is_awake;
 }
 
@@ -93,8 +102,7 @@ class Completion {
 
  private:
   void finish(Outcome kind, const Twist& before_W, AmbientBody& ambient) const {
-    keepAwakeWhileMoving(ambient, kind);
-    keepAwakeInUnsteadyFluid(ambient);
+    keepAwake(ambient, kind);
     if (ambient.reading)
       finishBodyReading(ambient, kind, motionOf(*ambient.body), before_W, time_step_);
   }
@@ -112,7 +120,7 @@ void completeTrees(const btCollisionWorld& world, AmbientBodies& bodies, btScala
   if (!isOf(world, bodies.trees)) return;
   const TreeTask task = taskOf(bodies, time_step);
   forEachTreeIn(world, bodies, [&task](AmbientTree& tree) { completeTree(tree, task); });
-  for (const auto& tree : bodies.trees.all()) tree->step.outcome = TreeOutcome::kNotSolved;
+  for (const auto& tree : bodies.trees.all()) tree->step.outcome = Outcome::kNotSolved;
 }
 
 // Clears contact impulses after a substep whose duration is not finite: the next one would start
@@ -152,14 +160,8 @@ void wakeReloaded(const btCollisionWorld& world, const AmbientBodies& bodies) {
 
 // Wakes the followers that the world still has: others may have been destroyed.
 void wakeFollowers(const btCollisionWorld& world, const AmbientBodies& bodies) {
-  const btCollisionObjectArray& objects = world.getCollisionObjectArray();
-  for (int i = 0; i < objects.size(); ++i) {
-    const AmbientBody* ambient = bodies.find(objects[i]);
-    if (ambient && ambient->def->follow_regions) objects[i]->activate();
-  }
-  forEachTreeIn(world, bodies, [](const AmbientTree& tree) {
-    for (const auto& link : tree.links)
-      if (link->ambient.def->follow_regions) return wake(*tree.multi_body);
+  forEachIn(world, bodies, [](const AmbientBody& ambient) {
+    if (ambient.def->follow_regions) wake(ambient);
   });
 }
 
@@ -216,7 +218,7 @@ void FluidAction::debugDraw(btIDebugDraw* drawer) {
     const btVector3 gravity = const_cast<btDynamicsWorld*>(dynamics)->getGravity();
     RegionCall call(regions);
     for (const auto& [id, entry] : regions.all())
-      drawSurface({entry.region, gravity, regions.time}, drawing_, *drawer);
+      drawSurface(entry.region, gravity, regions.time, drawing_, *drawer);
   }
   const btCollisionObjectArray& objects = world_->getCollisionObjectArray();
   for (int i = 0; i < objects.size(); ++i) {

@@ -6,7 +6,7 @@
 #include "bullet_ambient/force/law/form_law.h"
 #include "bullet_ambient/force/loads/face_loads.h"
 #include "bullet_ambient/force/medium/fluid_region.h"
-#include "bullet_ambient/force/surface/buoyancy.h"
+#include "bullet_ambient/force/surface/hydrostatics.h"
 #include "bullet_ambient/immersed/ambient_body.h"
 #include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/immersed/fluid_reading.h"
@@ -103,11 +103,6 @@ void drawHolds(const AmbientBody& ambient, const MotionView& now, const Arrows& 
                       fluid_colours::kWater);
 }
 
-// The point of a region's surface straight above or below a point.
-Vector3 onSurface(const DrawnSurface& surface, const Vector3& up, const Vector3& point) {
-  return point + surface.region.surface->sample(point, surface.time).height * up;
-}
-
 }  // namespace
 
 FluidDrawing FluidDrawing::all() {
@@ -118,25 +113,26 @@ FluidDrawing FluidDrawing::all() {
   return all;
 }
 
-void drawSurface(const DrawnSurface& surface, const FluidDrawing& what, btIDebugDraw& drawer) {
+void drawSurface(const FluidRegion& region, const btVector3& gravity, double time,
+                 const FluidDrawing& what, btIDebugDraw& drawer) {
   constexpr int kCells = 16;
-  const Vector3 gravity = toVector3(surface.gravity);
-  if (!surface.region.surface || !(gravity.norm() > 0)) return;
-  const Vector3 up = -gravity.normalized();
+  if (!region.surface || gravity.isZero()) return;
+  const Vector3 up = -toVector3(gravity).normalized();
   Eigen::Index vertical = 0;
   up.cwiseAbs().maxCoeff(&vertical);
   RegionBounds bounds{Vector3::Constant(-what.surface_extent),
                       Vector3::Constant(what.surface_extent)};
-  if (surface.region.bounds) {
-    bounds.lowest = bounds.lowest.cwiseMax(surface.region.bounds->lowest);
-    bounds.highest = bounds.highest.cwiseMin(surface.region.bounds->highest);
+  if (region.bounds) {
+    bounds.lowest = bounds.lowest.cwiseMax(region.bounds->lowest);
+    bounds.highest = bounds.highest.cwiseMin(region.bounds->highest);
   }
   const auto corner = [&](int i, int j) {
     Vector3 point = (bounds.lowest + bounds.highest) / 2;
     const Eigen::Index u = (vertical + 1) % 3, v = (vertical + 2) % 3;
     point[u] = bounds.lowest[u] + (bounds.highest[u] - bounds.lowest[u]) * i / kCells;
     point[v] = bounds.lowest[v] + (bounds.highest[v] - bounds.lowest[v]) * j / kCells;
-    return toBullet(onSurface(surface, up, point));
+    // Straight above or below that point.
+    return toBullet(Vector3(point + region.surface->sample(point, time).height * up));
   };
   for (int i = 0; i <= kCells; ++i)
     for (int j = 0; j < kCells; ++j) {

@@ -10,11 +10,11 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/bullet/core/body_motion.h"
-#include "bullet_ambient/bullet/links/tree_links.h"
-#include "bullet_ambient/bullet/links/tree_now.h"
+#include "bullet_ambient/bullet/links/tree_step.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/bullet/members/attach.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
+#include "bullet_ambient/bullet/world/tree_now.h"
 #include "bullet_ambient/fluid.h"
 #include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/immersed/fluid_reading.h"
@@ -22,28 +22,21 @@
 AMBIENT_BEGIN
 namespace {
 
-AmbientLink& linkOf(const Member& member) {
-  for (const auto& link : member.tree->links)
-    if (&link->ambient == member.ambient) return *link;
-  AMBIENT_ASSERT(false);
-  return *member.tree->links.front();
-}
-
 // Returns the present pose of a body or link, and its motion; of a link that at the last
 // placeLinks().
-MotionView presentMotion(const Member& member) {
-  if (!member.tree) return motionOf(*member.ambient->body);
-  AmbientLink& link = linkOf(member);
-  readLinkPose(*member.tree->multi_body, link);
+MotionView presentMotion(const AmbientBody& ambient, const AmbientBodies& bodies) {
+  if (ambient.body) return motionOf(*ambient.body);
+  AmbientLink& link = bodies.trees.linkOf(ambient);
+  readLinkPose(*ambient.multi_body, link);
   return link.now;
 }
 
-void replaceDef(const Member& member, AttachDef def, AmbientBodies& bodies) {
-  AmbientBody& ambient = *member.ambient;
+void replaceDef(AmbientBody& ambient, AttachDef def, AmbientBodies& bodies) {
   const auto before = std::exchange(ambient.def, shareDef(std::move(def), bodies.load_tables));
-  const InverseMass mass = member.tree ? linkOf(member).mass : inverseMassOf(*ambient.body);
+  const InverseMass mass =
+      ambient.body ? inverseMassOf(*ambient.body) : bodies.trees.linkOf(ambient).mass;
   try {
-    refresh(ambient, mass, presentMotion(member), bodies);
+    refresh(ambient, mass, presentMotion(ambient, bodies), bodies);
   } catch (...) {
     ambient.def = before;
     throw;
@@ -59,15 +52,14 @@ bool isOwnAboveSurfaces(const AmbientBody& ambient) {
 }
 
 // Whether the fluid is another one than before.
-bool changeMedium(const Member& member, const Medium& medium, AmbientBodies& bodies) {
-  AmbientBody& ambient = *member.ambient;
+bool changeMedium(AmbientBody& ambient, const Medium& medium, AmbientBodies& bodies) {
   checkMedium(*ambient.def->fluid_body, medium);
   const Medium before = ambient.def->medium;
   AttachDef def = *ambient.def;
   def.medium = medium;
   if (medium.density != before.density || medium.viscosity != before.viscosity ||
       (mayBlow(medium) != mayBlow(before) && isOwnAboveSurfaces(ambient))) {
-    replaceDef(member, std::move(def), bodies);
+    replaceDef(ambient, std::move(def), bodies);
     return true;
   }
   if (medium.velocity == before.velocity && medium.acceleration == before.acceleration)
@@ -80,14 +72,14 @@ bool changeMedium(const Member& member, const Medium& medium, AmbientBodies& bod
   return true;
 }
 
-void changeFluidBody(const Member& member, std::shared_ptr<const FluidBody> fluid_body,
+void changeFluidBody(AmbientBody& ambient, std::shared_ptr<const FluidBody> fluid_body,
                      const FrameOffset& fluid_frame, AmbientBodies& bodies) {
   if (!fluid_body) throw std::invalid_argument("setFluidBody: the fluid body is null");
-  AttachDef def = *member.ambient->def;
+  AttachDef def = *ambient.def;
   def.fluid_body = std::move(fluid_body);
   def.fluid_frame = fluid_frame;
   def.holds.water.clear();  // of other holds
-  replaceDef(member, std::move(def), bodies);
+  replaceDef(ambient, std::move(def), bodies);
 }
 
 // Returns the state of a hold, after a check that there is such a one.
@@ -143,94 +135,85 @@ void checkHole(const AttachDef& def, const Vector3& place, const Vector3& normal
                                 ") m in the frame of its fluid body, which is not at the body");
 }
 
-void wakeUp(const Member& member) {
-  if (member.tree) {
-    wake(*member.tree->multi_body);
-  } else {
-    member.ambient->body->activate();
-  }
-}
-
 }  // namespace
 
 Immersed::Immersed(AmbientBodies& bodies, const AmbientBody& ambient)
-    : bodies_(bodies.weak_from_this()), id_(bodies.slots.nameOf(ambient)) {}
+    : bodies_(bodies.weak_from_this()), handle_(ambient.handle) {}
 
 Immersed::Held Immersed::hold() const noexcept {
-  Held held{bodies_.lock(), {}};
-  if (held.bodies) held.member = held.bodies->slots.find(id_);
-  return held;
+  const auto handle = handle_.lock();
+  return {bodies_.lock(), handle ? *handle : nullptr};
 }
 
 Immersed::Held Immersed::require(const char* function) const {
   Held held = hold();
-  if (held.member.ambient) return held;
+  if (held.member) return held;
   const bool is_closed = !held.bodies || held.bodies->is_closed;
   throw std::logic_error(std::string(function) +
                          (is_closed ? ": the Fluid or the world of this Immersed was destroyed"
                                     : ": this Immersed was removed from its Fluid"));
 }
 
-bool Immersed::isValid() const noexcept { return hold().member.ambient; }
+bool Immersed::isValid() const noexcept { return hold().member; }
 
 void Immersed::setMedium(const Medium& medium) const {
   const Held held = require("setMedium");
   held.bodies->requireChangeable("setMedium");
-  if (changeMedium(held.member, medium, *held.bodies)) wakeUp(held.member);
+  if (changeMedium(*held.member, medium, *held.bodies)) wake(*held.member);
 }
 
 void Immersed::setFluidBody(std::shared_ptr<const FluidBody> fluid_body) const {
-  setFluidBody(std::move(fluid_body), require("setFluidBody").member.ambient->def->fluid_frame);
+  setFluidBody(std::move(fluid_body), require("setFluidBody").member->def->fluid_frame);
 }
 
 void Immersed::setFluidBody(std::shared_ptr<const FluidBody> fluid_body,
                             const FrameOffset& fluid_frame) const {
   const Held held = require("setFluidBody");
   held.bodies->requireChangeable("setFluidBody");
-  changeFluidBody(held.member, std::move(fluid_body), fluid_frame, *held.bodies);
-  wakeUp(held.member);
+  changeFluidBody(*held.member, std::move(fluid_body), fluid_frame, *held.bodies);
+  wake(*held.member);
 }
 
 Medium Immersed::medium() const {
   const Held held = require("medium");
-  Medium medium = held.member.ambient->medium;
-  medium.velocity += held.member.ambient->flow.change;
+  Medium medium = held.member->medium;
+  medium.velocity += held.member->flow.change;
   return medium;
 }
 
 std::shared_ptr<const FluidBody> Immersed::fluidBody() const {
-  return require("fluidBody").member.ambient->def->fluid_body;
+  return require("fluidBody").member->def->fluid_body;
 }
 
-RegionId Immersed::region() const { return require("region").member.ambient->place.region; }
+RegionId Immersed::region() const { return require("region").member->place.region; }
 
 Matrix6 Immersed::inertia() const {
   const Held held = require("inertia");
-  return modelNow(*held.member.ambient, presentMotion(held.member)).inertia;
+  return modelNow(*held.member, presentMotion(*held.member, *held.bodies)).inertia;
 }
 
 double Immersed::kineticEnergy() const {
   const Held held = require("kineticEnergy");
-  if (held.member.tree) placeLinksNow(*held.member.tree);
-  return kineticEnergyNow(*held.member.ambient, presentMotion(held.member));
+  if (!held.member->body) placeLinksNow(held.bodies->trees.treeOf(*held.member));
+  return kineticEnergyNow(*held.member, presentMotion(*held.member, *held.bodies));
 }
 
-AmbientCounters Immersed::counters() const { return require("counters").member.ambient->counters; }
+AmbientCounters Immersed::counters() const { return require("counters").member->counters; }
 
 void Immersed::readWrench(bool is_read) const {
   const Held held = require("readWrench");
   held.bodies->requireChangeable("readWrench");
-  AmbientBody& ambient = *held.member.ambient;
+  AmbientBody& ambient = *held.member;
   if (is_read == (ambient.reading != nullptr)) return;
   ambient.reading = is_read ? std::make_shared<FluidReading>() : nullptr;
   if (!is_read) return;
-  if (held.member.tree) placeLinksNow(*held.member.tree);
-  ambient.reading->wrench = wrenchNow(ambient, presentMotion(held.member));
+  if (!held.member->body) placeLinksNow(held.bodies->trees.treeOf(*held.member));
+  ambient.reading->wrench = wrenchNow(ambient, presentMotion(*held.member, *held.bodies));
 }
 
 FluidWrench Immersed::wrench() const {
   const Held held = require("wrench");
-  const AmbientBody& ambient = *held.member.ambient;
+  const AmbientBody& ambient = *held.member;
   if (!ambient.reading)
     throw std::logic_error("wrench: it is not read; call readWrench(true) before a step");
   return ambient.isInFluid() ? ambient.reading->wrench : FluidWrench{};
@@ -238,18 +221,18 @@ FluidWrench Immersed::wrench() const {
 
 WetState Immersed::wet() const {
   const Held held = require("wet");
-  return wetStateOf(*held.member.ambient, presentMotion(held.member), held.bodies->regions);
+  return wetStateOf(*held.member, presentMotion(*held.member, *held.bodies), held.bodies->regions);
 }
 
 std::vector<HoldWater> Immersed::holds() const {
   const Held held = require("holds");
-  return holdsOf(*held.member.ambient, presentMotion(held.member));
+  return holdsOf(*held.member, presentMotion(*held.member, *held.bodies));
 }
 
 void Immersed::setWater(int hold, double volume) const {
   const Held held = require("setWater");
   held.bodies->requireChangeable("setWater");
-  AmbientBody& ambient = *held.member.ambient;
+  AmbientBody& ambient = *held.member;
   HoldState& state = holdOf("setWater", ambient, hold);
   checkWater("setWater: " + nameOf(*ambient.def), hold, volume,
              ambient.vessel->shape->holds[static_cast<std::size_t>(hold)].volume);
@@ -258,24 +241,24 @@ void Immersed::setWater(int hold, double volume) const {
   ambient.vessel->sloshing.now[static_cast<std::size_t>(hold)] = {};
   ambient.vessel->is_known = true;
   if (ambient.floating) ambient.floating->is_valid = false;
-  wakeUp(held.member);
+  wake(*held.member);
 }
 
 void Immersed::pump(int hold, double rate) const {
   const Held held = require("pump");
   held.bodies->requireChangeable("pump");
-  HoldState& state = holdOf("pump", *held.member.ambient, hold);
+  HoldState& state = holdOf("pump", *held.member, hold);
   if (!std::isfinite(rate))
     throw std::invalid_argument("pump: the rate [m^3/s] is " + std::to_string(rate) +
                                 ", must be finite");
   state.pump = rate;
-  wakeUp(held.member);
+  wake(*held.member);
 }
 
 void Immersed::setOpening(int hold, int opening, bool is_open) const {
   const Held held = require("setOpening");
   held.bodies->requireChangeable("setOpening");
-  const AmbientBody& ambient = *held.member.ambient;
+  const AmbientBody& ambient = *held.member;
   holdOf("setOpening", ambient, hold);
   const int found = findOpening(*ambient.vessel, hold, opening);
   if (found < 0)
@@ -283,13 +266,13 @@ void Immersed::setOpening(int hold, int opening, bool is_open) const {
                                 nameOf(*ambient.def) + " has no opening with the number " +
                                 std::to_string(opening));
   ambient.vessel->changes.is_shut[static_cast<std::size_t>(found)] = !is_open;
-  wakeUp(held.member);
+  wake(*held.member);
 }
 
 int Immersed::addOpening(int hold, const Vector3& place, const Vector3& normal, double area) const {
   const Held held = require("addOpening");
   held.bodies->requireChangeable("addOpening");
-  const AmbientBody& ambient = *held.member.ambient;
+  const AmbientBody& ambient = *held.member;
   holdOf("addOpening", ambient, hold);
   checkHole(*ambient.def, place, normal, area);
   VesselState& vessel = *ambient.vessel;
@@ -299,7 +282,7 @@ int Immersed::addOpening(int hold, const Vector3& place, const Vector3& normal, 
   hole.normal = normal.normalized();
   hole.area = area;
   addHole(hole, vessel);
-  wakeUp(held.member);
+  wake(*held.member);
   const auto& holes = vessel.changes.holes;
   const auto added = std::count_if(holes.begin(), holes.end(),
                                    [&](const AddedHole& other) { return other.hold == hold; });
@@ -309,20 +292,22 @@ int Immersed::addOpening(int hold, const Vector3& place, const Vector3& normal, 
 
 void Immersed::applyImpulse(const Wrench& impulse) const {
   const Held held = require("applyImpulse");
-  if (held.member.tree) {
-    applyImpulseToLink(held.bodies->trees, *held.member.tree, linkOf(held.member).link, impulse);
+  const AmbientTrees& trees = held.bodies->trees;
+  if (held.member->body) {
+    applyImpulseToBody(*held.member, impulse);
   } else {
-    applyImpulseToBody(*held.member.ambient, impulse);
+    applyImpulseToLink(trees, trees.treeOf(*held.member), trees.linkOf(*held.member).link, impulse);
   }
-  wakeUp(held.member);
+  wake(*held.member);
 }
 
 bool Immersed::remove() const {
   const Held held = hold();
-  if (!held.member.ambient) return false;
+  if (!held.member) return false;
   held.bodies->requireChangeable("remove");
-  if (!held.member.tree) return held.bodies->erase(*held.member.ambient->body);
-  return held.bodies->trees.erase(*held.member.tree->multi_body, linkOf(held.member).link);
+  if (held.member->body) return held.bodies->erase(*held.member->body);
+  AmbientTrees& trees = held.bodies->trees;
+  return trees.erase(*held.member->multi_body, trees.linkOf(*held.member).link);
 }
 
 AMBIENT_END

@@ -90,12 +90,12 @@ struct Tally {
   DisplacedMass mass;
   int light_count = 0;
 
-  void add(int index, const AmbientBody& ambient, const AmbientTree* tree, AttachReport& report) {
+  void add(int index, const AmbientBody& ambient, const AmbientTrees& trees, AttachReport& report) {
     ++report.attached;
     shapes.insert(ambient.def->fluid_body.get());
     const DisplacedMass own = displacedMass(ambient);
     if (own.isLighter()) report.light.push_back({index, own.body, own.medium});
-    const auto rising = risingMass(ambient, tree, btVector3(0, 0, 0));
+    const auto rising = risingMass(ambient, trees, btVector3(0, 0, 0));
     if (!rising) return;
     if (light_count++ > 0 && rising->body * mass.medium >= mass.body * rising->medium) return;
     lightest = *ambient.def;
@@ -189,7 +189,7 @@ const AmbientBody* WorldAttachment::attachLink(btMultiBody& multi_body, int link
   if (settings_.adjust_link)
     callOf("adjust_link", [&] { settings_.adjust_link(multi_body, link, def); });
   if (!def.fluid_body) return nullptr;
-  return &ambient::attachLink(bodies_, *multibody_world_, {multi_body, link}, std::move(def));
+  return &ambient::attachLink(bodies_, *multibody_world_, multi_body, link, std::move(def));
 }
 
 const AmbientBody* WorldAttachment::attach(btCollisionObject& object, AttachReport& report) {
@@ -230,11 +230,8 @@ AttachReport WorldAttachment::attachNew(btCollisionWorld& world) {
     const int index = index_ = static_cast<int>(i);
     if (canJoin(object)) ++number_;
     try {
-      if (const AmbientBody* ambient = attach(*object, report)) {
-        const auto* collider = btMultiBodyLinkCollider::upcast(object);
-        const AmbientTree* tree = collider ? bodies_.trees.find(collider->m_multiBody) : nullptr;
-        tally.add(index, *ambient, tree, report);
-      }
+      if (const AmbientBody* ambient = attach(*object, report))
+        tally.add(index, *ambient, bodies_.trees, report);
     } catch (const std::exception& error) {
       report.refused.push_back({index, nameOf(index, *object, bodies_) + ": " + error.what()});
     } catch (...) {  // thrown by the program's source

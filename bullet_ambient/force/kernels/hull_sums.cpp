@@ -2,7 +2,7 @@
 
 #include "bullet_ambient/base/instruction_set.h"
 #include "bullet_ambient/base/lanes.h"
-#include "bullet_ambient/fluid_body/packed/hull_block.h"
+#include "bullet_ambient/fluid_body/blocks.h"
 
 // Sums over the wet parts of triangles, docs/theory.md eq. (55), (56) and (58), one triangle per
 // lane. Compiled once per instruction set; AMBIENT_KERNEL() adds its name to that of the kernel.

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bullet_ambient/base/instruction_set.h"
-#include "bullet_ambient/fluid_body/packed/hull_block.h"
+#include "bullet_ambient/fluid_body/blocks.h"
 
 namespace ambient {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bullet_ambient/base/instruction_set.h"
-#include "bullet_ambient/fluid_body/part_block.h"
+#include "bullet_ambient/fluid_body/blocks.h"
 
 namespace ambient {
 

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
-#include "bullet_ambient/force/law/resistance.h"
+#include "bullet_ambient/force/law/surface_load.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
 
 namespace ambient {

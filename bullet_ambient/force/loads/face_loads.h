@@ -1,14 +1,16 @@
 #pragma once
 
+#include <memory>
+
 #include "bullet_ambient/fluid_body/fluid_body.h"
 #include "bullet_ambient/force/law/flow_settings.h"
+#include "bullet_ambient/force/medium/surface_plane.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
 
 namespace ambient {
 
 class PackedFaces;
 struct ShapeFactors;
-struct SurfacePlane;
 
 /// Drag coefficient of the form law along a unit vector, mean of both ways, on a frontal area
 /// [m^2]; 0 without one. Cost O(F).
@@ -99,6 +101,20 @@ class DragScale {
   Vector3 scales_{1, 1, 1};  ///< sigma_j: measured coefficient over the law's own
   Vector3 centre_;           ///< centre of volume [m]
   double length_sq_;         ///< area in eq. (51) [m^2]
+};
+
+/// Faces spread over the sphere of radius 1 m about the origin, symmetric in all axes. All spheres
+/// take the loads on their wet part from these, whatever faces they have. Made once per process.
+std::shared_ptr<const FluidBody> unitSphere();
+
+/// Surface of the fluid at a sphere of a radius [m] and a centre in F [m], with lengths in radii
+/// about the centre. `plane_at_centre` is in a frame at the centre with the axes of F.
+struct PlaneInRadii {
+  PlaneInRadii(const SurfacePlane& plane_at_centre, const Vector3& centre, double radius) noexcept;
+  PlaneInRadii(const PlaneInRadii&) = delete;  // plane points to sides
+
+  SurfacePlane plane;
+  PoolSides sides;
 };
 
 }  // namespace ambient

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "bullet_ambient/force/loads/face_loads.h"
-#include "bullet_ambient/force/loads/shared_tables.h"
 #include "bullet_ambient/force/medium/medium.h"
 
 namespace ambient {

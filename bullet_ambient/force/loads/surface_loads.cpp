@@ -10,7 +10,6 @@
 #include "bullet_ambient/force/law/viscous_law.h"
 #include "bullet_ambient/force/loads/face_loads.h"
 #include "bullet_ambient/force/loads/load_tables.h"
-#include "bullet_ambient/force/loads/unit_sphere.h"
 
 namespace ambient {
 namespace {

@@ -3,19 +3,13 @@
 #include <memory>
 
 #include "bullet_ambient/force/law/flow_settings.h"
-#include "bullet_ambient/force/law/resistance.h"
+#include "bullet_ambient/force/law/surface_load.h"
 #include "bullet_ambient/force/loads/face_loads.h"
 #include "bullet_ambient/force/medium/medium.h"
 #include "bullet_ambient/force/medium/surface_plane.h"
 #include "bullet_ambient/spatial/vector_types.h"
 
 namespace ambient {
-
-/// Part of a body that is in the fluid.
-struct WetPart {
-  SurfacePlane plane;  ///< surface of the fluid, in the frame of the loads
-  double share = 1;    ///< share of the body's volume in the fluid
-};
 
 /// Load as a step takes it up: a wrench that is given for the motion, and how the resistance in
 /// creeping flow has grown, which the step solves for.

@@ -45,6 +45,12 @@ inline SurfacePlane seenFrom(const SurfacePlane& plane, const FrameOffset& frame
   return seenFrom(plane, frame.rotation, frame.translation);
 }
 
+/// Part of a body that is in the fluid.
+struct WetPart {
+  SurfacePlane plane;  ///< surface of the fluid, in the frame of the loads
+  double share = 1;    ///< share of the body's volume in the fluid
+};
+
 /// Two unit vectors in a plane: first x second = normal.
 struct PlaneAxes {
   Vector3 first, second;

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "bullet_ambient/fluid_body/hold.h"
+#include "bullet_ambient/fluid_body/fluid_body.h"
 
 namespace ambient {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bullet_ambient/fluid_body/packed/packed_hull.h"
+#include "bullet_ambient/fluid_body/packed/packed_shape.h"
 #include "bullet_ambient/force/surface/hydrostatics.h"
 
 namespace ambient {

@@ -5,7 +5,7 @@
 
 #include "bullet_ambient/fluid_body/added_mass_parts.h"
 #include "bullet_ambient/fluid_body/octahedral_lattice.h"
-#include "bullet_ambient/fluid_body/packed/packed_hull.h"
+#include "bullet_ambient/fluid_body/packed/packed_shape.h"
 #include "bullet_ambient/force/surface/wetted_inertia.h"
 
 namespace ambient {
@@ -63,5 +63,11 @@ class WettedTable final : public WettedParts {
   OctahedralLattice lattice_;
   std::vector<double> nodes_;  ///< immersions of the table, then kDeep
 };
+
+/// Makes the added mass of a body at the surface of the water. Sphere: WettedSphere. With parts of
+/// the added mass: WettedParts, eq. (60), or WettedTable, eq. (61a). Without parts: the added mass
+/// times the wet share of the volume. Cost: O(parts).
+std::shared_ptr<const WettedInertia> makeWettedInertia(
+    const std::shared_ptr<const FluidBody>& body);
 
 }  // namespace ambient

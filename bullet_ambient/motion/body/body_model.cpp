@@ -7,6 +7,7 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/elementary.h"
+#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "bullet_ambient/force/medium/medium.h"
 #include "bullet_ambient/spatial/cholesky.h"
@@ -199,7 +200,8 @@ SurfaceLoad computeSurfaceLoad(const BodyModel& model, const Twist& relative_twi
   return loadAlong(flow, relative_twist, resistance, [&](const Twist& x) -> SurfaceLoad {
     const FrameOffset& frame = model.load_frame;
     const bool is_B = frame.isIdentity();
-    const SplitLoad split = model.loads->split(is_B ? x : frame.toF(x));
+    const SplitLoad split =
+        model.loads->split(is_B ? x : frame.toF(x), model.wet ? &*model.wet : nullptr);
     const Wrench wrench = load_share * (is_B ? split.wrench : frame.toB(split.wrench));
     SurfaceLoad load{wrench};
     if (model.loads->needsGuard()) load = removePositivePower(wrench, x, model.inertia);
@@ -248,6 +250,33 @@ Twist twistOf(const BodyModel& model, const WorldMomentum& momentum, const Quate
   const Matrix3 to_body = orientation.toRotationMatrix().transpose();
   const Momentum m{to_body * about_centre, to_body * momentum.linear};
   return Twist::fromVector(pairOfMomentum(model, m.vector()).twist);
+}
+
+namespace {
+
+constexpr double kWay = 1.5;        // lambda_w, diameters in which the wake follows the motion
+constexpr double kDeveloped = 0.7;  // share from which on it counts as developed
+
+/// Product of motions as velocities of points of a ball of that surface.
+double product(const Twist& a, const Twist& b, double area) {
+  return a.linear.dot(b.linear) + area / (4 * kPi) * a.angular.dot(b.angular);
+}
+
+}  // namespace
+
+double developWake(const WakeStep& step, Wake& wake) noexcept {
+  AMBIENT_ASSERT(step.duration >= 0 && step.area >= 0 && step.volume >= 0);
+  const Twist& x = step.velocity_W;
+  if (!wake.has_begun) wake = {x, true};
+  const double square = product(x, x, step.area);
+  const double way = step.area > 0 ? kWay * 6 * step.volume / step.area : 0;
+  if (!(square > 0) || !(way > 0)) return 1;
+  const double share =
+      std::clamp(product(wake.velocity_W, x, step.area) / (kDeveloped * square), 0.0, 1.0);
+  const double kept = portable::exp(-std::sqrt(square) * step.duration / way);
+  Twist& w = wake.velocity_W;
+  w = {x.angular + kept * (w.angular - x.angular), x.linear + kept * (w.linear - x.linear)};
+  return share * share;
 }
 
 }  // namespace ambient

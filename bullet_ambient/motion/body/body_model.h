@@ -1,16 +1,42 @@
 #pragma once
 
+#include <cmath>
 #include <memory>
+#include <optional>
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
-#include "bullet_ambient/force/law/passivity_guard.h"
+#include "bullet_ambient/force/law/surface_load.h"
 #include "bullet_ambient/force/medium/medium.h"
 #include "bullet_ambient/force/medium/surface_plane.h"
-#include "bullet_ambient/motion/body/dual_pair.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
+#include "bullet_ambient/spatial/vector_types.h"
 
 namespace ambient {
+
+/// Vector x and its image K x under the inertia: a twist and its momentum, or an acceleration and
+/// its wrench; in B. Inner products a.K b of pairs need no multiplication by K.
+/// `twist`: x; `momentum`: K x.
+struct DualPair {
+  Vector6 twist = Vector6::Zero();
+  Vector6 momentum = Vector6::Zero();
+};
+
+/// Inner product a.K b.
+inline double inner(const DualPair& a, const DualPair& b) { return a.twist.dot(b.momentum); }
+
+/// Twist after a bound on its energy, and the energy removed by the bound.
+struct BoundedTwist {
+  Vector6 twist;
+  double energy_removed = 0;  ///< [J]
+};
+
+/// Scales a twist x down to the allowed energy if it has more. Energies are given as x.K x [2 J].
+inline BoundedTwist scaledWithin(const Vector6& x, double twice_energy,
+                                 double twice_allowed) noexcept {
+  if (!(twice_energy > twice_allowed)) return {x, 0};
+  return {std::sqrt(twice_allowed / twice_energy) * x, (twice_energy - twice_allowed) / 2};
+}
 
 /// Pose and velocity of a rigid body. Body frame B: origin at the centre of mass, axes fixed to the
 /// body.
@@ -113,6 +139,7 @@ struct BodyModel {
   Vector3 centre_of_volume;           ///< in B [m]
   std::shared_ptr<const SurfaceLoads> loads;     ///< null: no surface loads
   FrameOffset load_frame;                        ///< pose in B of the frame of the loads
+  std::optional<WetPart> wet;                    ///< that the loads act on; none: all of the body
   std::shared_ptr<const Resistance> resistance;  ///< of the loads, in B; null: none
   double settling = 0;  ///< of the resistance in a creeping flow, over K in translation [1/s]
   double reference_length = 0;  ///< sqrt(area) [m]
@@ -195,5 +222,24 @@ WorldMomentum worldMomentum(const BodyModel& model, const RigidState& state);
 /// x = K^-1 (R^T (L - (y - pivot) x P), R^T P).
 Twist twistOf(const BodyModel& model, const WorldMomentum& momentum, const Quaternion& orientation,
               const Vector3& position);
+
+/// Motion that the wake of a smooth body has taken up, w of docs/theory.md eq. (51b): in world
+/// axes, relative to the ambient flow.
+struct Wake {
+  Twist velocity_W;
+  bool has_begun = false;  ///< false: it is the motion itself when the body is first met
+};
+
+/// A motion over one step as the wake sees it.
+struct WakeStep {
+  Twist velocity_W;   ///< of the body, relative to the ambient flow
+  double area = 0;    ///< of its surface [m^2]
+  double volume = 0;  ///< [m^3]
+  double duration = 0;
+};
+
+/// Returns the share in [0, 1] of a developed wake that the motion has at the start of the step,
+/// eq. (51c), and lets the wake follow it over the step. 1 in steady motion; 0 at a reversal.
+double developWake(const WakeStep& step, Wake& wake) noexcept;
 
 }  // namespace ambient

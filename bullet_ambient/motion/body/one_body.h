@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bullet_ambient/motion/body/dual_pair.h"
+#include "bullet_ambient/motion/body/body_model.h"
 #include "bullet_ambient/motion/lanes/spatial_lanes.h"
 
 // Conversions between vectors of Eigen and those of spatial_lanes.h, for ordinary sources that use

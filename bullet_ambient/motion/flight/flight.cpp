@@ -4,9 +4,36 @@
 #include <cmath>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/motion/flight/flight_group.h"
+#include "bullet_ambient/force/surface/hydrostatics.h"
+#include "bullet_ambient/spatial/inertia.h"
 
 namespace ambient {
+
+Wrench externalWrench(const BodyModel& model, const Surroundings& surroundings, const Matrix3& R) {
+  AMBIENT_ASSERT(isRotation(R));
+  const auto to_body = R.transpose();
+  const Vector3 force = surroundings.applied.force - model.mass * surroundings.ambient_acceleration;
+  const Vector3 gravity = to_body * (surroundings.gravity - surroundings.ambient_acceleration);
+  return Wrench{to_body * surroundings.applied.torque, to_body * force} +
+         buoyancy(model.displaced_mass, model.centre_of_volume, gravity);
+}
+
+double energyOfPlace(const BodyModel& model, const Surroundings& surroundings,
+                     const FrameOffset& place, double of_water) {
+  const Vector3 force = surroundings.applied.force - model.mass * surroundings.ambient_acceleration;
+  const Vector3 buoyancy =
+      -model.displaced_mass * (surroundings.gravity - surroundings.ambient_acceleration);
+  const Vector3 arm = place.translation + place.rotation * model.centre_of_volume;
+  return of_water - force.dot(place.translation) - buoyancy.dot(arm);
+}
+
+double fallScale(const FlightTask& task) {
+  const BodyModel& model = task.model;
+  const Surroundings& s = task.surroundings;
+  const double pull = (s.applied.force / model.mass - s.ambient_acceleration).norm();
+  AMBIENT_ASSERT(model.mass > 0 && model.largest_mass > 0);
+  return std::sqrt(model.largest_mass * pull * model.reference_length);
+}
 
 namespace {
 
@@ -253,6 +280,75 @@ FlightResult fly(const FlightTask& task, const RigidState& start,
   Flight* const flights[] = {&flight};
   flyTogether(flights, 1);
   return flight.body;
+}
+
+namespace {
+
+void setSymmetric(FlightLane (&to)[kSymmetricEntries], int body, const Matrix6& m,
+                  bool is_diagonal) noexcept {
+  for (int row = 0; row < 6; ++row) {
+    to[symmetricEntry(row, row)][body] = m(row, row);
+    if (is_diagonal) continue;
+    for (int column = row + 1; column < 6; ++column)
+      to[symmetricEntry(row, column)][body] = m(row, column);
+  }
+}
+
+}  // namespace
+
+void setModel(BodyLanes& lanes, int body, const BodyModel& model) noexcept {
+  AMBIENT_ASSERT(isSymmetric(model.inertia, 1e-9) && isSymmetric(model.inverse_inertia, 1e-9));
+  setSymmetric(lanes.inertia, body, model.inertia, lanes.has_diagonal_inertia);
+  setSymmetric(lanes.inverse_inertia, body, model.inverse_inertia, lanes.has_diagonal_inertia);
+  setLane(lanes.centre_of_volume_B, body, model.centre_of_volume);
+}
+
+void setResistance(BodyLanes& lanes, int body, const Resistance* resistance,
+                   const Growth& growth) noexcept {
+  if (!lanes.has_resistance) return;
+  const bool is_viscous = resistance && growth.translation > 0;
+  lanes.is_viscous[body] = is_viscous ? 1 : 0;
+  if (lanes.has_diagonal_inertia) {
+    const double roots[2] = {growth.rotation, growth.translation};
+    for (int i = 0; i < 6; ++i)
+      lanes.resistance[symmetricEntry(i, i)][body] =
+          is_viscous ? resistance->matrix(i, i) * roots[i / 3] * roots[i / 3] : 0;
+    return;
+  }
+  setSymmetric(lanes.resistance, body,
+               is_viscous ? resistance->grown(growth) : Matrix6(Matrix6::Zero()), false);
+}
+
+void setForces(BodyLanes& lanes, int body, const FlightTask& task) noexcept {
+  const BodyModel& model = task.model;
+  const Surroundings& s = task.surroundings;
+  setLane(lanes.torque_W, body, s.applied.torque);
+  setLane(lanes.force_W, body, Vector3(s.applied.force - model.mass * s.ambient_acceleration));
+  setLane(lanes.buoyancy_W, body,
+          Vector3(-model.displaced_mass * (s.gravity - s.ambient_acceleration)));
+}
+
+void setSurroundings(FlightLanes& lanes, int body, const FlightTask& task) noexcept {
+  setForces(lanes, body, task);
+  lanes.fall_scale[body] = fallScale(task);
+}
+
+void setState(FlightLanes& lanes, int body, const BodyModel& model,
+              const RigidState& state) noexcept {
+  // Written so that NaN passes: the flight of a state that is not finite is rejected later.
+  AMBIENT_ASSERT(!(std::abs(state.orientation.squaredNorm() - 1) > 1e-6));
+  setLane(lanes.orientation, body, state.orientation);
+  setLane(lanes.way_W, body, Vector3(0, 0, 0));
+  const DualPair motion = pairOfTwist(model, state.twist.vector());
+  for (int i = 0; i < 6; ++i) {
+    lanes.twist_B[i][body] = motion.twist[i];
+    lanes.momentum_B[i][body] = motion.momentum[i];
+  }
+}
+
+RigidState stateOf(const FlightLanes& lanes, int body, const Vector3& start) noexcept {
+  return {orientationOf(lanes.orientation, body), start + vectorOf(lanes.way_W, body),
+          twistOf(lanes.twist_B, body)};
 }
 
 }  // namespace ambient

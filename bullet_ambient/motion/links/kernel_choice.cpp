@@ -1,4 +1,4 @@
-#include "bullet_ambient/motion/flight/flight_group.h"
+#include "bullet_ambient/motion/flight/flight.h"
 #include "bullet_ambient/motion/links/link_kernel.h"
 #include "bullet_ambient/motion/surface/stand_lanes.h"
 

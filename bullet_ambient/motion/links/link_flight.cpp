@@ -85,11 +85,6 @@ constexpr double kMiddlePrecision = 0.01;  // error at which iterations end, ove
 constexpr double kAcceptedError = 2;    // largest accepted error of a substep, over the tolerance
 constexpr double kSubstepSafety = 0.9;  // factor in eq. (25)
 
-void countUp(const FlightCount& some, FlightCount& count) {
-  count.load_evaluations += some.load_evaluations;
-  count.guarded += some.guarded;
-}
-
 TreePose poseOfSize(const LinkTree& tree) {
   TreePose pose;
   pose.joints.resize(tree.size());
@@ -146,7 +141,7 @@ int LinkFlight::flyInSubsteps(int substeps, double duration, const LinkFlightSet
   const bool has_loads = kick_.hasLoads();
   const bool is_last = substeps >= settings.max_substeps;
   dynamics_.setPose(end_pose_);
-  if (has_loads) countUp(kick_.recall(dynamics_, end_), count);
+  if (has_loads) count += kick_.recall(dynamics_, end_);
   is_stiff_ = has_loads && kick_.isStiff(duration);
   count.coarse = false;
   count.substeps = 0;
@@ -231,7 +226,7 @@ double LinkFlight::kickAtEnd(double h, FlightCount& count) noexcept {
   } else {
     kick_.foresee(dynamics_, h / 2, rate_);
   }
-  countUp(kick_.sample(dynamics_, rate_), count);
+  count += kick_.sample(dynamics_, rate_);
   kickBy(h / 2, end_);
   return kick_.error(dynamics_, h);
 }
@@ -281,7 +276,7 @@ LinkFlightResult LinkFlight::computeRowVelocity(const TreePose& start, const Coo
   mean_ = duration * (rate_ - mean_);
   end_ = u + duration * rate_ - mean_;
   if (kick_.hasLoads()) {
-    countUp(kick_.sampleForRows(dynamics_, u, duration), result.count);
+    result.count += kick_.sampleForRows(dynamics_, u, duration);
     is_stiff_ = kick_.isStiff(duration);
     if (is_stiff_) end_ = u;  // forces are in the kick
     kickBy(duration, end_);

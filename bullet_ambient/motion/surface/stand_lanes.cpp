@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/motion/flight/flight_group.h"
+#include "bullet_ambient/motion/flight/flight.h"
 
 namespace ambient {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
-#include "bullet_ambient/motion/flight/flight_group.h"
+#include "bullet_ambient/motion/flight/flight.h"
 #include "bullet_ambient/motion/surface/stand_lanes.h"
 #include "bullet_ambient/spatial/inertia.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bullet_ambient/motion/body/dual_pair.h"
+#include "bullet_ambient/motion/body/body_model.h"
 #include "bullet_ambient/motion/lanes/surface_lanes.h"
 #include "bullet_ambient/motion/surface/surface_model.h"
 #include "bullet_ambient/motion/surface/symmetric_matrix.h"

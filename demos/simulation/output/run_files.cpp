@@ -8,7 +8,7 @@
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/base/plain_text.h"
-#include "bullet_ambient/spatial/principal_frame.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "demos/analysis/path_summary.h"
 #include "preprocess/shape/shape_mesh.h"
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "bullet_ambient/base/plain_text.h"
-#include "bullet_ambient/fluid_body/displaced_mass.h"
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
+#include "bullet_ambient/fluid_body/fluid_body.h"
 #include "bullet_ambient/force/medium/medium.h"
 #include "preprocess/base/fluid_body_writer.h"
 #include "preprocess/builder/parse_exit.h"

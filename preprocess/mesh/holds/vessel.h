@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "bullet_ambient/fluid_body/hold.h"
+#include "bullet_ambient/fluid_body/fluid_body.h"
 #include "preprocess/mesh/triangle_mesh.h"
 
 namespace ambient {

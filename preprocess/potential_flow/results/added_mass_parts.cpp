@@ -11,7 +11,6 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/base/single_precision.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 

@@ -11,7 +11,6 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/fnv1a.h"
-#include "bullet_ambient/base/single_precision.h"
 #include "preprocess/base/output_file.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,10 +1,9 @@
-#include "bullet_ambient/fluid_body/hold.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
+#include "bullet_ambient/fluid_body/fluid_body.h"
 #include "preprocess/base/fluid_body_writer.h"
 #include "tests/bullet_ambient/fluid_body/example_body.h"
 #include "tests/support/refusal_of.h"

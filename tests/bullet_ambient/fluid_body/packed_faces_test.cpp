@@ -1,5 +1,3 @@
-#include "bullet_ambient/fluid_body/packed/packed_faces.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +9,7 @@
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/fluid_body/octahedral_lattice.h"
-#include "bullet_ambient/fluid_body/packed/packed_hull.h"
+#include "bullet_ambient/fluid_body/packed/packed_shape.h"
 #include "preprocess/base/surface_form.h"
 #include "tests/support/bodies/geodesic.h"
 #include "tests/support/bodies/hull_bodies.h"

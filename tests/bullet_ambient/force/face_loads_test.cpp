@@ -6,7 +6,7 @@
 #include <new>
 
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/fluid_body/packed/packed_faces.h"
+#include "bullet_ambient/fluid_body/packed/packed_shape.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "tests/reference/loads/face_by_face_loads.h"
 #include "tests/support/allocation_counter.h"

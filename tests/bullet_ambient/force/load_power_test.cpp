@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "bullet_ambient/force/law/passivity_guard.h"
+#include "bullet_ambient/force/law/surface_load.h"
 #include "bullet_ambient/force/loads/face_loads.h"
 #include "tests/reference/loads/face_by_face_loads.h"
 #include "tests/support/bodies/geodesic.h"

@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/fluid_body/packed/packed_faces.h"
+#include "bullet_ambient/fluid_body/packed/packed_shape.h"
 #include "bullet_ambient/force/kernels/single_sums.h"
 #include "bullet_ambient/force/loads/face_loads.h"
 #include "bullet_ambient/force/loads/load_tables.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
-#include "bullet_ambient/force/surface/make_wetted_inertia.h"
+#include "bullet_ambient/force/surface/wetted_parts.h"
 #include "preprocess/base/surface_form.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/bits_of.h"

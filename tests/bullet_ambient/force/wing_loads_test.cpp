@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/fluid_body/packed/packed_faces.h"
+#include "bullet_ambient/fluid_body/packed/packed_shape.h"
 #include "bullet_ambient/force/law/form_law.h"
 #include "bullet_ambient/force/loads/face_loads.h"
 #include "bullet_ambient/force/loads/surface_loads.h"

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <vector>
 
-#include "bullet_ambient/motion/flight/flight_group.h"
+#include "bullet_ambient/motion/flight/flight.h"
 #include "bullet_ambient/motion/rows/row_velocity.h"
 #include "demos/integrators/integrators.h"
 #include "tests/bullet_ambient/motion/kernel_fixture.h"

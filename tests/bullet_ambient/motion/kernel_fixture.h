@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bullet_ambient/motion/flight/flight_group.h"
+#include "bullet_ambient/motion/flight/flight.h"
 
 namespace ambient::test {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/motion/body/wake.h"
+#include "bullet_ambient/motion/body/body_model.h"
 #include "tests/reference/kirchhoff_motion.h"
 #include "tests/reference/sphere_fall.h"
 #include "tests/support/bodies/ellipsoid_body.h"

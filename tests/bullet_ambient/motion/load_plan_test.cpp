@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/fluid_body/packed/packed_faces.h"
+#include "bullet_ambient/fluid_body/packed/packed_shape.h"
 #include "bullet_ambient/force/loads/face_loads.h"
 #include "bullet_ambient/motion/flight/flight.h"
 #include "tests/support/bodies/body_models.h"

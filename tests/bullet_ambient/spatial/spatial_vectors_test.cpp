@@ -5,8 +5,8 @@
 #include <Eigen/LU>
 
 #include "bullet_ambient/spatial/inertia.h"
-#include "bullet_ambient/spatial/principal_frame.h"
 #include "bullet_ambient/spatial/rotation.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "tests/support/bodies/random_bodies.h"
 #include "tests/support/rotations.h"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/fluid_body/packed/packed_hull.h"
+#include "bullet_ambient/fluid_body/packed/packed_shape.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "preprocess/floating/floating_body.h"
 #include "preprocess/mesh/geometry.h"

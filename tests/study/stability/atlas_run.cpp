@@ -13,7 +13,7 @@
 #include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/fluid.h"
 #include "bullet_ambient/spatial/inertia.h"
-#include "bullet_ambient/spatial/principal_frame.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "tests/support/convergence.h"
 #include "tests/support/world.h"
 

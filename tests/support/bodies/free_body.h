@@ -5,7 +5,6 @@
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/motion/body/body_model.h"
 #include "bullet_ambient/motion/flight/flight.h"
-#include "bullet_ambient/motion/flight/flight_group.h"
 #include "bullet_ambient/spatial/rotation.h"
 #include "tests/support/bodies/body_models.h"
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "bullet_ambient/force/medium/water_surface.h"
-#include "bullet_ambient/immersed/region_index.h"
+#include "bullet_ambient/force/medium/waves.h"
+#include "bullet_ambient/immersed/fluid_regions.h"
 #include "bullet_ambient/saved_state.h"
 #include "tests/bullet_ambient/bullet/regions/region_world.h"
 #include "tests/support/bodies/part_bodies.h"

@@ -1,5 +1,3 @@
-#include "bullet_ambient/bullet/links/cone_friction.h"
-
 #include <BulletDynamics/Featherstone/btMultiBodyConstraint.h>
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 #include <gtest/gtest.h>
@@ -8,6 +6,7 @@
 #include <limits>
 #include <memory>
 
+#include "bullet_ambient/bullet/links/multibody_rows.h"
 #include "tests/bullet_ambient/bullet/robots/robot_world.h"
 
 namespace ambient::test {

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "bullet_ambient/base/fnv1a.h"
-#include "bullet_ambient/bullet/core/attitude.h"
+#include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "tests/bullet_ambient/bullet/robots/state/robot_state_scene.h"
 #include "tests/support/bits_of.h"

@@ -1,11 +1,10 @@
-#include "bullet_ambient/bullet/links/tree_pose.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <memory>
 
-#include "bullet_ambient/bullet/core/attitude.h"
+#include "bullet_ambient/bullet/core/body_motion.h"
+#include "bullet_ambient/bullet/links/tree_step.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
 #include "tests/bullet_ambient/bullet/robots/robot_world.h"
 

@@ -6,7 +6,7 @@
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/drawing.h"
 #include "bullet_ambient/force/law/form_law.h"
-#include "bullet_ambient/force/medium/water_surface.h"
+#include "bullet_ambient/force/medium/waves.h"
 #include "bullet_ambient/reading.h"
 #include "bullet_ambient/spatial/rotation.h"
 #include "preprocess/base/surface_form.h"

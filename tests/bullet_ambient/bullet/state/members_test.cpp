@@ -9,7 +9,6 @@
 #include <map>
 
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/bullet/core/attitude.h"
 #include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/bullet/members/flight_coupling.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"

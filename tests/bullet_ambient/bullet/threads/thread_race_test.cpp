@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "bullet_ambient/force/medium/water_surface.h"
+#include "bullet_ambient/force/medium/waves.h"
 #include "tests/bullet_ambient/bullet/regions/region_world.h"
 #include "tests/support/bodies/part_bodies.h"
 

@@ -9,7 +9,7 @@
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/motion/surface/stand_lanes.h"
 #include "bullet_ambient/spatial/inertia.h"
-#include "bullet_ambient/spatial/principal_frame.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/collision_shape/collision_shape_body.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/support/bodies/random_bodies.h"

@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "bullet_ambient/fluid_body/added_mass_parts.h"
-#include "bullet_ambient/fluid_body/packed/packed_faces.h"
-#include "bullet_ambient/fluid_body/packed/packed_hull.h"
+#include "bullet_ambient/fluid_body/packed/packed_shape.h"
 #include "bullet_ambient/force/kernels/hull_sums.h"
 #include "bullet_ambient/force/kernels/part_sums.h"
 #include "bullet_ambient/force/kernels/single_sums.h"

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/force/surface/buoyancy.h"
 #include "tests/support/bodies/geodesic.h"
 #include "tests/support/bodies/hull_bodies.h"
 #include "tests/support/bodies/random_bodies.h"

@@ -1,3 +1,5 @@
+#include "bullet_ambient/force/surface/wetted_inertia.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,9 +12,7 @@
 #include "bullet_ambient/fluid_body/added_mass_parts.h"
 #include "bullet_ambient/fluid_body/octahedral_lattice.h"
 #include "bullet_ambient/force/kernels/part_sums.h"
-#include "bullet_ambient/force/surface/make_wetted_inertia.h"
 #include "bullet_ambient/force/surface/wetted_parts.h"
-#include "bullet_ambient/force/surface/wetted_sphere.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "tests/support/bits_of.h"

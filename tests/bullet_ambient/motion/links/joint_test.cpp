@@ -1,9 +1,8 @@
-#include "bullet_ambient/motion/links/joint.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "bullet_ambient/motion/links/link_tree.h"
 #include "tests/support/bodies/random_trees.h"
 
 namespace ambient {

@@ -8,7 +8,7 @@
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/fluid_body/fluid_body.h"
-#include "bullet_ambient/force/surface/wetted_sphere.h"
+#include "bullet_ambient/force/surface/wetted_inertia.h"
 #include "bullet_ambient/motion/body/body_model.h"
 #include "bullet_ambient/motion/surface/surface_model.h"
 #include "preprocess/builder/fluid_body_builder.h"

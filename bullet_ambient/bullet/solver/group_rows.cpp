@@ -1,0 +1,367 @@
+// Prepares the ambient bodies of a group for constraint rows: velocity that rows are solved
+// against, velocity basis, locked axes. Ends the solver's work on them: maps velocity changes by
+// rows back, lets bodies fly that no row has moved.
+
+#include <BulletDynamics/ConstraintSolver/btContactSolverInfo.h>
+
+#include <optional>
+#include <utility>
+
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/bullet/core/body_motion.h"
+#include "bullet_ambient/bullet/links/multibody_rows.h"
+#include "bullet_ambient/bullet/members/ambient_bodies.h"
+#include "bullet_ambient/bullet/members/flight_coupling.h"
+#include "bullet_ambient/bullet/rows/joint_rows.h"
+#include "bullet_ambient/bullet/rows/row_motion.h"
+#include "bullet_ambient/bullet/rows/row_rewriting.h"
+#include "bullet_ambient/bullet/solver/solver_group.h"
+#include "bullet_ambient/immersed/floating_state.h"
+#include "bullet_ambient/immersed/fluid_reading.h"
+#include "bullet_ambient/motion/flight/flight.h"
+#include "bullet_ambient/motion/rows/row_velocity.h"
+#include "bullet_ambient/spatial/rotation.h"
+
+AMBIENT_BEGIN
+namespace {
+
+// Returns the inertia that rows move, in B.
+const Matrix6& rowInertia(const BodyModel& model, const RowVelocity& row) {
+  return row.settled_inertia ? *row.settled_inertia : model.inertia;
+}
+
+// Returns the velocity basis T in body axes, docs/theory.md eq. (26). It is computed anew at a
+// water surface and where the fluid settles the body, because the inertia changes from step to
+// step.
+Matrix6 basisOf(const AmbientBody& ambient, const BodyModel& model, const RowVelocity& row) {
+  if (!ambient.surface() && !row.settled_inertia) return ambient.in_medium->basis_B;
+  const Vector3 inverse_inertia = toVector3(ambient.body->getInvInertiaDiagLocal());
+  return makeVelocityBasis(rowInertia(model, row), model.mass, inverse_inertia.cwiseInverse());
+}
+
+// Returns 1 for each component that is zero, else 0.
+btVector3 whereZero(const btVector3& v) {
+  return {btScalar(v.x() == 0), btScalar(v.y() == 0), btScalar(v.z() == 0)};
+}
+
+// Sets the basis of eq. (30) and Bullet's factors of locked axes to 1: T contains the locks, which
+// the solver must not apply twice. `R`: B to W.
+void lock(RowBody& row_body, const btRigidBody& body, const Matrix6& row_inertia, const Matrix3& R,
+          btSolverBody& solver_body) {
+  const Vector3 inertia = toVector3(body.getInvInertiaDiagLocal()).cwiseInverse();
+  const Matrix3 root = rootInertia(inertia, R);
+  row_body.is_locked = true;
+  row_body.basis = makeLockedBasis(row_inertia, 1 / static_cast<double>(body.getInvMass()), root, R,
+                                   axisFactors(body));
+  row_body.root_inertia = toBulletMatrix(root);
+  row_body.locked_angular = whereZero(body.getAngularFactor());
+  row_body.locked_linear = whereZero(body.getLinearFactor());
+  solver_body.m_angularFactor.setValue(1, 1, 1);
+  solver_body.m_linearFactor.setValue(1, 1, 1);
+  solver_body.internalSetInvMass(btVector3(1, 1, 1) * body.getInvMass());
+}
+
+// Finds the stands of the bodies at a water surface, side by side.
+void standAll(AmbientBody* const* bodies, const RigidState* states, int count, double time_step,
+              Complaints& complaints) {
+  AmbientBody* at_surface[kFlightsTogether] = {};
+  RigidState there[kFlightsTogether];
+  int found = 0;
+  for (int i = 0; i < count; ++i) {
+    if (!bodies[i]->surface()) continue;
+    at_surface[found] = bodies[i];
+    there[found++] = states[i];
+  }
+  if (found == 0) return;
+  standAt(at_surface, there, found, kBulletRounding);
+  for (int i = 0; i < found; ++i) warnOfCoarseSwing(*at_surface[i], time_step, complaints);
+}
+
+// Leaves a body of revolution at a surface its spin about its axis, docs/theory.md eq. (66a).
+// `start`: pose of B.
+void keepSpin(const SurfaceModel& model, const RigidState& start, RowVelocity& row) {
+  const Vector3 axis_W = start.orientation * model.still_axis_B;
+  const Vector3 spin_W = axis_W.dot(row.turning_W.angular) * axis_W;
+  row.turning_W.angular -= spin_W;
+  row.change_W.angular -= spin_W;
+}
+
+// Adds the kicks by waves, wind and water that comes in to a velocity change, and counts what it
+// cost. Sets it to zero if it is not finite. `inertia`: of the free body, in B.
+void complete(AmbientBody& ambient, const Matrix6& inertia, const RigidState& start,
+              double time_step, Complaints& complaints, RowVelocity& row) {
+  if (ambient.surface()) {
+    const AxisFactors factors = axisFactors(*ambient.body);
+    if (factors.areFree()) keepSpin(*ambient.surface(), start, row);
+    RigidState now = readState(*ambient.body);
+    const auto kick = [&](const Vector6& change_B) {
+      const Twist change_W =
+          factors.areFree()
+              ? turned(start.orientation, Twist::fromVector(change_B))
+              : lockedChange(inertia, start.orientation.toRotationMatrix(), factors, change_B);
+      row.change_W.angular += change_W.angular;
+      row.change_W.linear += change_W.linear;
+      return turned(start.orientation.conjugate(), change_W).vector();
+    };
+    if (ambient.vessel)
+      now.twist = Twist::fromVector(now.twist.vector() + kick(ambient.vessel->change_B));
+    kick(kickByWavesAndWind(ambient, now, time_step));
+  }
+  countLoads(ambient, row.count.load_evaluations);
+  ambient.counters.guarded += row.count.guarded;
+  if (row.change_W.vector().allFinite()) return;
+  ++ambient.counters.rejected;
+  complaints.say(Complaint::kNotFinite);
+  row.change_W = row.turning_W = row.isotropic_excess_W = {};
+  row.settled_inertia.reset();
+}
+
+// Fills what rows need of a body at the orientation R, B to W. @pre the body's inertia tensor fits
+// it
+void fill(const AmbientBody& ambient, const BodyModel& model, const Matrix3& R,
+          const RowVelocity& row, const btSolverBody& solver_body, RowBody& row_body) {
+  const btRigidBody& body = *ambient.body;
+  row_body.inverse_inertia_T = body.getInvInertiaTensorWorld().transpose();
+  row_body.inverse_mass = body.getInvMass();
+  row_body.spin_change = solver_body.m_externalTorqueImpulse;
+  row_body.velocity_change = solver_body.m_externalForceImpulse;
+  row_body.spin_aside = toBullet(row.isotropic_excess_W.angular);
+  row_body.velocity_aside = toBullet(row.isotropic_excess_W.linear);
+  if (row_body.is_locked) return;
+  const bool is_diagonal = model.has_diagonal_inertia;
+  const Matrix6 basis_B = basisOf(ambient, model, row);
+  row_body.has_coupling = !is_diagonal;
+  row_body.basis = is_diagonal ? toWorld(Vector6(basis_B.diagonal()), R) : toWorld(basis_B, R);
+}
+
+}  // namespace
+
+void SolverGroup::begin(SolverBodies& solver_bodies) noexcept {
+  may_hold_slopes_ = false;
+  if (members_.empty()) {
+    row_bodies_->reset(0);
+    return;
+  }
+  member_of_solver_body_.assign(solver_bodies.size(), -1);
+  row_bodies_->reset(solver_bodies.size());
+  Member* waiting[kFlightsTogether] = {};
+  int count = 0;
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    Member& member = members_[i];
+    member.solver_body = member.object->getCompanionId();
+    AMBIENT_ASSERT(member.solver_body >= 0 && member.solver_body < solver_bodies.size());
+    member_of_solver_body_[member.solver_body] = static_cast<int>(i);
+    if (!member.has_rows && !member.is_locked) {
+      setExternalImpulse(solver_bodies[member.solver_body], Twist{});
+      continue;
+    }
+    may_hold_slopes_ = may_hold_slopes_ || mayTurnAside(*member.ambient);
+    waiting[count++] = &member;
+    if (count == kFlightsTogether) prepareForRows(waiting, std::exchange(count, 0), solver_bodies);
+  }
+  if (count > 0) prepareForRows(waiting, count, solver_bodies);
+}
+
+void SolverGroup::prepareForRows(Member* const* members, int count,
+                                 SolverBodies& solver_bodies) noexcept {
+  AMBIENT_ASSERT(batch_count_ < batches_.size());
+  RowBatch& batch = batches_[batch_count_++];
+  RowLanes& lanes = batch.lanes;
+  batch.count = count;
+  for (int i = 0; i < count; ++i) {
+    batch.bodies[i] = members[i]->ambient;
+    batch.solver_bodies[i] = members[i]->solver_body;
+    AMBIENT_ASSERT(batch.bodies[i]->body->getInvMass() > 0);
+    // T must fit the inertia tensor; Bullet's setWorldTransform leaves that of the old orientation.
+    batch.bodies[i]->body->updateInertiaTensor();
+  }
+  Departures departures;
+  readDepartures(batch.bodies, count, departures);
+  standAll(batch.bodies, departures.states, count, time_step_, bodies_.complaints);
+  std::optional<StepModel> step_models[kFlightsTogether];
+  const BodyModel* models[kFlightsTogether] = {};
+  for (int i = 0; i < count; ++i)
+    models[i] = &*step_models[i].emplace(*batch.bodies[i], time_step_);
+  setModels(models, count, lanes);
+  const auto taskOf = [&](int i) -> FlightTask {
+    return {*models[i], departures.surroundings[i], batch.bodies[i]->def->flight, time_step_};
+  };
+  RowLoad loads[kFlightsTogether];
+  bool is_any_free = false;
+  for (int i = 0; i < count; ++i) {
+    if (members[i]->is_locked) continue;
+    loads[i] = setStart(taskOf(i), departures.states[i], i, lanes);
+    is_any_free = true;
+  }
+  if (is_any_free) kFlightKernels.fastest()->push(lanes);
+  for (int i = 0; i < count; ++i) {
+    const Member& member = *members[i];
+    AmbientBody& ambient = *member.ambient;
+    const RigidState& start = departures.states[i];
+    const Matrix3 R = start.orientation.toRotationMatrix();
+    RowVelocity row = member.is_locked
+                          ? computeLockedVelocity(taskOf(i), start, axisFactors(*ambient.body))
+                          : rowVelocityOf(lanes, i, loads[i]);
+    complete(ambient, models[i]->inertia, start, time_step_, bodies_.complaints, row);
+    // Those of FlightKernel::keep().
+    batch.positions[i] = start.position;
+    lanes.kick_time[i] = time_step_;
+    lanes.extent[i] = row.extent;
+    batch.settled_inertia[i] = row.settled_inertia;
+    setLane(lanes.orientation, i, start.orientation);
+    setLane(lanes.turning_W, i, row.turning_W);
+    btSolverBody& solver_body = solver_bodies[member.solver_body];
+    setExternalImpulse(solver_body, withoutTraces(row.change_W, time_step_));
+    RowBody& row_body = row_bodies_->add(member.solver_body);
+    row_body.is_held = member.is_held;
+    if (member.is_locked)
+      lock(row_body, *ambient.body, rowInertia(*models[i], row), R, solver_body);
+    fill(ambient, *models[i], R, row, solver_body, row_body);
+  }
+}
+
+void SolverGroup::prepareJoinedToMultiBodies(SolverBodies& solver_bodies,
+                                             const btMultiBodyConstraintArray& joints) noexcept {
+  Member* waiting[kFlightsTogether] = {};
+  int count = 0;
+  const auto prepare = [&] {
+    if (count > 0) prepareForRows(waiting, std::exchange(count, 0), solver_bodies);
+  };
+  forEachJoinedBody(joints, [&](int id) {
+    Member* member = memberOf(id);
+    if (!member) return;
+    member->is_held = true;
+    if (RowBody* row_body = row_bodies_->find(id))
+      row_body->is_held = true;
+    else if (!std::exchange(member->has_rows, true))
+      waiting[count++] = member;
+    if (count == kFlightsTogether) prepare();
+  });
+  prepare();
+}
+
+namespace {
+
+bool isZero(const btVector3& v) { return v.x() == 0 && v.y() == 0 && v.z() == 0; }
+
+// True if no row has changed the velocity of the body or, by split impulses, its position.
+bool isUntouched(btSolverBody& b) {
+  return isZero(b.internalGetDeltaLinearVelocity()) &&
+         isZero(b.internalGetDeltaAngularVelocity()) && isZero(b.internalGetPushVelocity()) &&
+         isZero(b.internalGetTurnVelocity());
+}
+
+// Maps a velocity change from the basis T to world axes, in place.
+void fromBasis(const WorldBasis& T, btVector3& angular, btVector3& linear) {
+  angular = T.angular * angular + T.coupling * linear;
+  linear = T.linear * linear;
+}
+
+// True if the velocity and the position correction that Bullet will write back are finite.
+bool isFinite(btSolverBody& b) {
+  const btVector3 linear =
+      b.m_linearVelocity + b.internalGetDeltaLinearVelocity() + b.m_externalForceImpulse;
+  const btVector3 angular =
+      b.m_angularVelocity + b.internalGetDeltaAngularVelocity() + b.m_externalTorqueImpulse;
+  return toVector3(linear).allFinite() && toVector3(angular).allFinite() &&
+         toVector3(b.internalGetPushVelocity()).allFinite() &&
+         toVector3(b.internalGetTurnVelocity()).allFinite();
+}
+
+// Sets all changes by rows and forces to zero.
+void dropRows(btSolverBody& b) {
+  for (btVector3* change :
+       {&b.internalGetDeltaLinearVelocity(), &b.internalGetDeltaAngularVelocity(),
+        &b.internalGetPushVelocity(), &b.internalGetTurnVelocity(), &b.m_externalForceImpulse,
+        &b.m_externalTorqueImpulse})
+    change->setZero();
+}
+
+// Maps the velocity changes by rows to world axes. Returns false, and drops the changes, if they
+// are not finite.
+bool finishRows(AmbientBody& ambient, const RowBody& row_body, btSolverBody& b) {
+  const bool is_adrift = isUntouched(b);
+  ambient.outcome.kind = is_adrift ? Outcome::kAdrift : Outcome::kRows;
+  ambient.outcome.motion = RowMotion{};
+  if (!is_adrift) {
+    fromBasis(row_body.basis, b.internalGetDeltaAngularVelocity(),
+              b.internalGetDeltaLinearVelocity());
+    fromBasis(row_body.basis, b.internalGetTurnVelocity(), b.internalGetPushVelocity());
+  }
+  if (ambient.surface()) ambient.floating->waves = ambient.floating->waves_with_rows;
+  if (!isFinite(b)) {
+    dropRows(b);
+    ++ambient.counters.rejected;
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+void SolverGroup::finish(SolverBodies& solver_bodies, btConstraintArray& joints,
+                         const btContactSolverInfo& info) noexcept {
+  joint_gaps_->measure(joints, *row_bodies_, solver_bodies, time_step_);
+  restoreFeedbackJacobians(joints);
+  if (is_held_)
+    for (int i = 0; i < solver_bodies.size(); ++i) dropRows(solver_bodies[i]);
+  for (const Member& member : members_) {
+    // Every body that a row has moved has a RowBody since begin() or rewriteRows().
+    if (row_bodies_->find(member.solver_body)) continue;
+    AMBIENT_ASSERT(isUntouched(solver_bodies[member.solver_body]));
+    flyLater({member.ambient, member.solver_body}, &solver_bodies);
+  }
+  for (std::size_t i = 0; i < batch_count_; ++i)
+    finishBatch(batches_[i], static_cast<double>(info.m_splitImpulseTurnErp), solver_bodies);
+  flyFreely(&solver_bodies);
+  members_.clear();
+  batch_count_ = 0;
+}
+
+// Ends the work on bodies that rows may have moved: flies those that none has moved, and prepares
+// the motion of the others, eq. (31).
+void SolverGroup::finishBatch(RowBatch& batch, double turn_share,
+                              SolverBodies& solver_bodies) noexcept {
+  bool is_any_moved = false;
+  for (int i = 0; i < batch.count; ++i) {
+    const int id = batch.solver_bodies[i];
+    AmbientBody& ambient = *batch.bodies[i];
+    const RowBody& row_body = *row_bodies_->find(id);
+    btSolverBody& solver_body = solver_bodies[id];
+    ambient.counters.rows += row_body.rows;
+    ambient.counters.joint_rows += row_body.joint_rows;
+    noteGap(ambient, row_body);
+    // Rows were solved against the velocity k + X of eq. (28). In a fast turn the flight goes
+    // elsewhere, and could pass through what the rows keep apart.
+    const bool may_fly = !row_body.is_locked && batch.lanes.extent[i] <= kSlowTurn;
+    bool is_moved = false;
+    if (may_fly && isUntouched(solver_body)) {
+      flyLater({&ambient, id}, &solver_bodies);
+    } else if (finishRows(ambient, row_body, solver_body)) {
+      is_moved = true;
+    } else {
+      bodies_.complaints.say(Complaint::kNotFinite);
+    }
+    batch.lanes.active[i] = is_moved;
+    is_any_moved = is_any_moved || is_moved;
+  }
+  if (!is_any_moved) return;
+  beginRowMotions(batch, *row_bodies_, solver_bodies, turn_share, time_step_);
+  for (int i = 0; i < batch.count; ++i)
+    if (batch.lanes.active[i] != 0 && batch.bodies[i]->reading)
+      readRows(*batch.bodies[i], changeByRows(solver_bodies[batch.solver_bodies[i]]),
+               batch.settled_inertia[i], time_step_);
+}
+
+// Counts the steps in a row in which a joint of the body misses by more than kWideGap of its size.
+// Reports the body after kLongGape steps.
+void SolverGroup::noteGap(AmbientBody& ambient, const RowBody& row_body) noexcept {
+  const double size = ambient.metric().reference_length;
+  const bool is_wide = size > 0 && row_body.gap > kWideGap * size;
+  ambient.gaping = is_wide ? ambient.gaping + 1 : 0;
+  if (ambient.gaping != kLongGape) return;
+  const Member* other = memberOf(row_body.gap_to);
+  bodies_.complaints.sayGaping(*ambient.def, other ? other->ambient->def.get() : nullptr);
+}
+
+AMBIENT_END

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <cstddef>
+
+namespace ambient {
+
+/// Eight parts of the added mass, component by component, in single precision: input of the kernel
+/// for bodies at the surface of the water, which sums in double. Plain data only. The last block is
+/// filled up with zeros.
+struct alignas(64) PartBlock {
+  static constexpr int kParts = 8;
+  static constexpr int kEntries = 21;
+  float centre[3][kParts];
+  float reach[kParts];              ///< largest distance from the centre of a part's Gauss points
+  float spread[6][kParts];          ///< xx, yy, zz, xy, xz, yz
+  float inertia[kEntries][kParts];  ///< symmetric 6x6: upper triangle, row by row
+};
+
+struct PartBlocks {
+  const PartBlock* blocks;
+  std::size_t count;
+  const double* shares = nullptr;  ///< of the parts of one block that are in a pool; null: all
+};
+
+/// Sixteen faces in single precision, component by component: input of the load kernels. Plain
+/// data only, because the kernels are compiled once per instruction set. Units of length and area:
+/// those of PackedFaces. The last block of a shape is filled up with zeros.
+struct alignas(64) FaceBlock {
+  static constexpr int kFaces = 16;
+  float normal[3][kFaces];    ///< unit normals n
+  float centroid[3][kFaces];  ///< c, components in [-1, 1]
+  float moment[3][kFaces];    ///< c x n
+  float area[kFaces];         ///< in [0, 1]
+};
+
+/// Bounds of all faces of a block, for sixteen blocks: of their 6-vectors (c x n, n), whose product
+/// with the twist is the normal velocity of a face, and of their places. Bounds are rounded
+/// outwards.
+struct alignas(64) FaceBounds {
+  static constexpr int kBlocks = 16;
+  float middle[6][kBlocks];
+  float reach[6][kBlocks];                     ///< largest distance from the middle
+  float centre[3][kBlocks], half[3][kBlocks];  ///< box around the centroids: centre, half sides
+  float radius[kBlocks];                       ///< of the largest disc with the area of a face
+};
+
+/// FormFactors of the faces of one block, for the form law; their arms in pitching,
+/// FormShape::pitchingArm(), in units of length, 0 unless the shape is a wing.
+struct alignas(64) FormBlock {
+  float by_normal[FaceBlock::kFaces];
+  float by_speed[FaceBlock::kFaces];
+  float by_lee[FaceBlock::kFaces];
+  float arm[FaceBlock::kFaces];
+};
+
+/// Blocks of a shape with their bounds.
+struct FaceBlocks {
+  const FaceBlock* blocks;
+  const FaceBounds* bounds;
+  std::size_t count;                ///< number of blocks
+  const FormBlock* form = nullptr;  ///< one per block; null: the published law
+  const double* lee = nullptr;      ///< 6 x 21, lee side of the form law: see addEvenPart()
+
+  /// Returns the blocks from number `block` on, without bounds.
+  FaceBlocks from(std::size_t block) const {
+    return {blocks + block, nullptr, count - block, form ? form + block : nullptr, lee};
+  }
+};
+
+/// Eight triangles of a closed surface, component by component: input of the hydrostatics kernels.
+/// Plain data only, like FaceBlock, but in double precision: the energy of a floating body is a
+/// small difference. In frame F. The last block is filled up with triangles of area 0.
+struct alignas(64) HullBlock {
+  static constexpr int kTriangles = 8;
+  double corner[3][3][kTriangles];  ///< corner by corner, counter-clockwise from outside [m]
+};
+
+/// Moments of eight blocks: per block an axis-aligned box around the triangles, and integrals over
+/// the triangles, docs/theory.md eq. (57).
+struct alignas(64) HullMoments {
+  static constexpr int kBlocks = 8;
+  static constexpr int kNumbers = 30;
+  static constexpr double kNoBlock = -1;
+  double centre[3][kBlocks];          ///< centre of the box [m]
+  double half[3][kBlocks];            ///< half sides of the box [m]; kNoBlock in unused lanes
+  double moments[kNumbers][kBlocks];  ///< N_j; M_jk, row by row; Q_jkl, k <= l
+};
+
+/// Blocks of a hull with their moments.
+struct HullBlocks {
+  const HullBlock* blocks;
+  const HullMoments* moments;
+  std::size_t count;  ///< number of blocks
+};
+
+/// Corners of a hull in an axis-aligned box; unused lanes repeat the last corner.
+struct alignas(64) HullPoints {
+  static constexpr int kPoints = 32;
+  double place[3][kPoints];   ///< [m]
+  double centre[3], half[3];  ///< centre and half sides of the box [m]
+};
+
+struct HullCorners {
+  const HullPoints* blocks;
+  std::size_t count;  ///< number of blocks
+};
+
+}  // namespace ambient

@@ -1,0 +1,309 @@
+#include "bullet_ambient/fluid_body/packed/packed_shape.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/fluid_body/block_order.h"
+#include "bullet_ambient/fluid_body/form_factors.h"
+#include "bullet_ambient/spatial/spatial_vectors.h"
+
+namespace ambient {
+
+namespace {
+
+double largestOf(const std::vector<double>& column) {
+  double largest = 0;
+  for (const double value : column) largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
+// Smallest power of two above a value; 1 for 0 and for values that are not finite.
+double unitFor(double largest) {
+  if (!(largest > 0) || !std::isfinite(largest)) return 1;
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  return std::ldexp(1.0, std::clamp(exponent, -1000, 1000));
+}
+
+void setColumn(float (&column)[3][FaceBlock::kFaces], std::size_t i, const Vector3& v) {
+  for (int axis = 0; axis < 3; ++axis) column[axis][i] = static_cast<float>(v[axis]);
+}
+
+// Returns an order in which faces with similar normal and place are neighbours.
+std::vector<std::uint32_t> orderOf(const FaceTable& faces, double length_unit) {
+  std::vector<Vector6> coordinates;
+  coordinates.reserve(faces.size());
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    coordinates.push_back(stack(faces.normal(i), faces.centroid(i) / length_unit));
+  return orderInBlocks(coordinates, FaceBlock::kFaces);
+}
+
+}  // namespace
+
+PackedFaces::PackedFaces(const FaceTable& faces)
+    : length_unit_(unitFor(std::max({largestOf(faces.centroid_x), largestOf(faces.centroid_y),
+                                     largestOf(faces.centroid_z)}))),
+      area_unit_(unitFor(largestOf(faces.area))) {
+  order_ = orderOf(faces, length_unit_);
+  AMBIENT_ASSERT(length_unit_ > 0 && area_unit_ > 0);
+  const std::size_t count = (size() + FaceBlock::kFaces - 1) / FaceBlock::kFaces;
+  blocks_.reserve(count);
+  for (std::size_t block = 0; block < count; ++block) blocks_.push_back(packBlock(faces, block));
+  bounds_.resize((count + FaceBounds::kBlocks - 1) / FaceBounds::kBlocks);  // all zero
+  for (std::size_t block = 0; block < count; ++block) {
+    setBounds(block);
+    setPlace(block);
+  }
+}
+
+PackedFaces::PackedFaces(const FaceTable& faces, const FormShape& shape) : PackedFaces(faces) {
+  packForm(faces, shape);
+}
+
+FaceBlock PackedFaces::packBlock(const FaceTable& faces, std::size_t block) const {
+  constexpr std::size_t kFaces = FaceBlock::kFaces;
+  FaceBlock packed = {};
+  for (std::size_t i = 0; i < std::min(kFaces, size() - block * kFaces); ++i) {
+    const std::size_t face = order_[block * kFaces + i];
+    const Vector3 normal = faces.normal(face);
+    const Vector3 centroid = faces.centroid(face) / length_unit_;
+    setColumn(packed.normal, i, normal);
+    setColumn(packed.centroid, i, centroid);
+    setColumn(packed.moment, i, centroid.cross(normal));
+    packed.area[i] = static_cast<float>(faces.area[face] / area_unit_);
+  }
+  return packed;
+}
+
+void PackedFaces::packForm(const FaceTable& faces, const FormShape& shape) {
+  AMBIENT_ASSERT(faces.sharpness.size() == size());
+  form_.resize(blocks_.size());  // all zero
+  lee_.resize(6 * 21);
+  for (std::size_t i = 0; i < size(); ++i) {
+    const std::size_t face = order_[i], at = i % FaceBlock::kFaces;
+    const FormFactors<float> factors =
+        formFactors<float>(static_cast<float>(faces.sharpness[face]));
+    FormBlock& block = form_[i / FaceBlock::kFaces];
+    block.by_normal[at] = factors.by_normal;
+    block.by_speed[at] = factors.by_speed;
+    block.by_lee[at] = factors.by_lee;
+    addLee(faces, face, static_cast<double>(factors.by_lee));
+    if (!shape.isWing()) continue;
+    const double arm = shape.pitchingArm(faces.normal(face), faces.centroid(face));
+    block.arm[at] = static_cast<float>(arm / length_unit_);
+  }
+}
+
+void PackedFaces::addLee(const FaceTable& faces, std::size_t face, double by_lee) {
+  const Vector3 normal = faces.normal(face);
+  const Vector6 m = stack(faces.centroid(face).cross(normal) / length_unit_, normal);
+  const double strength = -by_lee * faces.area[face] / area_unit_;
+  Eigen::Map<Eigen::Matrix<double, 6, 21>> lee(lee_.data());
+  Eigen::Index column = 0;
+  for (int i = 0; i < 6; ++i)
+    for (int j = i; j < 6; ++j) lee.col(column++) += strength * (i == j ? 1 : 2) * m[i] * m[j] * m;
+}
+
+void PackedFaces::setBounds(std::size_t block) {
+  constexpr std::size_t kFaces = FaceBlock::kFaces;
+  // Rounding of a normal velocity in single precision; its terms are at most 1 and sqrt(3).
+  constexpr float kRounding = 4e-6f;
+  const FaceBlock& of = blocks_[block];
+  const auto size = static_cast<std::ptrdiff_t>(std::min(kFaces, order_.size() - block * kFaces));
+  FaceBounds& bounds = bounds_[block / FaceBounds::kBlocks];
+  for (int row = 0; row < 6; ++row) {
+    const float* values = row < 3 ? of.moment[row] : of.normal[row - 3];
+    const auto [low, high] = std::minmax_element(values, values + size);
+    bounds.middle[row][block % FaceBounds::kBlocks] = 0.5f * (*low + *high);
+    bounds.reach[row][block % FaceBounds::kBlocks] = 0.5f * (*high - *low) + kRounding;
+  }
+}
+
+void PackedFaces::setPlace(std::size_t block) {
+  constexpr std::size_t kFaces = FaceBlock::kFaces;
+  // Rounding of a depth in single precision, and the addition to the disc in eq. (59).
+  constexpr float kRounding = 4e-6f;
+  constexpr double kWider = 1 + 1e-4;
+  const FaceBlock& of = blocks_[block];
+  const auto size = static_cast<std::ptrdiff_t>(std::min(kFaces, order_.size() - block * kFaces));
+  FaceBounds& bounds = bounds_[block / FaceBounds::kBlocks];
+  const std::size_t lane = block % FaceBounds::kBlocks;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float* values = of.centroid[axis];
+    const auto [low, high] = std::minmax_element(values, values + size);
+    bounds.centre[axis][lane] = 0.5f * (*low + *high);
+    bounds.half[axis][lane] = 0.5f * (*high - *low) + kRounding;
+  }
+  const double largest = static_cast<double>(*std::max_element(of.area, of.area + size));
+  const double radius = kWider * std::sqrt(largest * area_unit_ / kPi) / length_unit_;
+  bounds.radius[lane] = static_cast<float>(radius) + kRounding;
+}
+
+namespace {
+
+using Triangle = std::array<Vector3, 3>;
+
+std::vector<Triangle> trianglesOf(const Surface& surface, const std::vector<std::int32_t>& hull) {
+  std::vector<Triangle> triangles;
+  const auto corner = [&surface](std::int32_t vertex) {
+    const double* place = &surface.vertices[3 * static_cast<std::size_t>(vertex)];
+    return Vector3(place[0], place[1], place[2]);
+  };
+  for (std::size_t i = 0; i < hull.size(); i += 3)
+    triangles.push_back({corner(hull[i]), corner(hull[i + 1]), corner(hull[i + 2])});
+  return triangles;
+}
+
+// Returns the corners of all triangles without duplicates.
+std::vector<Vector3> cornersOf(const std::vector<Triangle>& triangles) {
+  std::vector<std::array<double, 3>> places;
+  for (const Triangle& t : triangles)
+    for (const Vector3& p : t) places.push_back({p.x(), p.y(), p.z()});
+  std::sort(places.begin(), places.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  std::vector<Vector3> corners;
+  for (const auto& p : places) corners.emplace_back(p[0], p[1], p[2]);
+  return corners;
+}
+
+template <class Thing, class Place>
+std::vector<Thing> inBlocks(const std::vector<Thing>& things, std::size_t size,
+                            const Place& placeOf) {
+  std::vector<Vector6> coordinates;
+  coordinates.reserve(things.size());
+  for (const Thing& thing : things) coordinates.push_back(stack({0, 0, 0}, placeOf(thing)));
+  std::vector<Thing> sorted;
+  sorted.reserve(things.size());
+  for (const std::uint32_t i : orderInBlocks(coordinates, size)) sorted.push_back(things[i]);
+  return sorted;
+}
+
+struct Box {
+  Vector3 centre, half;
+};
+
+/// Axis-aligned box around points, enlarged against rounding.
+Box boxAround(const Vector3* points, std::size_t count) {
+  constexpr double kRounding = 1e-12;
+  Vector3 low = points[0], high = points[0];
+  for (std::size_t i = 1; i < count; ++i) {
+    low = low.cwiseMin(points[i]);
+    high = high.cwiseMax(points[i]);
+  }
+  const double size = std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
+  return {(low + high) / 2, ((high - low) / 2).array() + kRounding * size};
+}
+
+Vector3 areaNormal(const Triangle& t) { return (t[1] - t[0]).cross(t[2] - t[0]) / 2; }
+
+using Moments = std::array<double, HullMoments::kNumbers>;
+
+/// Adds to N = sum A n, M = sum A n c^T, Q_jkl = sum int n_j z_k z_l dA; docs/theory.md eq. (57).
+void add(const Triangle& t, Moments& moments) {
+  const Vector3 normal = areaNormal(t);
+  const Vector3 c = (t[0] + t[1] + t[2]) / 3;
+  const Matrix3 second = (t[0] * t[0].transpose() + t[1] * t[1].transpose() +
+                          t[2] * t[2].transpose() + 9 * c * c.transpose()) /
+                         12;
+  double* to = moments.data();
+  for (int j = 0; j < 3; ++j) *to++ += normal[j];
+  for (int j = 0; j < 3; ++j)
+    for (int k = 0; k < 3; ++k) *to++ += normal[j] * c[k];
+  for (int j = 0; j < 3; ++j)
+    for (int k = 0; k < 3; ++k)
+      for (int l = k; l < 3; ++l) *to++ += normal[j] * second(k, l);
+}
+
+HullBlock blockOf(const Triangle* triangles, std::size_t count) {
+  AMBIENT_ASSERT(count > 0 && count <= HullBlock::kTriangles);
+  HullBlock block = {};
+  for (std::size_t i = 0; i < count; ++i)
+    for (int axis = 0; axis < 3; ++axis)
+      for (int corner = 0; corner < 3; ++corner)
+        block.corner[corner][axis][i] = triangles[i][static_cast<std::size_t>(corner)][axis];
+  // Unused lanes repeat one corner of the last triangle: the block stays dry, cut or wet as it is.
+  for (std::size_t i = count; i < HullBlock::kTriangles; ++i)
+    for (auto& corner : block.corner)
+      for (int axis = 0; axis < 3; ++axis) corner[axis][i] = triangles[count - 1][0][axis];
+  return block;
+}
+
+double volumeOf(const std::vector<Triangle>& triangles) {
+  double volume = 0;
+  for (const Triangle& t : triangles) volume += t[0].dot(t[1].cross(t[2])) / 6;
+  return volume;
+}
+
+}  // namespace
+
+PackedHull::PackedHull(const FluidBody& body) {
+  if (body.surface.triangles.empty()) return;
+  requirePrepared(body);
+  const std::vector<Triangle> triangles = trianglesOf(body.surface, body.form.hull);
+  packPoints(cornersOf(triangles));
+  if (!(body.volume > 0)) return;
+  const double volume = volumeOf(triangles);
+  if (volume > 0) volume_factor_ = body.volume / volume;
+  AMBIENT_ASSERT(volume_factor_ > 0 && std::isfinite(volume_factor_));
+  packInBlocks(triangles);
+}
+
+PackedHull::PackedHull(const Surface& surface) {
+  const std::vector<Triangle> triangles = trianglesOf(surface, surface.triangles);
+  packPoints(cornersOf(triangles));
+  packInBlocks(triangles);
+}
+
+void PackedHull::packInBlocks(const std::vector<Triangle>& triangles) {
+  packTriangles(inBlocks(triangles, HullBlock::kTriangles,
+                         [](const Triangle& t) { return Vector3(t[0] + t[1] + t[2]); }));
+}
+
+void PackedHull::packTriangles(const std::vector<Triangle>& triangles) {
+  constexpr std::size_t kTriangles = HullBlock::kTriangles, kBlocks = HullMoments::kBlocks;
+  blocks_.reserve((triangles.size() + kTriangles - 1) / kTriangles);
+  moments_.reserve((blocks_.capacity() + kBlocks - 1) / kBlocks);
+  for (std::size_t begin = 0; begin < triangles.size(); begin += kTriangles) {
+    const std::size_t count = std::min(kTriangles, triangles.size() - begin);
+    const std::size_t lane = blocks_.size() % kBlocks;
+    if (lane == 0) {
+      moments_.push_back({});
+      for (auto& half : moments_.back().half)
+        for (double& entry : half) entry = HullMoments::kNoBlock;
+    }
+    blocks_.push_back(blockOf(&triangles[begin], count));
+    HullMoments& group = moments_.back();
+    const Box box = boxAround(triangles[begin].data(), 3 * count);
+    for (int axis = 0; axis < 3; ++axis) {
+      group.centre[axis][lane] = box.centre[axis];
+      group.half[axis][lane] = box.half[axis];
+    }
+    Moments moments = {};
+    for (std::size_t i = begin; i < begin + count; ++i) add(triangles[i], moments);
+    for (std::size_t number = 0; number < moments.size(); ++number)
+      group.moments[number][lane] = moments[number];
+  }
+}
+
+void PackedHull::packPoints(const std::vector<Vector3>& points) {
+  constexpr std::size_t kPoints = HullPoints::kPoints;
+  const std::vector<Vector3> sorted =
+      inBlocks(points, kPoints, [](const Vector3& place) { return place; });
+  points_.reserve((sorted.size() + kPoints - 1) / kPoints);
+  for (std::size_t begin = 0; begin < sorted.size(); begin += kPoints) {
+    const std::size_t count = std::min(kPoints, sorted.size() - begin);
+    const Box box = boxAround(&sorted[begin], count);
+    HullPoints& block = points_.emplace_back();
+    for (int axis = 0; axis < 3; ++axis) {
+      block.centre[axis] = box.centre[axis];
+      block.half[axis] = box.half[axis];
+      for (std::size_t i = 0; i < kPoints; ++i)
+        block.place[axis][i] = sorted[begin + std::min(i, count - 1)][axis];
+    }
+  }
+}
+
+}  // namespace ambient
