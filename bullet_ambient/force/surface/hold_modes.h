@@ -24,8 +24,8 @@ struct HoldModes {
 
 /// Finds the modes along the principal axes of the level. Exact for boxes; of cylinders and half
 /// balls omega is at most 1.5 % off, of round canals and V's 7 %. Full or empty holds have none.
-/// @param fill of the hold, by fillHold() along the normal of the plane
-/// @param plane_F normal, and gravity as the water feels it
+/// `fill` is that of the hold by fillHold() along the normal of the plane, whose gravity is that
+/// which the water feels.
 HoldModes modesOf(const HoldShape& shape, const HoldFill& fill,
                   const SurfacePlane& plane_F) noexcept;
 

@@ -145,9 +145,8 @@ void fillCoveredHolds(const HoldShapes& holds, const OpeningChanges* changes,
                       const SurfacePlane& plane_F, HoldState* states) noexcept;
 
 /// Mixes the sloshing in holds with that of water that has passed: what has come from outside was
-/// at rest there, other water moves with the vessel.
-/// @param before,after modes before and after water has passed
-/// @param x twist of the vessel in B, relative to the water around
+/// at rest there, other water moves with the vessel. `before` and `after`: modes before and after
+/// water has passed; x: twist of the vessel in B, relative to the water around.
 void mixSloshing(const HoldState* states, const HoldModes* before, const SloshingAt& after,
                  const Vector6& x, Sloshing* sloshing) noexcept;
 

@@ -39,15 +39,13 @@ SloshingEnergy energyOfSloshing(const SloshingAt& at, const Sloshing* states) no
 Momentum momentumOfSloshing(const SloshingAt& at, const Sloshing* states) noexcept;
 
 /// Takes the states to other modes, which never adds energy. Those of holds without modes become
-/// not known.
-/// @param energy with the modes before [J]
+/// not known. `energy`: with the modes before [J].
 void meetModes(const SloshingAt& at, double energy, Sloshing* states) noexcept;
 
 /// Lets pendulums and body act on each other for `duration` [s], docs/theory.md eq. (153): the sum
 /// of x.K x / 2 and the energy of the pendulums does not grow, whatever the duration. Returns the
-/// twist afterwards, in B, relative to the water around.
-/// @param inverse K^-1
-/// @param damping HoldSettings::sloshing_damping
+/// twist afterwards, in B, relative to the water around, as x is the one before. `inverse` is K^-1,
+/// `damping` HoldSettings::sloshing_damping.
 Vector6 exchangeSloshing(const SloshingAt& at, const Matrix6& inverse, double damping,
                          double duration, const Vector6& x, Sloshing* states) noexcept;
 
