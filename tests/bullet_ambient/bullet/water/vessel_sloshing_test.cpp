@@ -35,12 +35,12 @@ double slopeOf(const Sea& sea, const btRigidBody& body) {
 
 // A joint stops a barge at once. Its water goes on, and swings at its own frequency.
 TEST(VesselSloshing, WaterOfABargeThatStopsGoesOn) {
-  constexpr double kSpeed = 0.3;
+  constexpr double kSpeed = 0.03;  // its waves are far from the floor
   for (const double hertz : {60.0, 240.0}) {
     Sea sea;
     btRigidBody& body = addAfloat(sea, {{0, 0, 0}, {kSpeed, 0, 0}}, 0);
     sea.scene.step(1 / hertz);
-    EXPECT_NEAR(slopeOf(sea, body), 0, 0.01) << "it moves with the barge at first";
+    EXPECT_NEAR(slopeOf(sea, body), 0, 5e-4) << "it moves with the barge at first";
     Rail rail(sea, body, 0, 0);
     double highest = 0, last = 0, first_time = 0, last_time = 0;
     int crossings = 0;
@@ -60,7 +60,7 @@ TEST(VesselSloshing, WaterOfABargeThatStopsGoesOn) {
         << hertz;
     // The joint's rows damp it, in proportion to the step.
     const double exact = kSpeed * exactRate() / kGravity;
-    EXPECT_NEAR(highest, exact, 8 / hertz * exact);
+    EXPECT_NEAR(highest, exact, 6 / hertz * exact);
   }
 }
 
@@ -103,12 +103,12 @@ TEST(VesselSloshing, StateGoesOnBitForBit) {
 // It sleeps once its water is still.
 TEST(VesselSloshing, BargeSleepsOnceItsWaterIsStill) {
   Sea sea;
-  btRigidBody& body = addAfloat(sea, {{0, 0.1, 0}, {0, 0, 0}});
+  btRigidBody& body = addAfloat(sea, {{0, 0.01, 0}, {0, 0, 0}});
   body.forceActivationState(ACTIVE_TAG);
   sea.scene.step(1 / 60.0, 60);
   EXPECT_TRUE(body.isActive());
   double energy = 0;
-  for (int i = 0; i < 60 * 120 && body.isActive(); ++i) {
+  for (int i = 0; i < 60 * 300 && body.isActive(); ++i) {
     energy = Sea::Water(sea, body).energy().sum();
     sea.scene.step(1 / 60.0);
   }
