@@ -21,14 +21,14 @@ using test::FloatingDef;
 using test::FloatingRun;
 using namespace test::barge;
 
-constexpr double kWater = 0.2, kPull = 9.81;
+constexpr double kInside = 0.2, kPull = 9.81;
 
 /// The barge's hold with its water, in the frame of the centre of mass at a height.
 struct BargeWater {
   explicit BargeWater(double above_keel)
       : hold(test::boxHold({1.96, 0.96, 0.48}, {0, 0, 0.26 - above_keel})),
         shape(hold),
-        fill(fillHold(shape, {0, 0, 1}, kWater, std::numeric_limits<double>::quiet_NaN())),
+        fill(fillHold(shape, {0, 0, 1}, kInside, std::numeric_limits<double>::quiet_NaN())),
         modes(modesOf(shape, fill, {{0, 0, 1}, 0, 1000, kPull})) {}
 
   SloshingAt at(const Matrix3& to_world = Matrix3::Identity()) const {
@@ -124,9 +124,9 @@ struct RollingBarge {
     stiffness = mass * mode.square;
     arm = {mode.pivot.z(), -1};
     inertia << roll, coupling, coupling, sway;
-    const double depth = kWater / (1.96 * 0.96), draught = draughtOf(kWater);
+    const double depth = kInside / (1.96 * 0.96), draught = draughtOf(kInside);
     const double outer = 2.0 / 12 + 2 * draught * (draught / 2 - above_keel);
-    const double inner = 1.96 * std::pow(0.96, 3) / 12 + kWater * (0.02 + depth / 2 - above_keel);
+    const double inner = 1.96 * std::pow(0.96, 3) / 12 + kInside * (0.02 + depth / 2 - above_keel);
     righting = 1000 * kPull * (outer - inner);
   }
 
@@ -172,7 +172,7 @@ FloatingDef quietBarge(double above_keel) {
 TEST(Sloshing, RollOfABargeIsThatOfTheLinearSystem) {
   for (const double hertz : {60.0, 240.0}) {
     FloatingRun run(quietBarge(0.16));
-    run.water = {{kWater}};
+    run.water = {{kInside}};
     run.sloshing_damping = 0;
     setAfloat(run, 0.16, 0);
     const Matrix6 K = run.inertia();
@@ -201,7 +201,7 @@ TEST(Sloshing, RollOfABargeIsThatOfTheLinearSystem) {
 TEST(Sloshing, RockingBargeKeepsItsEnergy) {
   for (const double hertz : {60.0, 240.0}) {
     FloatingRun run(quietBarge(0.16));
-    run.water = {{kWater}};
+    run.water = {{kInside}};
     run.sloshing_damping = 0;
     setAfloat(run, 0.16, 0);
     const double low = run.energy();
@@ -217,7 +217,7 @@ TEST(Sloshing, RockingBargeKeepsItsEnergy) {
 // No force acts along the sea.
 TEST(Sloshing, KeepsTheMomentumAlongTheSea) {
   FloatingRun run(quietBarge(0.16));
-  run.water = {{kWater}};
+  run.water = {{kInside}};
   setAfloat(run, 0.16, 0);
   run.state.orientation = rotationFromVector(Vector3(0.1, 0.03, 0.5));
   run.state.twist = {{0.1, 0.2, 0.3}, {0.4, 0.1, 0}};
