@@ -47,12 +47,21 @@ class HoldView {
     this.group.add(this.sheet);
   }
 
+  // The numbers of a sample, linear between samples.
+  waterAt(motion, time) {
+    const i = motion.indexBefore(time), j = Math.min(i + 1, motion.count - 1);
+    const step = motion.timeOf(j) - motion.timeOf(i);
+    const share = step > 0 ? Math.min(Math.max((time - motion.timeOf(i)) / step, 0), 1) : 0;
+    return Array.from({ length: LEVEL_SIZE },
+      (_, k) => (1 - share) * this.samples[i * LEVEL_SIZE + k] + share * this.samples[j * LEVEL_SIZE + k]);
+  }
+
   // `toView`: leads from the world's axes to the picture's; `seaBelow`: plane of the sea at a place in the picture.
   moveTo(motion, time, toView, seaBelow) {
-    const sample = motion.indexBefore(time) * LEVEL_SIZE;
-    const point = new THREE.Vector3().fromArray(this.samples, sample + 1);
-    const normal = new THREE.Vector3().fromArray(this.samples, sample + 4);
-    this.volume = this.samples[sample];
+    const [volume, ...level] = this.waterAt(motion, time);
+    const point = new THREE.Vector3().fromArray(level);
+    const normal = new THREE.Vector3().fromArray(level, 3).normalize();
+    this.volume = volume;
     const centre = this.geometry.boundingSphere.center.clone().applyQuaternion(motion.orientation).add(motion.position);
     this.sheet.visible = this.volume > 0;
     for (const mesh of this.inside.meshes) mesh.visible = this.sheet.visible;

@@ -345,7 +345,7 @@ TEST(DrawingOfHolds, IsTheirEdgesAndTheLevelOfTheirWater) {
     area += from.cross(to) / 2;
   }
   EXPECT_LT((area - area.norm() * water.normal).norm(), tolerance);
-  EXPECT_NEAR(area.z(), water.area, tolerance);
+  EXPECT_NEAR(area.z(), water.area, 1e-6);  // of the level, and of the surface as it sloshes
   EXPECT_GT(water.area, 1.96 * 0.96);
   EXPECT_LT(recorder.sumOf(fluid_colours::kWater).norm(), tolerance);
   afloat.setWater(0, water.capacity);

@@ -163,7 +163,9 @@ TEST(HoldWater, PumpMovesNoMoreThanThereIs) {
   const FluidBody barge = openBarge();
   const HoldShapes holds(barge.holds);
   const SurfacePlane below{{0, 0, 1}, -5, 1000, 9.81};
-  std::vector<HoldState> water{{0.1, 0, 0, -0.03}};
+  std::vector<HoldState> water(1);
+  water[0].volume = 0.1;
+  water[0].pump = -0.03;
   exchangeWater(holds, below, {true, 1}, water.data());
   EXPECT_DOUBLE_EQ(water[0].volume, 0.07);
   EXPECT_DOUBLE_EQ(water[0].inflow, -0.03);
