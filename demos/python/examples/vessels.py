@@ -12,7 +12,6 @@ import bullet_ambient as ba
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
-STEEL = 7850  # [kg/m^3]
 STEP = 1 / 120  # [s]
 
 
@@ -29,9 +28,9 @@ def open_box(length, width, height, wall, bulkheads=()):
 
 
 def world_of(shape, cache, mass, waves=(), **body):
-    """A world of one vessel in fresh water."""
+    """A world of one vessel in fresh water; its centre of mass is the middle of its box unless it is given."""
     scene = {"time_step": STEP, "duration": 1, "output_step": STEP, "water": {"level": 0, "waves": list(waves)}}
-    return ba.World(ba.Scene({**scene, "bodies": [{"name": "vessel", "shape": shape, "mass": mass, **body}]}), cache=cache)
+    return ba.World(ba.Scene({**scene, "bodies": [{"name": "vessel", "shape": shape, "mass": mass, "centre_of_mass": [0, 0, 0], **body}]}), cache=cache)
 
 
 def follow(world, duration, numbers, before=lambda time, body: None, every=6):
@@ -51,16 +50,16 @@ def turned(angle):
 
 
 def swamped(cache=None):
-    """A boat of steel walls in two waves of like period, whose group has one wave too many: height, water inside [m^3]."""
+    """A laden boat in two waves of like period, whose group has one wave too many: height, water inside [m^3]."""
     hull = open_box(2.4, 1, 0.5, 0.006)
-    waves = [{"amplitude": 0.08, "period": period, "direction": [0, 1, 0], "phase": phase} for period, phase in ((2.6, 0), (2.8, np.pi))]
-    with world_of(hull, cache, 300, waves, centre_of_mass=[0, 0, -0.15], inertia=[60, 180, 210, 0, 0, 0], position=[0, 0, 0.12]) as world:
-        return follow(world, 45, lambda body: (body.position[2], body.holds[0]["volume"]))
+    waves = [{"amplitude": 0.1, "period": period, "direction": [0, 1, 0], "phase": phase} for period, phase in ((1.8, 0), (1.9, np.pi))]
+    with world_of(hull, cache, 850, waves, centre_of_mass=[0, 0, -0.12], inertia=[110, 430, 480, 0, 0, 0], position=[0, 0, -0.22]) as world:
+        return follow(world, 25, lambda body: (body.position[2], body.holds[0]["volume"]))
 
 
 def bowl_pushed_under(cache=None):
     """A bowl of wood is held 0.15 m under and let go after a second: height, water inside [m^3]."""
-    with world_of(open_box(0.4, 0.4, 0.15, 0.015), cache, 3, position=[0, 0, 0.02]) as world:
+    with world_of(open_box(0.4, 0.4, 0.15, 0.015), cache, 3, position=[0, 0, 0.056]) as world:
 
         def hold(time, body):
             if 1 <= time < 2:
@@ -102,7 +101,7 @@ def diving_bell(cache=None):
 def compartments(holed, cache=None):
     """A ship of four compartments, of which some get a hole in the floor: height, trim [rad], water inside [m^3]."""
     ship = open_box(4, 1, 0.8, 0.02, bulkheads=(-1, 0, 1))
-    with world_of(ship, cache, 1000, centre_of_mass=[0, 0, -0.1], inertia=[180, 1400, 1450, 0, 0, 0], position=[0, 0, 0.15]) as world:
+    with world_of(ship, cache, 1000, centre_of_mass=[0, 0, -0.1], inertia=[180, 1400, 1450, 0, 0, 0], position=[0, 0, 0.05]) as world:
         body = world.bodies["vessel"]
         order = np.argsort([hold["centre"][0] for hold in body.holds])[::-1]  # from the bow on
         for hold in order[:holed]:
@@ -117,13 +116,13 @@ def compartments(holed, cache=None):
 
 def bilge_pump(cache=None):
     """A barge with a leak of 4 cm^2; after 60 s a pump takes 1.5 l/s out: draught of the floor, water inside [m^3]."""
-    with world_of(open_box(2, 1, 0.5, 0.02), cache, 200, centre_of_mass=[0, 0, -0.12], inertia=[26, 84, 100, 0, 0, 0], position=[0, 0, 0.15]) as world:
+    with world_of(open_box(2, 1, 0.5, 0.02), cache, 200, centre_of_mass=[0, 0, -0.12], inertia=[26, 84, 100, 0, 0, 0], position=[0, 0, 0.03]) as world:
         world.bodies["vessel"].add_opening(0, [0, 0, -0.24], [0, 0, -1], 4e-4)
 
         def pump(time, body):
             body.pump(0, -1.5e-3 if time > 60 else 0)
 
-        return follow(world, 240, lambda body: (0.25 - body.position[2], body.holds[0]["volume"]), pump)
+        return follow(world, 240, lambda body: (0.13 - body.position[2], body.holds[0]["volume"]), pump)
 
 
 def draw(file, cache):
@@ -136,7 +135,8 @@ def draw(file, cache):
         axis.set(xlabel="t [s]", title=title)
         axis.legend(fontsize=8)
 
-    plot(above, swamped(cache), (1, 2), ("height [m]", "water inside [m³]"), "steel boat, one wave too many")
+    plot(above, swamped(cache), (1, 2), ("height [m]", "water inside [m³]"), "laden boat, one wave too many")
+    above.set_ylim(-1, 1.3)
     rows = bowl_pushed_under(cache) * [1, 1, 10]
     plot(bowl, rows, (1, 2), ("height [m]", "water inside [10 l]"), "bowl pushed under, let go")
     rows = bucket(cache) * [1, 1, 1, 100]
@@ -149,7 +149,7 @@ def draw(file, cache):
     for holed in (1, 2, 3):
         rows = compartments(holed, cache)
         ship.plot(rows[:, 0], rows[:, 1], label=f"{holed} of 4 holed")
-    ship.set(xlabel="t [s]", ylabel="height [m]", title="ship of four compartments")
+    ship.set(xlabel="t [s]", ylabel="height [m]", ylim=(-3, 0.3), title="ship of four compartments")
     ship.legend(fontsize=8)
     plot(leak, bilge_pump(cache), (1, 2), ("draught [m]", "water inside [m³]"), "leak, and a pump from 60 s on")
     figure.savefig(file, dpi=90)

@@ -9,6 +9,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -23,6 +24,7 @@ import hull_rates  # noqa: E402
 import plate_map  # noqa: E402
 import pybullet_limits  # noqa: E402
 import scene_energy  # noqa: E402
+import vessels  # noqa: E402
 import viscosity  # noqa: E402
 
 
@@ -50,6 +52,50 @@ class ViscosityTest(unittest.TestCase):
         # Of 1 and 0.1 mm in water, by the closed form of a ball, eq. (119).
         water = ba.Medium(density=1000, viscosity=1e-3)
         np.testing.assert_allclose(viscosity.settling_speeds([1e-3, 1e-4], water), [0.15773, 0.0080817], rtol=2e-4)
+
+
+class VesselsTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        warnings.simplefilter("ignore")  # of what sinks
+        cls.addClassCleanup(warnings.resetwarnings)
+
+    def test_one_wave_too_many_swamps_a_laden_boat(self):
+        rows = vessels.swamped()
+        self.assertEqual(rows[rows[:, 0] < 5, 2].max(), 0)
+        self.assertGreater(rows[-1, 2], 1.1)
+        self.assertLess(rows[-1, 1], -2)
+
+    def test_a_bowl_that_was_pushed_under_is_full_and_floats_by_its_wood(self):
+        rows = vessels.bowl_pushed_under()
+        self.assertEqual(rows[rows[:, 0] < 1, 2].max(), 0)
+        self.assertAlmostEqual(rows[:, 2].max(), 0.37**2 * 0.135, delta=1e-6)
+        self.assertGreater(rows[-1, 2], 0.99 * rows[:, 2].max())
+        self.assertGreater(rows[-1, 1], -0.12)
+
+    def test_a_bucket_is_filled_lifted_and_poured_out(self):
+        time, _, _, water = vessels.bucket().T
+        self.assertAlmostEqual(np.interp(7.5, time, water), 0.28**2 * 0.29, delta=1e-6)
+        self.assertLess(water[-1], 1e-6)
+
+    def test_a_bell_keeps_its_air_by_boyles_law(self):
+        _, depth, air = vessels.diving_bell().T
+        pressed = 101325 / (101325 + 9810 * (depth - 0.58 * (1 - air)))
+        np.testing.assert_allclose(air[depth > 0.1], pressed[depth > 0.1], atol=2e-3)
+        self.assertLess(air.min(), 0.52)
+
+    def test_a_ship_of_four_compartments_floats_with_one_and_sinks_with_three(self):
+        one, three = (vessels.compartments(holed) for holed in (1, 3))
+        self.assertGreater(one[-1, 1], -0.3)
+        self.assertGreater(abs(one[-1, 2]), 0.02)
+        self.assertLess(three[-1, 1], -3)
+
+    def test_a_pump_gains_on_a_leak(self):
+        time, draught, water = vessels.bilge_pump().T
+        # By Torricelli: 0.6 of 4 cm^2, from the sea to the level inside, at first 0.08 m lower.
+        self.assertAlmostEqual(np.interp(10, time, water), 0.6 * 4e-4 * np.sqrt(2 * 9.81 * 0.08) * 10, delta=3e-5)
+        self.assertAlmostEqual(np.interp(10, time, draught), 0.1 + np.interp(10, time, water) / 2, delta=1e-3)
+        self.assertEqual(water[-1], 0)
 
 
 class PlateMapTest(unittest.TestCase):
