@@ -95,7 +95,7 @@ class VesselsTest(unittest.TestCase):
         # By Torricelli: 0.6 of 4 cm^2, from the sea to the level inside, at first 0.08 m lower.
         self.assertAlmostEqual(np.interp(10, time, water), 0.6 * 4e-4 * np.sqrt(2 * 9.81 * 0.08) * 10, delta=3e-5)
         self.assertAlmostEqual(np.interp(10, time, draught), 0.1 + np.interp(10, time, water) / 2, delta=1e-3)
-        self.assertEqual(water[-1], 0)
+        self.assertLess(water[-1], 1e-5)  # what leaks in a step
 
 
 class PlateMapTest(unittest.TestCase):
