@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Seven first trials with vessels, docs/vessels.md: what floats, floods, is pumped, poured out and sinks."""
+"""Six first trials with vessels, docs/vessels.md: what floats, floods, is pumped, poured out and sinks."""
 
 import argparse
 from pathlib import Path
