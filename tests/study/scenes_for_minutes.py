@@ -2,7 +2,7 @@
 """Runs scenes for minutes at several rates, as they are and with a ball on a joint at each body that moves freely:
 scenes_for_minutes.py [SCENE ...] [--minutes 10] [--rates 30 60 240] [--cache DIR]. PYTHONPATH has the Python module.
 
-A line for each run: what was halted, rejected, too long or cut short in the steps, the largest speeds in the first and in the
+A line for each run: what was halted, too long, coarse or guarded in the steps, the largest speeds in the first and in the
 last minute over all bodies, energy taken out by the guards, and what was said. A run that ends before says where.
 """
 
@@ -15,7 +15,7 @@ import numpy as np
 
 import bullet_ambient as ba
 
-COUNTS = ("halted", "rejected", "too_long", "coarse")
+COUNTS = ("halted", "too_long", "coarse", "guarded")
 
 
 def with_balls(document):

@@ -88,6 +88,7 @@ struct Tally {
   std::set<const FluidBody*> shapes;
   std::optional<AttachDef> lightest;  // for its share of what it displaces
   DisplacedMass mass;
+  btVector3 gravity{0, 0, 0};  // of the world of multibodies [m/s^2]
   int light_count = 0;
 
   void add(int index, const AmbientBody& ambient, const AmbientTrees& trees, AttachReport& report) {
@@ -95,7 +96,7 @@ struct Tally {
     shapes.insert(ambient.def->fluid_body.get());
     const DisplacedMass own = displacedMass(ambient);
     if (own.isLighter()) report.light.push_back({index, own.body, own.medium});
-    const auto rising = risingMass(ambient, trees, btVector3(0, 0, 0));
+    const auto rising = risingMass(ambient, trees, gravity);
     if (!rising) return;
     if (light_count++ > 0 && rising->body * mass.medium >= mass.body * rising->medium) return;
     lightest = *ambient.def;
@@ -221,6 +222,7 @@ AttachReport WorldAttachment::attachNew(btCollisionWorld& world) {
   AttachReport report;
   Tally tally;
   multibody_world_ = dynamic_cast<btMultiBodyDynamicsWorld*>(&world);
+  if (multibody_world_) tally.gravity = multibody_world_->getGravity();
   const std::vector<btCollisionObject*> strangers = meetAll(world);
   count_ = static_cast<int>(std::count_if(strangers.begin(), strangers.end(), canJoin));
   number_ = 0;
