@@ -146,6 +146,21 @@ TEST_F(Robots, AreLightAsAWhole) {
   EXPECT_NE(said[0].find("so that it rises"), std::string::npos) << said[0];
 }
 
+TEST_F(Robots, ThatAreAttachedTogetherAreLightAsAWhole) {
+  std::vector<std::string> said;
+  world.fluid.setReport([&](const std::string& sentence) { said.push_back(sentence); });
+  RobotDef def;
+  def.collider_radius = 0.05;
+  btMultiBody& light = add(def);
+  light.setBaseMass(bt(1e-3));
+  for (int i = 0; i < light.getNumLinks(); ++i) light.getLink(i).m_mass = bt(1e-3);
+  OneShape shapes;
+  world.world.setGravity({0, 0, bt(-9.81)});
+  EXPECT_EQ(world.fluid.addAll(shapes, water()).attached, light.getNumLinks() + 1);
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_NE(said[0].find("so that it rises"), std::string::npos) << said[0];
+}
+
 TEST_F(Robots, OfTheWorldAreAttachedByTheFilterOfLinks) {
   RobotDef def;
   def.collider_radius = 0.05;
