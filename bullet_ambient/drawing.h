@@ -30,7 +30,7 @@ struct FluidDrawing {
   bool total_wrench = false;      ///< force white and torque magenta at the centre of mass
   bool centre_of_volume = false;  ///< a small cross, cyan
   bool water_surface = false;     ///< a net over each region's surface, blue
-  /// Of vessels the edges of their holds and openings, grey, and where the water in them meets the
+  /// Edges of the holds and openings of vessels, grey, and where the water in them meets the
   /// walls, blue.
   bool holds = false;
   /// Forces of the last substep at the centre of mass of bodies that Immersed::readWrench() has

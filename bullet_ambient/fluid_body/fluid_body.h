@@ -38,7 +38,7 @@ struct Hold {
   std::vector<HoldOpening> openings;  ///< each once: one between two holds is the first hold's
 };
 
-/// What boundary layers make of the flow past a body that moves one way; docs/theory.md eq. (97) to
+/// Flow past a body that moves one way, as boundary layers change it; docs/theory.md eq. (97) to
 /// (99). On its frontal area and D_A, without unit. The first four of a state of the layers:
 /// laminar; laminar to its separation and turbulent from there (a bubble); turbulent from the nose,
 /// smooth and rough (four times the growth).
@@ -71,7 +71,7 @@ struct SurfaceNumbers {
       Matrix3::Zero();  ///< G: mean of |r|^2 I - r r^T about the centre of reaction [m^2]
 };
 
-/// What a shape needs for a fluid with viscosity, docs/theory.md section 18. Frame F.
+/// Numbers of a shape for a fluid with viscosity, docs/theory.md section 18. Frame F.
 struct ViscousForm {
   static constexpr std::size_t kNumbers = 116;
   /// Resistance in creeping flow about F's origin, rotation first, per unit viscosity: as Re -> 0

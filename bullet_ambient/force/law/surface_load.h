@@ -10,7 +10,7 @@ struct Growth {
   double rotation = 0, translation = 0;
 };
 
-/// That of a body at rest.
+/// Growth of the resistance of a body at rest: none.
 constexpr Growth kCreeping{1, 1};
 
 /// Resistance in creeping flow of a body in a fluid, mu R.

@@ -93,7 +93,7 @@ struct WaterInside {
   /// Terms of V, S and W in docs/theory.md eq. (135): volume and moment are negative.
   WetVolume below;
   Matrix3 spread = Matrix3::Zero();  ///< sum of Waterplane::spread of its levels [m^4]
-  /// Of the water less that of its modes of sloshing, per unit density, about F's origin.
+  /// Inertia of the water less that of its modes of sloshing, per unit density, about F's origin.
   SymmetricMatrix inertia;
   const HoldModes* modes = nullptr;  ///< of each hold; null: not kept
 
