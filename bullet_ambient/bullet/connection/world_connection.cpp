@@ -1,8 +1,6 @@
 #include "bullet_ambient/bullet/connection/world_connection.h"
 
-#include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolverMt.h>
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
-#include <BulletDynamics/Dynamics/btDiscreteDynamicsWorldMt.h>
 #include <BulletDynamics/Dynamics/btSimulationIslandManagerMt.h>
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
@@ -14,7 +12,6 @@
 #include <type_traits>
 #include <typeinfo>
 #include <utility>
-#include <vector>
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
@@ -22,27 +19,26 @@
 
 AMBIENT_BEGIN
 
-/// Solvers of a fluid that replace a world's plain ones: one solver, or a pool, and the one for
-/// large islands of a multithreaded world. They continue the random numbers of the replaced ones.
-class FittedSolvers {
+/// Solver of a fluid that replaces a plain one of a world, and continues its random numbers.
+class FittedSolver {
  public:
-  /// Makes the solvers; does not change the world.
+  /// Makes the solver; does not change the world.
   /// @throws std::invalid_argument, in one sentence that names makeSolver(), if the world has
-  /// another solver than Bullet's plain ones, or a pool of others.
-  FittedSolvers(btDiscreteDynamicsWorld& world, const std::shared_ptr<AmbientBodies>& members,
+  /// another solver than Bullet's plain ones.
+  FittedSolver(btDiscreteDynamicsWorld& world, const std::shared_ptr<AmbientBodies>& members,
                 SolverOwner owner);
-  /// Deletes the solvers that nobody else has deleted.
-  ~FittedSolvers();
-  FittedSolvers(const FittedSolvers&) = delete;
-  FittedSolvers& operator=(const FittedSolvers&) = delete;
+  /// Deletes the solver unless somebody else has.
+  ~FittedSolver();
+  FittedSolver(const FittedSolver&) = delete;
+  FittedSolver& operator=(const FittedSolver&) = delete;
 
-  /// Gives the solvers to the world.
+  /// Gives the solver to the world.
   void install(btDiscreteDynamicsWorld& world);
-  /// Gives the world its own solvers back. A solver that somebody has given the world meanwhile
+  /// Gives the world its own solver back. A solver that somebody has given the world meanwhile
   /// stays.
   void giveBack(btDiscreteDynamicsWorld& world);
-  /// True if the world solves with these solvers. Cost: a comparison of addresses.
-  bool areIn(btDiscreteDynamicsWorld& world) const;
+  /// True if the world solves with this solver. Cost: a comparison of addresses.
+  bool isIn(btDiscreteDynamicsWorld& world) const;
 
  private:
   struct DeleteIfAlive {
@@ -55,11 +51,8 @@ class FittedSolvers {
   static MadeSolver makeFor(btDiscreteDynamicsWorld& world,
                             const std::shared_ptr<AmbientBodies>& members);
 
-  // Solvers for all islands, and for large ones in multithreaded worlds; those of before, which may
-  // have been deleted.
-  MadeSolver made_, made_large_;
-  btConstraintSolver* given_ = nullptr;
-  btConstraintSolver* given_large_ = nullptr;
+  MadeSolver made_;
+  btConstraintSolver* given_;  // that of before, which may have been deleted
   bool owns_given_ = false;  // the world had made it itself
   SolverOwner owner_;
 };
@@ -73,26 +66,10 @@ struct OwnedSolver : btDiscreteDynamicsWorld {
   using btDiscreteDynamicsWorld::m_ownsConstraintSolver;
 };
 constexpr auto kOwnsSolver = &OwnedSolver::m_ownsConstraintSolver;
-struct LargeIslandSolver : btDiscreteDynamicsWorldMt {
-  using btDiscreteDynamicsWorldMt::m_constraintSolverMt;
-};
-constexpr auto kLargeIslandSolver = &LargeIslandSolver::m_constraintSolverMt;
-
-int solverCount(const btConstraintSolverPoolMt& pool);
-const btConstraintSolver* solverAt(const btConstraintSolverPoolMt& pool, int index);
-
-// Bullet has no accessor for the solvers; NumberReader says why this is allowed.
-template <auto kSolvers>
-struct PoolReader {
-  friend int solverCount(const btConstraintSolverPoolMt& pool) { return (pool.*kSolvers).size(); }
-  friend const btConstraintSolver* solverAt(const btConstraintSolverPoolMt& pool, int index) {
-    return (pool.*kSolvers)[index].solver;
-  }
-};
-template struct PoolReader<&btConstraintSolverPoolMt::m_solvers>;
 
 btMLCPSolverInterface* algorithmOf(const btMultiBodyMLCPConstraintSolver& solver);
 
+// Bullet has no accessor for the algorithm; NumberReader says why this is allowed.
 template <auto kAlgorithm>
 struct AlgorithmReader {
   friend btMLCPSolverInterface* algorithmOf(const btMultiBodyMLCPConstraintSolver& solver) {
@@ -100,16 +77,6 @@ struct AlgorithmReader {
   }
 };
 template struct AlgorithmReader<&btMultiBodyMLCPConstraintSolver::m_solver>;
-
-// A pool that tells when it is destroyed.
-class FluidPool : public btConstraintSolverPoolMt {
- public:
-  using btConstraintSolverPoolMt::btConstraintSolverPoolMt;
-  std::weak_ptr<const void> life() const { return life_; }
-
- private:
-  std::shared_ptr<const void> life_ = std::make_shared<char>();
-};
 
 [[noreturn]] void refuse(const std::string& what, const std::string& use) {
   throw std::invalid_argument("Fluid: " + what + "; " + use);
@@ -120,8 +87,6 @@ const Base& requirePlain(const btConstraintSolver* solver) {
   if (solver && typeid(*solver) == typeid(Base)) return static_cast<const Base&>(*solver);
   const std::string word = std::is_same_v<Base, btMultiBodyConstraintSolver>
                                ? "btMultiBodyConstraintSolver"
-                           : std::is_same_v<Base, btSequentialImpulseConstraintSolverMt>
-                               ? "btSequentialImpulseConstraintSolverMt for large islands"
                                : "btSequentialImpulseConstraintSolver";
   refuse("the world has another solver than a plain " + word,
          "give it that one, make the Fluid, and then give the world makeSolver<Base>(fluid)");
@@ -138,19 +103,6 @@ std::unique_ptr<FluidSolver<Base>> makeLike(const Base& plain, const Members& me
   return made;
 }
 
-std::unique_ptr<FluidPool> makePool(const btConstraintSolverPoolMt& pool, const Members& members) {
-  std::vector<std::unique_ptr<btConstraintSolver>> made;
-  std::vector<btConstraintSolver*> solvers;
-  for (int i = 0; i < solverCount(pool); ++i) {
-    made.push_back(
-        makeLike(requirePlain<btSequentialImpulseConstraintSolver>(solverAt(pool, i)), members));
-    solvers.push_back(made.back().get());
-  }
-  auto result = std::make_unique<FluidPool>(solvers.data(), static_cast<int>(solvers.size()));
-  for (auto& solver : made) solver.release();  // the pool deletes them
-  return result;
-}
-
 void set(btDiscreteDynamicsWorld& world, btConstraintSolver* solver) {
   if (auto* multi_bodies = dynamic_cast<btMultiBodyDynamicsWorld*>(&world)) {
     multi_bodies->setMultiBodyConstraintSolver(static_cast<btMultiBodyConstraintSolver*>(solver));
@@ -161,17 +113,17 @@ void set(btDiscreteDynamicsWorld& world, btConstraintSolver* solver) {
 
 }  // namespace
 
-void FittedSolvers::DeleteIfAlive::operator()(btConstraintSolver* solver) const {
+void FittedSolver::DeleteIfAlive::operator()(btConstraintSolver* solver) const {
   if (!life.expired()) delete solver;
 }
 
 template <class Made>
-FittedSolvers::MadeSolver FittedSolvers::hold(std::unique_ptr<Made> made) {
+FittedSolver::MadeSolver FittedSolver::hold(std::unique_ptr<Made> made) {
   const DeleteIfAlive deleter{made->life()};
   return MadeSolver(made.release(), deleter);
 }
 
-FittedSolvers::MadeSolver FittedSolvers::makeFor(btDiscreteDynamicsWorld& world,
+FittedSolver::MadeSolver FittedSolver::makeFor(btDiscreteDynamicsWorld& world,
                                                  const Members& members) {
   const btConstraintSolver* given = world.getConstraintSolver();
   if (dynamic_cast<btMultiBodyDynamicsWorld*>(&world)) {
@@ -181,30 +133,20 @@ FittedSolvers::MadeSolver FittedSolvers::makeFor(btDiscreteDynamicsWorld& world,
     }
     return hold(makeLike(requirePlain<btMultiBodyConstraintSolver>(given), members));
   }
-  if (const auto* pool = dynamic_cast<const btConstraintSolverPoolMt*>(given))
-    return hold(makePool(*pool, members));
   return hold(makeLike(requirePlain<btSequentialImpulseConstraintSolver>(given), members));
 }
 
-FittedSolvers::FittedSolvers(btDiscreteDynamicsWorld& world, const Members& members,
+FittedSolver::FittedSolver(btDiscreteDynamicsWorld& world, const Members& members,
                              SolverOwner owner)
-    : made_(makeFor(world, members)), given_(world.getConstraintSolver()), owner_(owner) {
-  if (const auto* multithreaded = dynamic_cast<btDiscreteDynamicsWorldMt*>(&world))
-    given_large_ = multithreaded->*kLargeIslandSolver;
-  if (!given_large_) return;
-  made_large_ =
-      hold(makeLike(requirePlain<btSequentialImpulseConstraintSolverMt>(given_large_), members));
-}
+    : made_(makeFor(world, members)), given_(world.getConstraintSolver()), owner_(owner) {}
 
-void FittedSolvers::install(btDiscreteDynamicsWorld& world) {
-  if (made_large_)
-    dynamic_cast<btDiscreteDynamicsWorldMt&>(world).*kLargeIslandSolver = made_large_.get();
+void FittedSolver::install(btDiscreteDynamicsWorld& world) {
   // Bullet would free the memory of a solver that it has made.
   owns_given_ = std::exchange(world.*kOwnsSolver, false);
   set(world, made_.get());
 }
 
-FittedSolvers::~FittedSolvers() {
+FittedSolver::~FittedSolver() {
   if (owner_ == SolverOwner::kAsksWorld && made_.get_deleter().life.expired()) {
     delete given_;
     return;
@@ -214,18 +156,14 @@ FittedSolvers::~FittedSolvers() {
   btAlignedFree(given_);
 }
 
-void FittedSolvers::giveBack(btDiscreteDynamicsWorld& world) {
-  if (areIn(world)) {
-    set(world, given_);
-    world.*kOwnsSolver = std::exchange(owns_given_, false);
-  }
-  auto* multithreaded = dynamic_cast<btDiscreteDynamicsWorldMt*>(&world);
-  if (multithreaded && made_large_ && multithreaded->*kLargeIslandSolver == made_large_.get())
-    multithreaded->*kLargeIslandSolver = given_large_;
+void FittedSolver::giveBack(btDiscreteDynamicsWorld& world) {
+  if (!isIn(world)) return;
+  set(world, given_);
+  world.*kOwnsSolver = std::exchange(owns_given_, false);
 }
 
 // A solver that somebody else has deleted may have its address in use again.
-bool FittedSolvers::areIn(btDiscreteDynamicsWorld& world) const {
+bool FittedSolver::isIn(btDiscreteDynamicsWorld& world) const {
   return world.getConstraintSolver() == made_.get() && !made_.get_deleter().life.expired();
 }
 
@@ -348,9 +286,9 @@ WorldConnection::WorldConnection(btDynamicsWorld& world,
       owner_(owner),
       life_(std::make_shared<WorldLife>()) {
   life_->members = members;
-  solvers_ = std::make_unique<FittedSolvers>(*world_, members, owner);
+  solver_ = std::make_unique<FittedSolver>(*world_, members, owner);
   watch(*world_, life_);
-  solvers_->install(*world_);
+  solver_->install(*world_);
   world_->addAction(&action_);
 }
 
@@ -358,17 +296,17 @@ WorldConnection::~WorldConnection() {
   if (life_->has_ended) return;
   world_->removeAction(&action_);
   stopWatching(*world_, *life_);
-  solvers_->giveBack(*world_);
+  solver_->giveBack(*world_);
 }
 
 bool WorldConnection::isWorldAlive() const { return !life_->has_ended; }
 
 void WorldConnection::refit() {
   btDiscreteDynamicsWorld& its = world("refit");
-  if (solvers_->areIn(its)) return;
-  auto fitting = std::make_unique<FittedSolvers>(its, life_->members.lock(), owner_);
-  solvers_ = std::move(fitting);
-  solvers_->install(its);
+  if (solver_->isIn(its)) return;
+  auto fitting = std::make_unique<FittedSolver>(its, life_->members.lock(), owner_);
+  solver_ = std::move(fitting);
+  solver_->install(its);
 }
 
 btDiscreteDynamicsWorld& WorldConnection::world(const char* who) const {

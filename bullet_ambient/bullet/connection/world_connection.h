@@ -22,10 +22,10 @@ enum class SolverOwner {
   kAsksWorld,
 };
 
-class FittedSolvers;
+class FittedSolver;
 struct WorldLife;
 
-/// Gives a world fitting solvers and an action, and takes both back on destruction. World, solvers
+/// Gives a world a fitting solver and an action, and takes both back on destruction. World, solvers
 /// and connection may be destroyed in any order: Bullet destroys the island manager with the world,
 /// and one of a derived class reports that.
 class WorldConnection {
@@ -39,7 +39,7 @@ class WorldConnection {
   WorldConnection& operator=(const WorldConnection&) = delete;
 
   bool isWorldAlive() const;
-  /// Fits new solvers if somebody has given the world another solver since.
+  /// Fits a new solver if somebody has given the world another solver since.
   /// @throws as the constructor; world() if the world was destroyed
   void refit();
 
@@ -53,7 +53,7 @@ class WorldConnection {
   btActionInterface& action_;
   SolverOwner owner_;
   std::shared_ptr<WorldLife> life_;
-  std::unique_ptr<FittedSolvers> solvers_;
+  std::unique_ptr<FittedSolver> solver_;
 };
 
 AMBIENT_END
