@@ -4,7 +4,6 @@
 #include <cstddef>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/immersed/vessel_step.h"
 #include "bullet_ambient/motion/surface/stand_lanes.h"
 
 namespace ambient {
@@ -104,6 +103,20 @@ SurfacePlane planeNear(const Vector3& position, const RegionSample& sample,
   return {normal, normal.dot(above), sample.below.density - sample.above.density, felt.norm()};
 }
 
+namespace {
+
+// Returns where a body is as it is filled: above and below a surface, holds are full of the fluid
+// there, else the body is at it.
+SurfaceSide withWater(const AmbientBody& ambient, const SurfaceModel& model, SurfaceSide side) {
+  const HoldState* const water = waterOf(ambient);
+  if (!water || side == SurfaceSide::kAt) return side;
+  const bool is_as_around =
+      side == SurfaceSide::kAbove ? areEmpty(*model.holds, water) : areFull(*model.holds, water);
+  return is_as_around ? side : SurfaceSide::kAt;
+}
+
+}  // namespace
+
 NearSurface nearSurface(const AmbientBody& ambient, const MotionView& now, const SurfaceKind& kind,
                         const RegionSample& sample, const Vector3& point_W,
                         double duration) noexcept {
@@ -119,7 +132,7 @@ NearSurface nearSurface(const AmbientBody& ambient, const MotionView& now, const
       duration * (speed + model.radius * state.twist.angular.norm() + duration * gravity.norm());
   const SurfacePlane plane_B =
       seenFrom(plane_W, state.orientation.toRotationMatrix(), state.position);
-  return {sideWithWater(ambient, model, sideOf(model, plane_B, travel)), media, plane_W};
+  return {withWater(ambient, model, sideOf(model, plane_B, travel)), media, plane_W};
 }
 
 SurfaceSide enterSurface(AmbientBody& ambient, const NearSurface& near, const RegionSample& sample,

@@ -114,15 +114,6 @@ void saySunk(AmbientBody& ambient, Complaints& complaints) noexcept {
   if (vessel.has_sunk) complaints.saySunk(*ambient.def, filled);
 }
 
-SurfaceSide sideWithWater(const AmbientBody& ambient, const SurfaceModel& model,
-                          SurfaceSide side) noexcept {
-  const HoldState* const water = waterOf(ambient);
-  if (!water || side == SurfaceSide::kAt) return side;
-  const bool is_as_around =
-      side == SurfaceSide::kAbove ? areEmpty(*model.holds, water) : areFull(*model.holds, water);
-  return is_as_around ? side : SurfaceSide::kAt;
-}
-
 void meetHolds(AmbientBody& ambient, const MotionView& now, const NearSurface& near) noexcept {
   if (near.media < 0 || std::exchange(ambient.vessel->is_known, true)) return;
   if (!ambient.def->holds.are_open) return;

@@ -25,11 +25,6 @@ const HoldAround* holdAround(const AmbientBody& ambient, const FluidRegions& reg
 void takeHold(const HoldAround& around, const AmbientBody& ambient, const MotionView& now,
               RegionSample& sample) noexcept;
 
-/// Side of the surface where a body is with the water in its holds: above and below a surface they
-/// are full of the fluid there, else the body is at it. `model`: at that surface.
-SurfaceSide sideWithWater(const AmbientBody& ambient, const SurfaceModel& model,
-                          SurfaceSide side) noexcept;
-
 /// Decides which holds of a body that first meets a surface are full. Allocates nothing. @pre it
 /// has holds
 void meetHolds(AmbientBody& ambient, const MotionView& now, const NearSurface& near) noexcept;
