@@ -6,7 +6,6 @@
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/immersed/vessel_step.h"
-#include "bullet_ambient/motion/surface/body_waves.h"
 #include "bullet_ambient/spatial/cholesky.h"
 
 namespace ambient {
