@@ -326,8 +326,8 @@ bool areRound(const ShapeForm& form) {
 
 /// Settings of the flow around solids. Polyhedra need fewer panels than round bodies: all their
 /// triangles are merged, and the added mass is extrapolated. The triangles of a union of round
-/// bodies are its panels: to divide them changes the added mass of a robot's limbs by 0.5 % at
-/// most.
+/// bodies are its panels: to divide them changes the added mass of a robot's limbs by less
+/// than 1 %.
 PotentialFlowSettings flowSettingsFor(const std::vector<Solid>& solids, const ShapeForm& form,
                                       PotentialFlowSettings flow) {
   constexpr int kPanelsOfPolyhedra = 1500;
