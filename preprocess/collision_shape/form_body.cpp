@@ -314,14 +314,27 @@ std::optional<AddedMass> addedMassOf(const std::vector<Solid>& solids,
   return std::nullopt;
 }
 
+/// Whether a form is several balls and capsules. Their surfaces have no edge that points outwards.
+bool areRound(const ShapeForm& form) {
+  return form.parts.size() > 1 &&
+         std::all_of(form.parts.begin(), form.parts.end(), [](const PlacedShape& part) {
+           return std::holds_alternative<Sphere>(part.shape) ||
+                  std::holds_alternative<Capsule>(part.shape) ||
+                  std::holds_alternative<BallHull>(part.shape);
+         });
+}
+
 /// Settings of the flow around solids. Polyhedra need fewer panels than round bodies: all their
-/// triangles are merged, and the added mass is extrapolated.
+/// triangles are merged, and the added mass is extrapolated. The triangles of a union of round
+/// bodies are its panels: to divide them changes the added mass of a robot's limbs by less
+/// than 1 %.
 PotentialFlowSettings flowSettingsFor(const std::vector<Solid>& solids, const ShapeForm& form,
                                       PotentialFlowSettings flow) {
   constexpr int kPanelsOfPolyhedra = 1500;
   flow.polyhedron = flow.max_panels > 0 && arePolyhedra(solids);
   if (flow.polyhedron) flow.max_panels = std::min(flow.max_panels, kPanelsOfPolyhedra);
   flow.convex = flow.polyhedron && form.parts.size() == 1;
+  if (areRound(form) && flow.max_panels <= kDefaultPanels) flow.max_panels = 0;
   return flow;
 }
 

@@ -186,6 +186,13 @@ std::shared_ptr<btCollisionShape> plate(btScalar stretch) {
 std::shared_ptr<btCollisionShape> capsule(btScalar stretch) {
   return std::make_shared<btCapsuleShape>(btScalar(0.2), btScalar(0.6) * stretch);
 }
+std::shared_ptr<btCollisionShape> cylinder(btScalar stretch) {
+  return std::make_shared<btCylinderShape>(
+      btVector3(btScalar(0.3), btScalar(0.4) * stretch, btScalar(0.3)));
+}
+std::shared_ptr<btCollisionShape> cone(btScalar stretch) {
+  return std::make_shared<btConeShape>(btScalar(0.4), btScalar(0.8) * stretch);
+}
 std::shared_ptr<btCollisionShape> ball(btScalar stretch) {
   return std::make_shared<btSphereShape>(btScalar(0.4) * stretch);
 }
@@ -193,15 +200,21 @@ std::shared_ptr<btCollisionShape> ball(btScalar stretch) {
 struct Rows {
   MakeShape make;
   bool is_afloat;
-  bool differ = false;  ///< each shape a little longer than the one before
+  bool differ = false;  ///< no two shapes are as long
 };
+
+// From 2/3 to 4/3, evenly spread and without repetition.
+double stretchOf(int i) {
+  constexpr double kGolden = 0.6180339887498949;
+  return 2.0 / 3 * (1 + std::fmod(kGolden * i, 1.0));
+}
 
 // Bodies in rows, a little turned, at rest; with a surface at height 0, or far below one.
 void fillRows(CostWorld& world, const Rows& rows, int count) {
   const bool is_afloat = rows.is_afloat;
   std::shared_ptr<btCollisionShape> shape = rows.make(1);
   for (int i = 0; i < count; ++i) {
-    if (rows.differ) shape = rows.make(1 + btScalar(1e-5) * btScalar(i));
+    if (rows.differ) shape = rows.make(static_cast<btScalar>(stretchOf(i)));
     const auto height = static_cast<btScalar>(is_afloat ? 0.01 * (i % 7) : -50);
     const btVector3 axis = btVector3(1, btScalar(0.3), btScalar(0.2)).normalized();
     const btQuaternion turned(axis, btScalar(0.1) + btScalar(0.01) * btScalar(i % 11));
@@ -233,6 +246,8 @@ std::vector<CostScene> differentScenes() {
   for (const int bodies : {300, 1000})
     for (const auto& [name, make] : {std::pair<std::string, MakeShape>("boxes", box),
                                      {"capsules", capsule},
+                                     {"cylinders", cylinder},
+                                     {"cones", cone},
                                      {"balls", ball}}) {
       const auto filling = [make = make](bool differ) {
         return [=](CostWorld& world, int count) { fillRows(world, {make, true, differ}, count); };
@@ -242,6 +257,32 @@ std::vector<CostScene> differentScenes() {
     }
   return scenes;
 }
+
+namespace {
+
+// Boxes in a row that grow and shrink.
+void fillScaled(CostWorld& world, int count) {
+  for (int i = 0; i < count; ++i)
+    world.add(box(1), kDensity, btTransform(btQuaternion::getIdentity(), vectorOf(4 * i, 0, -50)));
+  world.attach = [&world](Fluid& fluid, const std::vector<std::unique_ptr<btRigidBody>>& bodies) {
+    CollisionShapeSettings settings;
+    settings.faces = 1300;
+    AttachDef def;
+    def.fluid_body = std::make_shared<FluidBody>(makeFluidBody(*box(1), settings));
+    def.medium = water();
+    std::vector<Immersed> members;
+    for (const auto& body : bodies) members.push_back(fluid.add(*body, def));
+    world.each_step = [members, shape = def.fluid_body, step = 0]() mutable {
+      const double factor = 1 + 0.01 * (++step % 7);
+      for (const Immersed& member : members)
+        member.setFluidBody(std::make_shared<FluidBody>(scaled(*shape, factor)));
+    };
+  };
+}
+
+}  // namespace
+
+std::vector<CostScene> scaledScenes() { return {{"scaled_in_each_step", 4, 30, fillScaled}}; }
 
 namespace {
 

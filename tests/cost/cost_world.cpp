@@ -17,6 +17,15 @@ double volumeOf(const btCollisionShape& shape) {
     const auto r = static_cast<double>(capsule.getRadius());
     return SIMD_PI * r * r * (2 * static_cast<double>(capsule.getHalfHeight()) + 4 * r / 3);
   }
+  if (shape.getShapeType() == CYLINDER_SHAPE_PROXYTYPE) {
+    const btVector3 half = static_cast<const btCylinderShape&>(shape).getHalfExtentsWithMargin();
+    return 2 * SIMD_PI * static_cast<double>(half.x() * half.x() * half.y());
+  }
+  if (shape.getShapeType() == CONE_SHAPE_PROXYTYPE) {
+    const auto& cone = static_cast<const btConeShape&>(shape);
+    const auto r = static_cast<double>(cone.getRadius());
+    return SIMD_PI * r * r * static_cast<double>(cone.getHeight()) / 3;
+  }
   const auto r = static_cast<double>(static_cast<const btSphereShape&>(shape).getRadius());
   return 4 * SIMD_PI * r * r * r / 3;
 }

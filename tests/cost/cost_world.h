@@ -18,7 +18,8 @@ class CostWorld : WorldParts<> {
   /// `has_robots`: the world takes multibodies.
   explicit CostWorld(bool has_robots = false);
 
-  /// Adds a box, a capsule or a ball; density [kg/m^3], 0: anything that cannot move.
+  /// Adds a box, a ball, or a capsule, cylinder or cone along y; density [kg/m^3], 0: anything that
+  /// cannot move.
   btRigidBody& add(std::shared_ptr<btCollisionShape> shape, double density,
                    const btTransform& start);
   /// Adds a body of given mass [kg] and moments of inertia [kg m^2].
@@ -32,13 +33,17 @@ class CostWorld : WorldParts<> {
 
   /// Fills the world with fluid.
   void immerse();
-  void step() { contents_->step(duration); }
+  void step() {
+    if (each_step) each_step();
+    contents_->step(duration);
+  }
 
   double duration = 1.0 / 60;  ///< of a step [s]
   bool has_surface = false;    ///< the water ends at height 0
   bool has_loads = true;       ///< the fluid is not ideal
   /// Puts the bodies into the fluid; default: all of them into water.
   std::function<void(Fluid&, const std::vector<std::unique_ptr<btRigidBody>>&)> attach;
+  std::function<void()> each_step;  ///< before each step; empty: nothing
 
  private:
   FluidBodyCache shapes_;
@@ -63,9 +68,11 @@ struct CostScene {
 
 /// Equal bodies without contacts, under water and afloat.
 std::vector<CostScene> freeScenes();
-/// Bodies afloat whose shapes all differ, by so little that they move alike, beside equal ones:
-/// what is longer is the way of their data from memory. Names end in the number of bodies.
+/// Bodies afloat whose shapes all have other ratios, by up to a third, beside equal ones: what is
+/// longer is the way of their data from memory. Names end in the number of bodies.
 std::vector<CostScene> differentScenes();
+/// Boxes of 1300 faces under water, each of which gets a scaled() fluid body before every step.
+std::vector<CostScene> scaledScenes();
 /// Bodies in contacts and joints under water: a pile, and scenes in the manner of Bullet's
 /// examples.
 std::vector<CostScene> contactScenes();

@@ -1,9 +1,9 @@
 // Cost of a step with a fluid over that of stock Bullet.
 //
 // step_cost FOLDER [PART]: times scenes whose name has the part, both worlds in turns.
-// step_cost FOLDER SCENE stock|fluid BODIES BEFORE STEPS: makes the steps, for callgrind, which
-// counts those after the first BEFORE. step_cost FOLDER shapes: writes the shapes of the scenes in
-// flight.
+// step_cost FOLDER SCENE stock|fluid|beside BODIES BEFORE STEPS: makes the steps, for callgrind,
+// which counts those after the first BEFORE. step_cost FOLDER shapes: writes the shapes of the
+// scenes in flight.
 
 #include <algorithm>
 #include <cstdio>
@@ -27,7 +27,8 @@ namespace {
 
 std::vector<CostScene> allScenes(const std::string& folder) {
   std::vector<CostScene> scenes = freeScenes();
-  for (const auto& more : {differentScenes(), robotScenes(), contactScenes(), flockScenes(folder)})
+  for (const auto& more :
+       {differentScenes(), scaledScenes(), robotScenes(), contactScenes(), flockScenes(folder)})
     scenes.insert(scenes.end(), more.begin(), more.end());
   return scenes;
 }
@@ -70,14 +71,17 @@ int makeSteps(const std::string& folder, const std::string& name, const std::str
   const std::vector<CostScene> scenes = allScenes(folder);
   const auto scene = std::find_if(scenes.begin(), scenes.end(),
                                   [&](const CostScene& known) { return name == known.name; });
-  if (scene == scenes.end() || (kind != "stock" && kind != "fluid") || bodies < 1) {
+  const bool is_there =
+      scene != scenes.end() &&
+      (kind == "stock" || kind == "fluid" || (kind == "beside" && scene->fill_beside != nullptr));
+  if (!is_there || bodies < 1) {
     std::fprintf(stderr, "step_cost: no scene '%s', or no world '%s'\n", name.c_str(),
                  kind.c_str());
     return EXIT_FAILURE;
   }
   CostWorld world(scene->has_robots);
-  scene->fill(world, bodies);
-  if (kind == "fluid") world.immerse();
+  (kind == "beside" ? scene->fill_beside : scene->fill)(world, bodies);
+  if (kind != "stock") world.immerse();
   for (int i = 0; i < before; ++i) world.step();
   CALLGRIND_TOGGLE_COLLECT;
   for (int i = 0; i < steps; ++i) world.step();
@@ -98,9 +102,9 @@ int main(int argc, char** argv) try {
     return EXIT_SUCCESS;
   }
   if ((argc != 2 && argc != 3) || argv[1][0] == '-') {
-    std::fprintf(stderr,
-                 "usage: %s FOLDER [shapes | PART | SCENE stock|fluid BODIES BEFORE STEPS]\n",
-                 argv[0]);
+    std::fprintf(
+        stderr, "usage: %s FOLDER [shapes | PART | SCENE stock|fluid|beside BODIES BEFORE STEPS]\n",
+        argv[0]);
     return EXIT_FAILURE;
   }
   timeScenes(argv[1], argc == 3 ? argv[2] : "");

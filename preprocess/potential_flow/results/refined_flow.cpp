@@ -154,47 +154,72 @@ RefinedFlow refinedFrom(const PotentialFlow& flow, const TriangleMesh& surface) 
           flow.potential.topRows(surface.vertexCount())};
 }
 
-// On up to settings.max_panels.
-RefinedFlow solveOnPanels(const TriangleMesh& mesh, const PotentialFlowSettings& settings) {
-  const std::vector<FaceBulge> bulges =
-      settings.sheet ? std::vector<FaceBulge>() : estimateBulges(mesh);
-  const bool smooth = isSmooth(bulges);
-  const TriangleMesh basis =
-      bulges.empty() ? mergeFlatTriangles(mesh, settings.sheet, settings.max_panels) : mesh;
-  const SurfaceLevels levels =
-      refineInLevels(basis, settings.sheet, smooth ? 0 : settings.max_panels);
+/// A mesh as solveOnPanels() divides it into up to settings.max_panels.
+struct Division {
+  std::vector<FaceBulge> bulges;  ///< empty: it has sharp edges, or is a sheet
+  bool is_smooth = false;
+  TriangleMesh basis;
+  SurfaceLevels levels;
+  /// True: triangles so long that two levels have to agree, unless the body is smooth.
+  bool has_long_triangles = false;
+
+  /// True if it has sharp edges and no panels are left for them. No flow has to be solved to know.
+  bool isCoarse() const {
+    return has_long_triangles && !levels.coarse && !levels.less_thinned && bulges.empty();
+  }
+};
+
+Division divisionOf(const TriangleMesh& mesh, const PotentialFlowSettings& settings) {
+  Division division;
+  if (!settings.sheet) division.bulges = estimateBulges(mesh);
+  division.is_smooth = isSmooth(division.bulges);
+  division.basis = division.bulges.empty()
+                       ? mergeFlatTriangles(mesh, settings.sheet, settings.max_panels)
+                       : mesh;
+  division.levels =
+      refineInLevels(division.basis, settings.sheet, division.is_smooth ? 0 : settings.max_panels);
+  division.has_long_triangles =
+      !division.is_smooth && !settings.sheet && mesh.triangleCount() < settings.max_panels &&
+      findWorstTriangles(division.basis, 1).front().aspect > kLongTriangle;
+  return division;
+}
+
+// About the body of `mesh`, which was divided by these settings.
+RefinedFlow solveOn(const Division& division, const TriangleMesh& mesh,
+                    const PotentialFlowSettings& settings) {
+  const SurfaceLevels& levels = division.levels;
   PotentialFlowSettings undivided_settings = settings;
   undivided_settings.max_panels = 0;
-  if (smooth && settings.solver == FlowSolverKind::Automatic &&
+  if (division.is_smooth && settings.solver == FlowSolverKind::Automatic &&
       mesh.triangleCount() > kMostDenseSmoothPanels)
     undivided_settings.solver = FlowSolverKind::Hierarchical;
   const PotentialFlow flow = solvePotentialFlow(levels.fine.mesh, undivided_settings);
-  RefinedFlow refined = refinedFrom(flow, basis);
+  RefinedFlow refined = refinedFrom(flow, division.basis);
+  refined.is_coarse = division.isCoarse();
   if (levels.coarse && (!settings.sheet || hasVerticesInside(*levels.coarse))) {
     const PotentialFlow coarse = solvePotentialFlow(*levels.coarse, undivided_settings);
     refined.added_mass = extrapolated(flow, coarse, kOrder);
   }
-  if (!smooth && !settings.sheet && mesh.triangleCount() < settings.max_panels &&
-      findWorstTriangles(basis, 1).front().aspect > kLongTriangle) {
-    if (levels.coarse) {
-      refined.is_coarse = changeOf(flow.added_mass, refined.added_mass) > kLargeChange;
-    } else if (levels.less_thinned) {
-      const PotentialFlow other = solvePotentialFlow(*levels.less_thinned, undivided_settings);
-      refined.is_coarse = changeOf(other.added_mass, flow.added_mass) > kLargeChange;
-    } else {
-      refined.is_coarse = bulges.empty();  // it has sharp edges, and no panels are left for them
-    }
+  if (division.has_long_triangles && levels.coarse) {
+    refined.is_coarse = changeOf(flow.added_mass, refined.added_mass) > kLargeChange;
+  } else if (division.has_long_triangles && levels.less_thinned) {
+    const PotentialFlow other = solvePotentialFlow(*levels.less_thinned, undivided_settings);
+    refined.is_coarse = changeOf(other.added_mass, flow.added_mass) > kLargeChange;
   }
   double stretch = 1;
   if (!settings.sheet) {
     const CurvatureCorrection correction =
-        computeCurvatureCorrection(mesh, bulges, levels.fine, flow.potential);
+        computeCurvatureCorrection(mesh, division.bulges, levels.fine, flow.potential);
     refined.added_mass += correction.added_mass;
     const double volume = computeMassProperties(mesh).volume;
     stretch = portable::cbrt(volume / (volume + correction.volume));
   }
   refined.added_mass = withSymmetriesOf(mesh, settings.sheet, stretch, refined.added_mass);
   return refined;
+}
+
+RefinedFlow solveOnPanels(const TriangleMesh& mesh, const PotentialFlowSettings& settings) {
+  return solveOn(divisionOf(mesh, settings), mesh, settings);
 }
 
 constexpr int kPanelsPerTriangle = 5;  // where triangles are to be divided
@@ -283,8 +308,17 @@ RefinedFlow solveRefinedFlow(const TriangleMesh& mesh, const PotentialFlowSettin
     if (const auto fewer = inTrianglesFor(settings.max_panels, mesh))
       return solveInOtherTriangles(*fewer, mesh, settings);
   }
-  const RefinedFlow refined = solveDivided(mesh, settings);
-  if (!refined.is_coarse || settings.solver == FlowSolverKind::Dense) return refined;
+  const bool may_repeat = settings.solver != FlowSolverKind::Dense;
+  if (settings.polyhedron) {
+    const RefinedFlow refined = solvePolyhedron(mesh, settings);
+    if (!refined.is_coarse || !may_repeat) return refined;
+  } else {
+    const Division division = divisionOf(mesh, settings);
+    if (!may_repeat || !division.isCoarse()) {
+      const RefinedFlow refined = solveOn(division, mesh, settings);
+      if (!refined.is_coarse || !may_repeat) return refined;
+    }
+  }
   if (const auto compact = solveOnCompactPanels(mesh, settings)) return *compact;
   PotentialFlowSettings finer = settings;
   finer.max_panels = settings.polyhedron && !settings.convex
