@@ -9,6 +9,7 @@
 #include "preprocess/mesh/import/scene_triangles.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/wings/wing_numbers.h"
+#include "preprocess/mesh/wings/wing_search.h"
 #include "preprocess/shape/json_schema.h"
 #include "preprocess/shape/shape_mesh.h"
 
@@ -128,11 +129,19 @@ class PlanMaker {
   WingPlan plan_;
 };
 
-/// Adds the nodes whose names say that they are wings.
-void addNamed(const SourceTriangles& source, PlanMaker& maker) {
-  if (!source.areKnown()) return;
-  for (const char* name : {"wing*", "fin*", "blade*", "tail*", "rudder*", "keel*", "foil*"})
-    maker.add({name, {}, {}, {}}, [&](std::size_t t) { return isNamed(source.nodeOf(t), name); });
+/// Adds the nodes whose names say that they are wings; if there are none, what findWings() finds.
+void addFound(const SourceTriangles& source, const TriangleMesh& mesh, bool sheet,
+              PlanMaker& maker) {
+  int named = 0;
+  if (source.areKnown())
+    for (const std::string name : {"wing*", "fin*", "blade*", "tail*", "rudder*", "keel*", "foil*"})
+      named += maker.add({name.substr(0, name.size() - 1), {}, {}, {}},
+                         [&](std::size_t t) { return isNamed(source.nodeOf(t), name); });
+  if (named > 0 || sheet) return;
+  const std::vector<std::uint8_t> labels = findWings(mesh);
+  if (labels.empty()) return;
+  for (int wing = 1; wing <= *std::max_element(labels.begin(), labels.end()); ++wing)
+    maker.add({}, [&](std::size_t t) { return labels[t] == wing; });
 }
 
 /// Reads the wings that a JSON file lists.
@@ -253,7 +262,7 @@ WingPlan planWings(const std::string& wanted, const TriangleMesh& mesh,
     list.addTo(maker);
     wants_rest = list.wantsRest();
   }
-  if (wants_rest) addNamed(source, maker);
+  if (wants_rest) addFound(source, mesh, isSheet(shape), maker);
   return std::move(maker).result();
 }
 

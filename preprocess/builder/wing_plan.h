@@ -25,8 +25,8 @@ struct WingPlan {
 };
 
 /// Finds the wings that are asked for.
-/// @param wanted "none"; "auto", for nodes of the mesh file whose names say that they are wings;
-/// or a JSON file that lists them
+/// @param wanted "none"; "auto", for nodes of the mesh file whose names say that they are wings, or
+/// where there are none for those of findWings(); or a JSON file that lists them
 /// @param mesh checked, of `shape`
 /// @param shape its file is read again for names of nodes and numbers of triangles
 /// @param scale from the shape to the mesh

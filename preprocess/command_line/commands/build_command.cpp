@@ -168,9 +168,10 @@ void addBodyOptions(CLI::App& command, BuildArguments& arguments) {
   addOption(command, "--levels", arguments.levels, "N,N,...",
             "Sets of so many faces that stand for all in the form law (default none)")
       ->delimiter(',');
-  addOption(command, "--wings", arguments.wings, "none|auto|FILE",
-            "Parts that lift where they are: by the names of nodes in the mesh file, or as a JSON "
-            "file lists them (default none)");
+  addOption(
+      command, "--wings", arguments.wings, "none|auto|FILE",
+      "Parts that lift where they are: by the names of nodes in the mesh file, else found; or "
+      "as a JSON file lists them (default none)");
   addOption(command, "--drag", arguments.drag, "C[,C,C]",
             "Measured drag coefficients along the axes, on the frontal areas, that the drag of the "
             "form law is scaled to (default none)")

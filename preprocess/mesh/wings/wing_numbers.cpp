@@ -150,14 +150,20 @@ class WingMeasure {
         low = std::min(low, along.dot(end - edges.mean()));
         high = std::max(high, along.dot(end - edges.mean()));
       }
+    Vector3 middle = edges.mean();  // in the mean plane, unless the wing is bent
+    if (const double off = z.dot(wing.centre - middle); std::abs(off) < 2 * wing.thickness)
+      middle += off * z;
     const double chord = std::sqrt(12 * along.dot(variance * along));
     const double span = std::sqrt(12 * h.dot(variance * h));
     if (high - low < kLeastJoint * std::min(chord, 2 * span)) return false;
-    if (!(std::abs(arm) > kLeastArm * span)) return false;
+    measured.joint.rest_share = with_rest / edges.sum;
+    if (!(std::abs(arm) > kLeastArm * span)) {
+      if (rays_) measured.joint.step = thicknessAt(middle, {0, 0, 0}, z) / wing.thickness;
+      return false;
+    }
     wing.is_joined = true;
     setSizes(variance, h, wing);
-    measured.joint.rest_share = with_rest / edges.sum;
-    if (rays_) setBody(edges.mean(), (high - low) / 4 * along, measured);
+    if (rays_) setBody(middle, (high - low) / 4 * along, measured);
     return true;
   }
 
@@ -191,6 +197,7 @@ class WingMeasure {
           halves.push_back(rays_->leave(middle + i * aside, sine * z - cosine * h) / (2 * cosine));
         }
     std::nth_element(halves.begin(), halves.begin() + 9, halves.end());
+    joint.body_width = 2 * halves[9];
     const double half = std::min(halves[9], wing.span);
     wing.body_lift = 1 + half / (wing.span + half);
   }
@@ -203,7 +210,8 @@ class WingMeasure {
 
 std::vector<MeasuredWing> measureWings(const TriangleMesh& mesh,
                                        const std::vector<std::uint8_t>& labels, bool sheet) {
-  const std::size_t wings = labels.empty() ? 0 : *std::max_element(labels.begin(), labels.end());
+  if (labels.empty()) return {};
+  const std::size_t wings = *std::max_element(labels.begin(), labels.end());
   std::vector<std::vector<Eigen::Index>> triangles(wings + 1);
   for (std::size_t t = 0; t < labels.size(); ++t)
     triangles[labels[t]].push_back(static_cast<Eigen::Index>(t));

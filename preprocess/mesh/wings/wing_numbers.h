@@ -13,8 +13,9 @@ namespace ambient {
 struct WingJoint {
   double root_thickness = 0;  ///< of the wing at the joint [m]
   /// Thickness across the mean plane in the body, one root thickness beyond the joint, over that of
-  /// the root; 0: not joined, or to other wings only.
+  /// the root; of a wing that meets the body in its middle, there, over its own. 0: to other wings.
   double step = 0;
+  double body_width = 0;  ///< of the body beside the joint, along the span [m]
   double rest_share = 0;  ///< share of the joint that is with the rest of the body
 };
 
