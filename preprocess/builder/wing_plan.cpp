@@ -1,22 +1,18 @@
 #include "preprocess/builder/wing_plan.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <functional>
-#include <nlohmann/json.hpp>
 
 #include "preprocess/mesh/import/scene_triangles.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/wings/wing_numbers.h"
 #include "preprocess/mesh/wings/wing_search.h"
-#include "preprocess/shape/json_schema.h"
 #include "preprocess/shape/shape_mesh.h"
+#include "preprocess/shape/wing_list.h"
 
 namespace ambient {
 namespace {
-
-using nlohmann::json;
 
 std::string inSmallLetters(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -144,110 +140,33 @@ void addFound(const SourceTriangles& source, const TriangleMesh& mesh, bool shee
     maker.add({}, [&](std::size_t t) { return labels[t] == wing; });
 }
 
-/// Reads the wings that a JSON file lists.
-class WingList {
- public:
-  WingList(std::string file, const TriangleMesh& mesh, const SourceTriangles& source, double scale)
-      : file_(std::move(file)),
-        mesh_(mesh),
-        source_(source),
-        scale_(scale),
-        list_(parseJson(readBytes(file_), file_)) {}
-
-  void addTo(PlanMaker& maker) const {
-    if (!list_.is_object() || !list_.contains("wings") || !list_["wings"].is_array())
-      raiseInputError(file_, "must be an object with a list \"wings\"");
-    requireKeys(list_, {"wings", "rest"});
-    int number = 0;
-    for (const json& entry : list_["wings"]) {
-      const std::string place = "wings[" + std::to_string(number++) + "]";
-      if (!entry.is_object()) raiseInputError(file_, place, " must be an object");
-      requireKeys(entry, {"node", "box", "triangles", "name", "span", "chord", "aspect"});
-      if (maker.add(givenIn(entry), chosenBy(entry, place)) == 0)
-        raiseInputError(file_, place, " has no triangles of the mesh");
-    }
-  }
-  /// True if nodes with the names of wings are wings, too.
-  bool wantsRest() const {
-    if (!list_.contains("rest")) return false;
-    if (list_["rest"] != "auto" && list_["rest"] != "none")
-      raiseInputError(file_, "rest = ", list_["rest"].dump(), " must be \"auto\" or \"none\"");
-    return list_["rest"] == "auto";
-  }
-
- private:
-  using Choice = std::function<bool(std::size_t)>;
-
-  void requireKeys(const json& object, const std::vector<std::string>& known) const {
-    for (const auto& [key, value] : object.items())
-      if (std::find(known.begin(), known.end(), key) == known.end())
-        raiseInputError(file_, "unknown key \"", key, "\"");
-  }
-  std::string textIn(const json& entry, const char* key) const {
-    if (!entry[key].is_string()) raiseInputError(file_, key, " must be a text");
-    return entry[key].get<std::string>();
-  }
-  std::optional<double> numberIn(const json& entry, const char* key, double unit) const {
-    if (!entry.contains(key)) return std::nullopt;
-    const bool is_positive = entry[key].is_number() && entry[key].get<double>() > 0;
-    if (!is_positive) raiseInputError(file_, key, " = ", entry[key].dump(), " must be above 0");
-    return unit * entry[key].get<double>();
-  }
-  GivenWing givenIn(const json& entry) const {
-    std::string name;
-    if (entry.contains("node")) name = textIn(entry, "node");
-    if (entry.contains("name")) name = textIn(entry, "name");
-    return {name, numberIn(entry, "span", scale_), numberIn(entry, "chord", scale_),
-            numberIn(entry, "aspect", 1)};
-  }
-
-  Choice chosenBy(const json& entry, const std::string& place) const {
-    if (entry.contains("node") + entry.contains("box") + entry.contains("triangles") != 1)
-      raiseInputError(file_, place, " must have one of node, box and triangles");
-    if (entry.contains("box")) return inBox(entry["box"], place);
-    if (!source_.areKnown()) raiseInputError(file_, place, " needs a mesh file; use a box");
-    if (entry.contains("node")) {
-      const std::string pattern = textIn(entry, "node");
-      return [this, pattern](std::size_t t) { return isNamed(source_.nodeOf(t), pattern); };
-    }
-    return amongTriangles(entry["triangles"], place);
-  }
-
-  Choice inBox(const json& corners, const std::string& place) const {
-    std::array<std::array<double, 3>, 2> c{};
-    try {
-      corners.get_to(c);
-    } catch (const json::exception&) {
-      raiseInputError(file_, place, ".box must be two corners of three numbers");
-    }
-    const auto corner = [&](std::size_t i) { return Eigen::Vector3d(c[i][0], c[i][1], c[i][2]); };
-    Eigen::AlignedBox3d box;
-    box.extend(scale_ * corner(0)).extend(scale_ * corner(1));
-    return [this, box](std::size_t t) {
-      return box.contains(mesh_.barycentre(static_cast<Eigen::Index>(t)));
+/// The triangles of an entry of a list.
+std::function<bool(std::size_t)> chosenBy(const ListedWing& entry, const TriangleMesh& mesh,
+                                          const SourceTriangles& source, double scale,
+                                          const std::string& file) {
+  if (!entry.box.isEmpty()) {
+    const Eigen::AlignedBox3d box(scale * entry.box.min(), scale * entry.box.max());
+    return [&mesh, box](std::size_t t) {
+      return box.contains(mesh.barycentre(static_cast<Eigen::Index>(t)));
     };
   }
-
-  Choice amongTriangles(const json& numbers, const std::string& place) const {
-    std::vector<bool> chosen(static_cast<std::size_t>(source_.count()));
-    if (!numbers.is_array()) raiseInputError(file_, place, ".triangles must be a list of numbers");
-    for (const json& number : numbers) {
-      if (!number.is_number_unsigned() || number.get<std::size_t>() >= chosen.size())
-        raiseInputError(file_, place, ": there is no triangle ", number.dump(), " among ",
-                        chosen.size());
-      chosen[number.get<std::size_t>()] = true;
-    }
-    return [this, chosen](std::size_t t) {
-      return bool{chosen[static_cast<std::size_t>(source_.of(t))]};
-    };
+  if (!source.areKnown()) raiseInputError(file, "names and numbers need a mesh file; use a box");
+  if (!entry.node.empty())
+    return [&](std::size_t t) { return isNamed(source.nodeOf(t), entry.node); };
+  std::vector<bool> chosen(static_cast<std::size_t>(source.count()));
+  for (const std::size_t number : entry.triangles) {
+    if (number >= chosen.size())
+      raiseInputError(file, "there is no triangle ", number, " among ", chosen.size());
+    chosen[number] = true;
   }
+  return [&source, chosen](std::size_t t) {
+    return bool{chosen[static_cast<std::size_t>(source.of(t))]};
+  };
+}
 
-  std::string file_;
-  const TriangleMesh& mesh_;
-  const SourceTriangles& source_;
-  double scale_;
-  json list_;
-};
+std::optional<double> scaledBy(double scale, const std::optional<double>& length) {
+  return length ? std::optional<double>(scale * *length) : std::nullopt;
+}
 
 }  // namespace
 
@@ -258,9 +177,16 @@ WingPlan planWings(const std::string& wanted, const TriangleMesh& mesh,
   const SourceTriangles source(shape, scale, mesh);
   bool wants_rest = wanted == "auto";
   if (!wants_rest) {
-    const WingList list(wanted, mesh, source, scale);
-    list.addTo(maker);
-    wants_rest = list.wantsRest();
+    const WingList list = readWingList(wanted);
+    int number = 0;
+    for (const ListedWing& entry : list.wings) {
+      const GivenWing given{entry.name, scaledBy(scale, entry.span), scaledBy(scale, entry.chord),
+                            entry.aspect};
+      if (maker.add(given, chosenBy(entry, mesh, source, scale, wanted)) == 0)
+        raiseInputError(wanted, "wings[", number, "] has no triangles of the mesh");
+      ++number;
+    }
+    wants_rest = list.wants_rest;
   }
   if (wants_rest) addFound(source, mesh, isSheet(shape), maker);
   return std::move(maker).result();

@@ -4,13 +4,14 @@
 #include <optional>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/force/law/form_law.h"
 #include "bullet_ambient/force/law/viscous_law.h"
 #include "bullet_ambient/force/loads/face_loads.h"
 #include "bullet_ambient/force/loads/load_tables.h"
-#include "bullet_ambient/force/loads/wing_loads.h"
+#include "bullet_ambient/force/loads/wing_lift.h"
 
 namespace ambient {
 namespace {
@@ -165,14 +166,17 @@ class FormLoads final : public ViscousLoads {
     if (settings.skin_friction) resistance_ = law_->resistance();
   }
 
-  /// Adds wings, which lift with the rest in place of the body as a whole.
-  void add(WingLoads wings) {
-    wings_ = std::move(wings);
+  /// Adds wings, which lift with the rest in place of the body as a whole: pressure on their faces.
+  void add(WingLift lift, std::vector<std::shared_ptr<const SurfaceLoads>> on_wings) {
+    wings_ = std::move(lift);
+    on_wings_ = std::move(on_wings);
     lift_ = FormLift(LiftedPart{}, *shape_, 0);
   }
 
   int faces() const noexcept override {
-    return on_faces_->faces() + (wings_ ? wings_->faces() : 0);
+    int faces = on_faces_->faces();
+    for (const auto& wing : on_wings_) faces += wing->faces();
+    return faces;
   }
   double wakeShare() const noexcept override { return shape_->wakeShare(); }
 
@@ -183,7 +187,7 @@ class FormLoads final : public ViscousLoads {
     if (!law_) {
       const Wrench faces = drag_.scaled(withWings(onFaces(x, wet), x, wet), x);
       Parts parts{faces + share * atCentre(lift_.load(w, v, density_)), {}, {}};
-      if (wings_) parts.pressure += wings_->lift(x, density_, {}, wet);
+      if (wings_) parts.pressure += wings_->load(x, density_, {}, wet);
       return parts;
     }
     const ViscousLaw::Scalars s = law_->scalars(x);
@@ -192,7 +196,7 @@ class FormLoads final : public ViscousLoads {
     Wrench whole = lift_.load(w, v, density_, s.munk);
     if (law_->isSmooth()) whole += law_->smoothLoad(s, w, v);
     Parts parts{s.pressure * on_faces + share * atCentre(whole), {}, {}};
-    if (wings_) parts.pressure += wings_->lift(x, density_, {s.munk, s.pressure}, wet);
+    if (wings_) parts.pressure += wings_->load(x, density_, {s.munk, s.pressure}, wet);
     if (!resistance_) return parts;
     if (law_->isSmooth()) parts.layer = share * atCentre({Vector3::Zero(), law_->layerForce(s, v)});
     parts.growth = inWater(law_->growth(s, share > 0 ? -power(on_faces, x) / share : 0), wet);
@@ -203,8 +207,9 @@ class FormLoads final : public ViscousLoads {
   Wrench onFaces(const Twist& x, const WetPart* wet) const noexcept {
     return wet ? on_faces_->wetLoad(x, *wet) : on_faces_->load(x);
   }
-  Wrench withWings(const Wrench& load, const Twist& x, const WetPart* wet) const noexcept {
-    return wings_ ? load + wings_->onFaces(x, wet) : load;
+  Wrench withWings(Wrench load, const Twist& x, const WetPart* wet) const noexcept {
+    for (const auto& wing : on_wings_) load += wet ? wing->wetLoad(x, *wet) : wing->load(x);
+    return load;
   }
   Wrench atCentre(const Wrench& about) const noexcept {
     return {about.torque + centre_.cross(about.force), about.force};
@@ -226,8 +231,9 @@ class FormLoads final : public ViscousLoads {
   FormLift lift_;
   double density_;
   Vector3 centre_;
-  std::optional<ViscousLaw> law_;   ///< none: no viscosity
-  std::optional<WingLoads> wings_;  ///< none: the body is one part
+  std::optional<ViscousLaw> law_;  ///< none: no viscosity
+  std::optional<WingLift> wings_;  ///< none: the body is one part
+  std::vector<std::shared_ptr<const SurfaceLoads>> on_wings_;
 };
 
 /// Form law on a ball in closed form, docs/theory.md eq. (119); on the part of it that is in the
@@ -439,10 +445,9 @@ std::shared_ptr<const SurfaceLoads> loadsOnParts(const Body& body, const LoadSet
   const BodyPart& rest = parts->front();
   const auto loads = std::make_shared<FormLoads>(
       onFaces(rest), LoadTables::Faces{body, &body->form.faces}, body, settings, flow.stall_lag);
-  WingLoads wings(rest, flow.stall_lag);
-  for (std::size_t i = 1; i < parts->size(); ++i)
-    wings.add(onFaces((*parts)[i]), (*parts)[i], flow.stall_lag);
-  loads->add(std::move(wings));
+  std::vector<std::shared_ptr<const SurfaceLoads>> on_wings;
+  for (std::size_t i = 1; i < parts->size(); ++i) on_wings.push_back(onFaces((*parts)[i]));
+  loads->add(WingLift(*parts, flow.stall_lag), std::move(on_wings));
   return loads;
 }
 
