@@ -279,8 +279,8 @@ class WingSearch {
       for (const int i : arm) thickness += sample(i).thickness / static_cast<double>(arm.size());
       const double thick = thickness * thickness / (12 * plane.across_sq);
       const double aside = 1.5 * (1 - plane.phi);
-      const double share = std::pow(std::max(0.0, 1 - thick), 2) * std::max(0.0, 1 - aside * aside);
-      if (share < kLeastWing) continue;
+      const double root = std::max(0.0, 1 - thick);
+      if (root * root * std::max(0.0, 1 - aside * aside) < kLeastWing) continue;
       wings_.push_back({arm, plane.facing, arms.size() > 1});
       for (const int i : arm) partOf(i) = static_cast<int>(wings_.size());
     }
