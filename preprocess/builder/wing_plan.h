@@ -35,10 +35,8 @@ WingPlan planWings(const std::string& wanted, const TriangleMesh& mesh,
                    const ShapeDescription& shape, double scale);
 
 /// Sets the wings of a fluid body whose surface and origin are there, and the part of each
-/// triangle.
-/// @param mesh of the body, in its frame
-/// @param labels of its triangles
-/// @param sheet its triangles have two sides
+/// triangle. `mesh`: that of the body, in its frame, with `labels` of its triangles; `sheet`: they
+/// have two sides.
 void setWings(const WingPlan& plan, const TriangleMesh& mesh, std::vector<std::uint8_t> labels,
               bool sheet, FluidBody& body);
 
