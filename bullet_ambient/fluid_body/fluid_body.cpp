@@ -1,12 +1,14 @@
 #include "bullet_ambient/fluid_body/fluid_body.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 
 #include "bullet_ambient/base/fnv1a.h"
+#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 
@@ -56,6 +58,26 @@ std::array<Number*, ViscousForm::kNumbers> viscousNumbersOf(Form& form) {
   add(form.surface.gyration);
   all[at] = &form.sharp_share;
   return all;
+}
+
+template <class Number, class Part>
+std::array<Number*, Wing::kNumbers> wingNumbersOf(Part& wing) {
+  std::array<Number*, Wing::kNumbers> all;
+  std::size_t at = 0;
+  const auto add = [&](auto& vector) {
+    for (Number& number : vector) all[at++] = &number;
+  };
+  add(wing.facing);
+  add(wing.span_axis);
+  add(wing.centre);
+  for (Number* number : {&wing.span, &wing.chord, &wing.thickness, &wing.aspect, &wing.body_lift})
+    all[at++] = number;
+  return all;
+}
+
+void scale(Wing& wing, double factor) {
+  wing.centre *= factor;
+  for (double* length : {&wing.span, &wing.chord, &wing.thickness}) *length *= factor;
 }
 
 void scale(ViscousForm& form, double factor) {
@@ -110,6 +132,18 @@ std::array<const double*, FormShape::kNumbers> FormShape::numbers() const {
   return numbersOf<const double>(*this);
 }
 
+double Wing::plateMass() const {
+  const double long_side = std::max(aspect, 1 / aspect), square = 1 + long_side * long_side;
+  const double of_strip = long_side / std::sqrt(square) * (1 - 0.425 * long_side / square);
+  return kPi / 4 * chord * chord * span * std::min(1.0, aspect) * of_strip;
+}
+
+std::array<double*, Wing::kNumbers> Wing::numbers() { return wingNumbersOf<double>(*this); }
+
+std::array<const double*, Wing::kNumbers> Wing::numbers() const {
+  return wingNumbersOf<const double>(*this);
+}
+
 std::array<double*, ViscousForm::kNumbers> ViscousForm::numbers() {
   return viscousNumbersOf<double>(*this);
 }
@@ -160,8 +194,10 @@ FluidBody scaled(const FluidBody& body, double factor) {
   scale(result.surface_mass, factor);
   scale(result.faces, factor);
   scale(result.surface.vertices, factor);
-  result.form.shape.chord *= factor;
-  result.form.shape.centre *= factor;
+  for (FormShape* shape : {&result.form.shape, &result.form.rest}) {
+    shape->chord *= factor;
+    shape->centre *= factor;
+  }
   scale(result.form.faces, factor);
   scale(result.viscous, factor);
   result.sphere_radius *= factor;
@@ -169,6 +205,7 @@ FluidBody scaled(const FluidBody& body, double factor) {
   for (Matrix6& correction : result.waterline.corrections)
     correction = scaleShape(correction, factor);
   for (Hold& hold : result.holds) scale(hold, factor);
+  for (Wing& wing : result.wings) scale(wing, factor);
   for (FormLevel& level : result.form_levels) scale(level.faces, factor);
   std::ostringstream settings;
   settings.precision(17);
@@ -218,6 +255,8 @@ void reject(const FluidBody& body, const std::string& what, double value, const 
 
 bool isPrepared(const FluidBody& body) {
   if (body.sphere_radius > 0) return true;
+  const std::size_t labels = body.wings.empty() ? 0 : body.form.faces.size();
+  if (body.form.part_of_face.size() != labels) return false;
   return (body.faces.size() == 0 || body.form.faces.size() > 0) &&
          (body.surface.triangles.empty() || !body.form.hull.empty());
 }
@@ -278,6 +317,16 @@ std::uint64_t contentHash(const FluidBody& body) {
       appendTriangles(opening.outline, opening.lid);
       bytes.append(reinterpret_cast<const char*>(&opening.to), sizeof opening.to);
     }
+  }
+  for (const Wing& wing : body.wings) {
+    for (const double* number : wing.numbers()) append(number, 1);
+    bytes += wing.is_joined ? '\1' : '\0';
+  }
+  if (!body.wings.empty()) {
+    for (const double* number : body.form.rest.numbers()) append(number, 1);
+    append(body.form.wing_shares.data(), body.form.wing_shares.size());
+    bytes.append(body.form.part_of_face.begin(), body.form.part_of_face.end());
+    bytes.append(body.part_of_triangle.begin(), body.part_of_triangle.end());
   }
   return fnv1a64(bytes);
 }

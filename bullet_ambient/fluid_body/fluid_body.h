@@ -177,6 +177,28 @@ struct FormShape {
   std::array<const double*, kNumbers> numbers() const;
 };
 
+/// Thin part of a shape that lifts where it is: a wing, a fin, a blade; docs/theory.md section 21.
+/// Frame F.
+struct Wing {
+  static constexpr std::size_t kNumbers = 14;
+  std::string name;            ///< of the node or group in the mesh file; may be empty
+  Vector3 facing{0, 0, 1};     ///< z: normal of its mean plane, either way; unit length
+  Vector3 span_axis{0, 1, 0};  ///< h: away from the joint, if it has one; unit length, across z
+  Vector3 centre{0, 0, 0};     ///< of its mean surface [m]
+  double span = 0;             ///< b [m]
+  double chord = 0;            ///< c [m]
+  double thickness = 0;        ///< t, mean [m]
+  double aspect = 1;           ///< L of eq. (156), with the image in what it is joined to
+  double body_lift = 1;        ///< kappa of eq. (157): 1 to 2
+  bool is_joined = false;      ///< to the rest of the body or to another part
+
+  /// Returns k of eq. (156), its added mass along z per unit density [m^3].
+  double plateMass() const;
+  /// All numbers but is_joined in the order above, which is that of files.
+  std::array<double*, kNumbers> numbers();
+  std::array<const double*, kNumbers> numbers() const;
+};
+
 /// Surface as the form law and hydrostatics see it: follows from the other fields of a fluid body
 /// and is made by prepare() of the preprocessor.
 struct SurfaceForm {
@@ -187,6 +209,11 @@ struct SurfaceForm {
   /// Triangles for hydrostatics, three indices of vertices of the surface each: those of the
   /// surface, with fans of few triangles in place of flat sides.
   std::vector<std::int32_t> hull;
+  /// Of a body with wings: the part of each of `faces`, 0 or the number of its wing from 1 on.
+  std::vector<std::uint8_t> part_of_face;
+  FormShape rest;  ///< of a body with wings: shape of what is no wing
+  /// W of each wing, eq. (158).
+  std::vector<double> wing_shares;
 };
 
 /// Revision of the form law that levels are fitted to. 1: eq. (43) for every body; 2: with wings
@@ -207,6 +234,9 @@ struct MassDistribution {
   Vector3 centre{0, 0, 0};
   Matrix3 inertia = Matrix3::Zero();
 };
+
+/// Most wings of a fluid body.
+constexpr std::size_t kMostWings = 255;
 
 /// Record of how a fluid body was made.
 struct Provenance {
@@ -256,6 +286,11 @@ struct FluidBody {
   /// Rooms that keep water out or in; surface, faces, volume, area and added mass are those of the
   /// closed vessel, with lids across their openings. Empty: none.
   std::vector<Hold> holds;
+  /// Parts that the form law lifts one by one, at most kMostWings; empty: the body is one part.
+  std::vector<Wing> wings;
+  /// The part of each triangle of the surface, 0 or the number of its wing from 1 on; empty without
+  /// wings. Both sides of a sheet are one part.
+  std::vector<std::uint8_t> part_of_triangle;
   TablesPlace tables;  ///< of the loads; a fluid body that loads were made of must not change
 };
 
@@ -296,8 +331,8 @@ void requirePrepared(const FluidBody& body);
 
 /// FNV-1a hash of all data that influence motion: added mass, volume, area, centre of volume,
 /// faces, form, viscous form, levels, drag, sphere radius, surface triangles, parts of the added
-/// mass, waterline table and holds. Name and provenance do not count. Saved states hold the hash to
-/// recognise their fluid body. Detects accidental change, not forgery.
+/// mass, waterline table, holds and wings. Name and provenance do not count. Saved states hold the
+/// hash to recognise their fluid body. Detects accidental change, not forgery.
 std::uint64_t contentHash(const FluidBody& body);
 
 /// Mass of a body, and mass of the medium that it displaces; afloat: of the fluid above the

@@ -142,6 +142,26 @@ Offset<flatbuffers::Vector<Offset<file::Hold>>> pack(FlatBufferBuilder& builder,
   return builder.CreateVector(packed);
 }
 
+Offset<flatbuffers::Vector<Offset<file::Wing>>> pack(FlatBufferBuilder& builder,
+                                                     const std::vector<Wing>& wings) {
+  if (wings.empty()) return 0;
+  std::vector<Offset<file::Wing>> packed;
+  for (const Wing& wing : wings) {
+    const auto name = builder.CreateString(wing.name);
+    const auto numbers = packNumbers(builder, wing.numbers());
+    packed.push_back(file::CreateWing(builder, name, numbers, wing.is_joined));
+  }
+  return builder.CreateVector(packed);
+}
+
+Offset<file::WingForm> packWingForm(FlatBufferBuilder& builder, const SurfaceForm& form) {
+  if (form.part_of_face.empty()) return 0;
+  const auto part_of_face = builder.CreateVector(form.part_of_face);
+  const auto rest = packNumbers(builder, form.rest.numbers());
+  const auto wing_shares = builder.CreateVector(form.wing_shares);
+  return file::CreateWingForm(builder, part_of_face, rest, wing_shares);
+}
+
 void packInto(FlatBufferBuilder& builder, const FluidBody& body) {
   builder.ForceDefaults(true);  // else -0.0 would come back as +0.0
   const auto name = builder.CreateString(body.name);
@@ -156,6 +176,10 @@ void packInto(FlatBufferBuilder& builder, const FluidBody& body) {
   const auto form = pack(builder, body.form);
   const auto viscous = pack(builder, body.viscous);
   const auto holds = pack(builder, body.holds);
+  const auto wings = pack(builder, body.wings);
+  Offset<flatbuffers::Vector<std::uint8_t>> part_of_triangle;
+  if (!body.wings.empty()) part_of_triangle = builder.CreateVector(body.part_of_triangle);
+  const auto wing_form = packWingForm(builder, body.form);
   const auto added_mass = packMatrix<file::Matrix6>(body.added_mass);
   const auto centre_of_volume = packMatrix<file::Vector3>(body.centre_of_volume);
   const auto origin = packMatrix<file::Vector3>(body.origin);
@@ -163,11 +187,11 @@ void packInto(FlatBufferBuilder& builder, const FluidBody& body) {
   if (body.sphere_radius > 0) sphere_radius = body.sphere_radius;
   const auto drag = packMatrix<file::Vector3>(body.drag);
   file::FinishFluidBodyBuffer(
-      builder, file::CreateFluidBody(builder, name, provenance, &added_mass, body.asymmetry,
-                                     body.volume, body.area, &centre_of_volume, &origin,
-                                     uniform_mass, surface_mass, faces, surface, sphere_radius,
-                                     form_levels, body.drag.isZero(0) ? nullptr : &drag, parts,
-                                     waterline, form, viscous, holds));
+      builder, file::CreateFluidBody(
+                   builder, name, provenance, &added_mass, body.asymmetry, body.volume, body.area,
+                   &centre_of_volume, &origin, uniform_mass, surface_mass, faces, surface,
+                   sphere_radius, form_levels, body.drag.isZero(0) ? nullptr : &drag, parts,
+                   waterline, form, viscous, holds, wings, part_of_triangle, wing_form));
 }
 
 std::size_t numbersIn(const FaceTable& faces) {
@@ -200,6 +224,9 @@ std::size_t payloadBound(const FluidBody& body) {
   level_bytes += body.waterline.corrections.size() * kSymmetricNumbers * sizeof(float) +
                  body.waterline.immersions.size() * sizeof(double);
   for (const Hold& hold : body.holds) level_bytes += boundOf(hold);
+  for (const Wing& wing : body.wings)
+    level_bytes += kFixedPart / 8 + wing.name.size() + Wing::kNumbers * sizeof(double);
+  level_bytes += body.part_of_triangle.size() + body.form.part_of_face.size();
   return kFixedPart + level_bytes + sizeof(double) * doubles +
          sizeof(std::int32_t) * (body.surface.triangles.size() + body.form.hull.size()) +
          body.name.size() + body.provenance.source.size() + body.provenance.settings.size() +

@@ -44,11 +44,11 @@ std::vector<EdgeSide> edgeSidesOf(const SurfaceTriangles& mesh) {
   return sides;
 }
 
-/// True of a border, and of a convex edge sharper than 50 degrees; `sides`: the `count` sides of an
-/// edge.
+/// True of the border of a sheet, and of a convex edge sharper than 50 degrees; `sides`: the
+/// `count` sides of an edge. A border of a body that is no sheet is a joint to one of its wings.
 bool isSharp(const SurfaceTriangles& mesh, const EdgeSide* sides, std::size_t count) {
   constexpr double kSharpCosine = 0.64278761;  // cos 50 degrees
-  if (count != 2) return count == 1;
+  if (count != 2) return count == 1 && mesh.isSheet();
   const Vector3& normal = mesh.normal(sides[0].triangle);
   const Vector3 across = mesh.place(sides[1].corner) - mesh.place(sides[0].low);
   return across.dot(normal) < 0 && normal.dot(mesh.normal(sides[1].triangle)) < kSharpCosine;

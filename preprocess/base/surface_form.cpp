@@ -40,9 +40,10 @@ void makeSurfaceForm(FluidBody& body) {
   body.form = {};
   if (body.sphere_radius > 0) return;
   body.form.shape = formShapeOf(body);
+  body.form.hull = hullOf(body.surface);
+  if (!body.wings.empty()) return makeWingForm(body);
   const FaceTable faces = formLawFaces(body, body.form.shape);
   body.form.faces = faces;  // a copy has no room to spare
-  body.form.hull = hullOf(body.surface);
 }
 
 namespace {

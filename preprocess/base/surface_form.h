@@ -26,6 +26,11 @@ double sharpnessOfSide(const std::vector<Vector3>& corners);
 /// @throws std::invalid_argument as computeSharpness().
 FormShape formShapeOf(const FluidBody& body);
 
+/// Returns the part of a body whose triangles have a label: 0 of the rest, or the number of a wing.
+/// Area and centre of volume are its own, of the rest those of the body; what hangs on a volume is
+/// left out. Sharpness is that of the whole. Cost O(F).
+FluidBody partOf(const FluidBody& body, std::size_t label);
+
 /// Returns the faces that the form law is summed over: those of the body with their sharpness,
 /// except that Gauss points replace the triangles of most flat sides, 16 per four corners, and
 /// triangles that are long against the body. The form law has no jump at the edge of the wake:
@@ -33,6 +38,11 @@ FormShape formShapeOf(const FluidBody& body);
 /// s + W (1 - s). Cost O(F).
 /// @throws std::invalid_argument as computeSharpness().
 FaceTable formLawFaces(const FluidBody& body, const FormShape& shape);
+
+/// Fills what FluidBody::form has of a body with wings, docs/theory.md eq. (158), (159): faces part
+/// by part, the shape of the rest, and how much of a wing each is. Cost O(F log F).
+/// @pre labels and numbers of the wings are there, and the added mass
+void makeWingForm(FluidBody& body);
 
 /// Makes FluidBody::form from the other fields, also where it is there already; a part of
 /// prepare(). Spheres get none. Cost O(F log F), 2 us per face.

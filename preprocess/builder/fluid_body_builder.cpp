@@ -176,6 +176,20 @@ void takeFlow(const TriangleMesh& mesh, const BuildSettings& settings, FluidBody
   }
 }
 
+/// Sets the wings of a body, whose mesh is the source's, divided.
+void takeWings(const TriangleMesh& mesh, const std::vector<int>& source_of,
+               const BuildSettings& settings, FluidBody& body) {
+  if (settings.wings.given.empty()) return;
+  std::vector<std::uint8_t> labels;
+  for (const int t : source_of)
+    labels.push_back(settings.wings.labels[static_cast<std::size_t>(t)]);
+  try {
+    setWings(settings.wings, mesh, std::move(labels), settings.flow.sheet, body);
+  } catch (const std::runtime_error& error) {
+    raiseInputError(sourceOf(settings), error.what());
+  }
+}
+
 }  // namespace
 
 std::string libraryVersion() {
@@ -242,6 +256,7 @@ FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& se
                              ? sharpnessOfParts(source_mesh, divided.face, body)
                              : computeSharpness(body);
   AMBIENT_ASSERT(body.faces.sharpness.size() == body.faces.size());
+  takeWings(mesh, divided.face, settings, body);
   AMBIENT_ASSERT(settings.sphere_radius >= 0);
   if (settings.sphere_radius > 0) setSphere(settings.sphere_radius, body);
   complete(body, viscous_flow, settings);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
+#include "preprocess/builder/wing_plan.h"
 #include "preprocess/mesh/holds/hold_search.h"
 #include "preprocess/mesh/holds/vessel.h"
 #include "preprocess/mesh/triangle_mesh.h"
@@ -48,6 +49,7 @@ struct BuildSettings : CommonBuildSettings {
   TriangleMesh cavities;  ///< closed surfaces inside, as in CheckedMesh: empty in the uniform mass
   std::vector<Hold> found_holds;  ///< of a mesh that is a closed vessel, in its frame: empty, too
   TriangleMesh walls;             ///< with holds: the faces of walls alone, for the mass per area
+  WingPlan wings;                 ///< for the triangles of the mesh
   double sphere_radius = 0;       ///< of a mesh that stands for a sphere [m]; 0: any other shape
   /// Added mass per unit density about the mesh's origin, if it is known: the flow is not solved.
   std::optional<Matrix6> added_mass;

@@ -119,6 +119,9 @@ std::string settingsText(const ShapeDescription& shape, const ShapeBuildSettings
   }
   text << ", faces " << settings.least_faces;
   if (mayHaveHolds(shape)) text << holdsText(searchFor(shape, settings));
+  if (settings.wings == "auto") text << ", wings auto";
+  if (settings.wings != "auto" && settings.wings != "none")
+    text << ", wings " << hashText(fnv1a64(readBytes(settings.wings)));
   if (settings.waterline_subdivisions > 0)
     text << ", waterline " << settings.waterline_subdivisions;
   if (const auto known = knownAddedMass(shape, settings)) {
@@ -197,6 +200,7 @@ BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& se
     const std::vector<std::string> lines = takeHolds(checked.mesh, build);
     checked.warnings.insert(checked.warnings.end(), lines.begin(), lines.end());
   }
+  build.wings = planWings(settings.wings, checked.mesh, shape, settings.scale);
   if (const auto known = knownAddedMass(shape, settings)) {
     build.added_mass = known->added_mass;
     build.viscous_flow = facts.viscous_flow(settings.scale, known->added_mass);

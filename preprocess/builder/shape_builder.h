@@ -16,6 +16,9 @@ struct ShapeBuildSettings : CommonBuildSettings {
   double scale = 1;  ///< multiplies all lengths of the shape
   /// Whether tables of the added mass are used as far as they reach; false: the flow is solved.
   bool tables = true;
+  /// "none"; "auto": those that the names of nodes in the mesh file tell, or that are found; or a
+  /// JSON file that lists them, see planWings().
+  std::string wings = "none";
 };
 
 /// A fluid body, and warnings about its mesh, one line each.

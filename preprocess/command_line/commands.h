@@ -30,6 +30,7 @@ struct BuildArguments {
   int least_faces = 0, panels = kDefaultPanels, threads = 0;
   std::vector<int> levels;
   std::vector<double> drag;
+  std::string wings = "none";
   int waterline = 0;  // subdivisions
   bool no_tables = false, rebuild = false, json = false;
 };

@@ -23,6 +23,7 @@ const std::map<std::string, const char*, std::less<>> kUnits{
     {"area", "m^2"},
     {"barycentre", "m"},
     {"centre", "m"},
+    {"chord", "m"},
     {"centre_of_reaction", "m"},
     {"centre_of_volume", "m"},
     {"drag_falls_at", "Reynolds number on D_A, of both ways"},
@@ -40,6 +41,7 @@ const std::map<std::string, const char*, std::less<>> kUnits{
     {"rotation_resistance", "m^3"},
     {"seconds", "s"},
     {"size", "m"},
+    {"span", "m"},
     {"smallest_angle", "rad"},
     {"thickness", "m"},
     {"total", "N m, N: torque about the origin of F, force"},
@@ -143,6 +145,25 @@ ordered_json levelsJson(const std::vector<FormLevel>& levels) {
   return list;
 }
 
+ordered_json wingsJson(const FluidBody& body) {
+  ordered_json list = ordered_json::array();
+  for (std::size_t i = 0; i < body.wings.size(); ++i) {
+    const Wing& wing = body.wings[i];
+    list.push_back({{"name", wing.name},
+                    {"span", wing.span},
+                    {"chord", wing.chord},
+                    {"thickness", wing.thickness},
+                    {"aspect", wing.aspect},
+                    {"body_lift", wing.body_lift},
+                    {"joined", wing.is_joined},
+                    {"share", body.form.wing_shares[i]},
+                    {"facing", vectorJson(wing.facing)},
+                    {"span_axis", vectorJson(wing.span_axis)},
+                    {"centre", vectorJson(wing.centre)}});
+  }
+  return list;
+}
+
 bool isSheet(const FluidBody& body) { return body.volume == 0; }
 
 /// What the body has in a fluid with viscosity; of a sphere in closed form.
@@ -226,6 +247,7 @@ ordered_json bodyFacts(const FluidBody& body) {
                      {"generator", body.provenance.generator}};
   if (!body.form_levels.empty()) facts["form_levels"] = levelsJson(body.form_levels);
   if (!body.holds.empty()) facts["holds"] = holdsJson(body.holds);
+  if (!body.wings.empty()) facts["wings"] = wingsJson(body);
   if (!body.waterline.empty())
     facts["waterline_table"] = {{"subdivisions", body.waterline.subdivisions},
                                 {"immersions", body.waterline.immersions.size()}};

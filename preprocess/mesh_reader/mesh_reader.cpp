@@ -39,8 +39,12 @@ namespace {
 /// Collects the polygons of a file, divided into triangles.
 class PolygonCollector {
  public:
-  /// Begins a list of vertices: the corners of polygons count from here on.
-  void beginMesh() { first_ = vertexCount(); }
+  /// Begins a list of vertices: the corners of polygons count from here on. They belong to the node
+  /// with this name.
+  void beginMesh(const std::string& name = {}) {
+    first_ = vertexCount();
+    names_.push_back(name);
+  }
   void addVertex(const Eigen::Vector3d& vertex) {
     coordinates_.insert(coordinates_.end(), {vertex.x(), vertex.y(), vertex.z()});
   }
@@ -64,18 +68,23 @@ class PolygonCollector {
     }
     for (const Eigen::Vector3i& t : dividePolygon(corners)) {
       indices_.insert(indices_.end(), {polygon[t[0]], polygon[t[1]], polygon[t[2]]});
+      nodes_.push_back(static_cast<int>(names_.size()) - 1);
     }
   }
 
   const std::vector<double>& coordinates() const { return coordinates_; }
   const std::vector<int>& indices() const { return indices_; }
+  /// Index of the name of each triangle's node; -1: none.
+  const std::vector<int>& nodes() const { return nodes_; }
+  const std::vector<std::string>& names() const { return names_; }
   std::int64_t pointsAndLines() const { return points_and_lines_; }
 
  private:
   int vertexCount() const { return static_cast<int>(coordinates_.size() / 3); }
 
   std::vector<double> coordinates_;
-  std::vector<int> indices_;
+  std::vector<int> indices_, nodes_;
+  std::vector<std::string> names_;
   int first_ = 0;
   std::int64_t points_and_lines_ = 0;
 };
@@ -180,8 +189,9 @@ Eigen::Affine3d transformOf(const aiNode& node) {
   return transform;
 }
 
-void addMesh(const aiMesh& mesh, const Eigen::Affine3d& transform, PolygonCollector& polygons) {
-  polygons.beginMesh();
+void addMesh(const aiMesh& mesh, const Eigen::Affine3d& transform, const std::string& name,
+             PolygonCollector& polygons) {
+  polygons.beginMesh(name);
   for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
     const aiVector3D& p = mesh.mVertices[v];
     polygons.addVertex(transform * Eigen::Vector3d(p.x, p.y, p.z));
@@ -199,7 +209,7 @@ void addNode(const aiScene& scene, const aiNode& node, const Eigen::Affine3d& pa
              PolygonCollector& polygons) {
   const Eigen::Affine3d transform = parent * transformOf(node);
   for (unsigned i = 0; i < node.mNumMeshes; ++i)
-    addMesh(*scene.mMeshes[node.mMeshes[i]], transform, polygons);
+    addMesh(*scene.mMeshes[node.mMeshes[i]], transform, node.mName.C_Str(), polygons);
   for (unsigned i = 0; i < node.mNumChildren; ++i)
     addNode(scene, *node.mChildren[i], transform, polygons);
 }
@@ -389,7 +399,12 @@ void writeTriangles(const PolygonCollector& triangles, const std::string& warnin
                        static_cast<std::int64_t>(triangles.indices().size() / 3)});
   write(triangles.coordinates());
   write(triangles.indices());
-  std::fputs(warning.c_str(), stdout);
+  write(triangles.nodes());
+  std::fputs((warning + "\n").c_str(), stdout);
+  for (std::string name : triangles.names()) {
+    std::replace(name.begin(), name.end(), '\n', ' ');
+    std::fputs((name + "\n").c_str(), stdout);
+  }
 }
 
 // A crash shall end the program by its signal, without anybody's handler, report or core file.

@@ -5,6 +5,7 @@
 #include "bullet_ambient/drawing.h"
 #include "bullet_ambient/force/law/form_law.h"
 #include "bullet_ambient/force/loads/face_loads.h"
+#include "bullet_ambient/force/loads/load_tables.h"
 #include "bullet_ambient/force/medium/fluid_region.h"
 #include "bullet_ambient/force/surface/hydrostatics.h"
 #include "bullet_ambient/immersed/ambient_body.h"
@@ -39,15 +40,13 @@ class Arrows {
   btIDebugDraw& drawer_;
 };
 
-void drawFaces(const AmbientBody& ambient, const Twist& relative, const FluidDrawing& what,
-               const Arrows& arrows) {
-  const FluidBody& body = *ambient.def->fluid_body;
-  const bool is_form = ambient.def->flow.law == PressureLaw::kForm && !(body.sphere_radius > 0);
-  const ShapeFactors factors(body.form.shape);
-  const FaceTable faces = is_form ? body.form.faces : facesOf(body);
+/// Draws faces of one part of a body; `shape`: by the form law, else null.
+void drawFaces(const FaceTable& faces, const ShapeFactors* shape, const AmbientBody& ambient,
+               const Twist& relative, const FluidDrawing& what, const Arrows& arrows) {
   const FrameOffset& frame = ambient.def->fluid_frame;
   LoadSettings settings = loadSettings(ambient.medium, ambient.def->flow);
-  if (is_form) settings.shape = &factors;
+  settings.shape = shape;
+  const bool is_form = shape != nullptr;
   const double length = ambient.model().reference_length;
   const Twist x_F = frame.toF(relative);
   const double normal_length = what.normal_length * length;
@@ -67,6 +66,19 @@ void drawFaces(const AmbientBody& ambient, const Twist& relative, const FluidDra
     if (what.slip_velocity) draw(what.length_per_velocity, flow.slip, fluid_colours::kSlip);
     if (what.friction) draw(what.length_per_face_force, flow.friction, fluid_colours::kFriction);
   }
+}
+
+void drawFaces(const AmbientBody& ambient, const Twist& relative, const FluidDrawing& what,
+               const Arrows& arrows) {
+  const std::shared_ptr<const FluidBody>& body = ambient.def->fluid_body;
+  if (ambient.def->flow.law != PressureLaw::kForm || body->sphere_radius > 0)
+    return drawFaces(facesOf(*body), nullptr, ambient, relative, what, arrows);
+  const LoadTables tables(body);
+  const LoadTables::Parts parts = tables.parts();
+  for (const BodyPart& part : *parts)
+    drawFaces(part.faces, &part.shape, ambient, relative, what, arrows);
+  if (parts->empty())
+    drawFaces(body->form.faces, tables.shape().get(), ambient, relative, what, arrows);
 }
 
 void drawReading(const FluidReading& reading, const Vector3& place, double length_per_force,

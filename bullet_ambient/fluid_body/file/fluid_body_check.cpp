@@ -200,10 +200,8 @@ double volumeInside(const Surface& surface, const Vector3& from) {
   return volume;
 }
 
-/// Checks the form for what loads and hydrostatics rely on, of a body that is prepared.
-void checkForm(const FluidBody& body, const Checker& check) {
+void checkFormShape(const FormShape& shape, const Checker& check) {
   constexpr double kLongest = 1 + kRounding;  // of directions and of lengths of at most 1
-  const FormShape& shape = body.form.shape;
   for (const double* number : shape.numbers()) check.finite(*number, "a number of the form");
   for (const double share : {shape.wing, shape.edges}) check.share(share, "a share of the form");
   if (!(shape.aspect >= 1 - kRounding))
@@ -212,10 +210,62 @@ void checkForm(const FluidBody& body, const Checker& check) {
   for (const Vector3& axis : {shape.facing, shape.span, shape.slender, shape.pitching})
     if (!(axis.stableNorm() <= kLongest))
       check.fail("an axis of the form has length ", axis.stableNorm(), ", but must be at most 1");
+}
+
+/// Checks the form for what loads and hydrostatics rely on, of a body that is prepared.
+void checkForm(const FluidBody& body, const Checker& check) {
+  checkFormShape(body.form.shape, check);
   checkFaces(body.form.faces, check);
   if (body.form.faces.sharpness.size() != body.form.faces.size())
     check.fail("the faces of the form law have no sharpness");
   checkTriangles(body.form.hull, body.surface, "hull triangle", check);
+}
+
+/// Fails unless there is a label for each of `count` things, that of an existing part.
+void checkLabels(const std::vector<std::uint8_t>& labels, std::size_t count, std::size_t wings,
+                 const char* what, const Checker& check) {
+  if (labels.size() != count)
+    check.fail("there are parts of ", labels.size(), " ", what, ", but ", count, " ", what);
+  for (const std::uint8_t label : labels)
+    if (label > wings)
+      check.fail("a part has number ", int{label}, ", but there are ", wings, " wings");
+}
+
+void checkWing(const Wing& wing, double size, const Checker& check) {
+  for (const double* number : wing.numbers()) check.finite(*number, "a number of a wing");
+  check.near(wing.centre, size, "centre of a wing");
+  const double off =
+      std::max({std::abs(wing.facing.norm() - 1), std::abs(wing.span_axis.norm() - 1),
+                std::abs(wing.facing.dot(wing.span_axis))});
+  if (!(off <= kRounding))
+    check.fail("the axes of a wing are off orthonormal by ", off, ", limit ", kRounding);
+  for (const double length : {wing.span, wing.chord})
+    if (!(length > 0) || !(length <= kFarthest * size))
+      check.fail("span or chord of a wing is ", length, " m, but must be above 0 and at most ",
+                 kFarthest, " times the size of the body of ", size, " m");
+  if (!(wing.thickness >= 0) || !(wing.thickness <= kFarthest * size))
+    check.fail("thickness of a wing is ", wing.thickness, " m");
+  if (!(wing.aspect >= 1 / kFarthest) || !(wing.aspect <= kFarthest))
+    check.fail("aspect ratio of a wing is ", wing.aspect, ", but must be 1e-12 to 1e12");
+  if (!(wing.body_lift >= 1) || !(wing.body_lift <= 2))
+    check.fail("body lift of a wing is ", wing.body_lift, ", but must be 1 to 2");
+}
+
+void checkWings(const FluidBody& body, double size, const Checker& check) {
+  const std::size_t wings = body.wings.size();
+  if (wings > kMostWings) check.fail("there are ", wings, " wings, but at most ", kMostWings);
+  for (const Wing& wing : body.wings) checkWing(wing, size, check);
+  const auto labelled = [wings](std::size_t count) { return wings > 0 ? count : 0; };
+  checkLabels(body.part_of_triangle, labelled(body.surface.triangles.size() / 3), wings,
+              "triangles", check);
+  if (body.form.faces.size() == 0 && body.form.part_of_face.empty()) return;
+  checkLabels(body.form.part_of_face, labelled(body.form.faces.size()), wings,
+              "faces of the form law", check);
+  checkFormShape(body.form.rest, check);
+  if (body.form.wing_shares.size() != wings)
+    check.fail("there are ", body.form.wing_shares.size(), " shares of wings, but ", wings,
+               " wings");
+  for (const double share : body.form.wing_shares) check.share(share, "a share of a wing");
 }
 
 /// Checks that a body has no more resistance than a ball that holds it (Hill and Power 1956), its
@@ -400,6 +450,7 @@ void checkFluidBody(const FluidBody& body, const std::string& source) {
     checkPart(part, sizeOf(body), check);
   checkWaterline(body, check);
   checkHolds(body, check);
+  checkWings(body, sizeOf(body), check);
   checkPlaces(body, check);
 }
 

@@ -144,6 +144,25 @@ Hold unpack(const file::Hold& packed) {
   return hold;
 }
 
+Wing unpack(const file::Wing& packed, const std::string& source) {
+  Wing wing;
+  wing.name = packed.name()->str();
+  unpackNumbers(*packed.numbers(), source + ": a wing", wing.numbers());
+  wing.is_joined = packed.is_joined();
+  return wing;
+}
+
+void unpackWings(const file::FluidBody& packed, const std::string& source, FluidBody& body) {
+  if (!packed.wings()) return;
+  for (const file::Wing* wing : *packed.wings()) body.wings.push_back(unpack(*wing, source));
+  if (packed.part_of_triangle()) body.part_of_triangle = unpackVector(*packed.part_of_triangle());
+  if (!packed.wing_form()) return;
+  const file::WingForm& form = *packed.wing_form();
+  body.form.part_of_face = unpackVector(*form.part_of_face());
+  unpackNumbers(*form.rest(), source + ": the rest beside its wings", body.form.rest.numbers());
+  body.form.wing_shares = unpackVector(*form.wing_shares());
+}
+
 FluidBody unpack(const file::FluidBody& packed, const std::string& source) {
   FluidBody body;
   body.name = packed.name()->str();
@@ -171,6 +190,7 @@ FluidBody unpack(const file::FluidBody& packed, const std::string& source) {
   if (packed.viscous()) body.viscous = unpack(*packed.viscous(), source);
   if (packed.holds())
     for (const file::Hold* hold : *packed.holds()) body.holds.push_back(unpack(*hold));
+  unpackWings(packed, source, body);
   return body;
 }
 

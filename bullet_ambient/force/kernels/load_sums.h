@@ -29,6 +29,7 @@ struct SingleMotion {
   float pitching_rate = 0;                   ///< a.w of eq. (43d)
   /// Twist without a part of the pitching, in which the normal velocity of a face is nu, eq. (43d).
   float pitched_angular[3] = {}, pitched_linear[3] = {};
+  float stalling_share = 1;  ///< 1 - chi of eq. (161), of a part of a body
 };
 
 /// Sums over attached faces in the units of SingleMotion, without the factor -rho/2. `wrench`:

@@ -187,7 +187,7 @@ inline void addEvenPart(const double* even, const double (&x)[6], LoadSums& sums
 /// motion.wing is null.
 struct WingLanes {
   Vectors facing = {}, span = {}, slender = {};
-  Floats pitching_rate = {};
+  Floats pitching_rate = {}, stalling_share = {};
 
   // Inlined: else the vectors pass through memory.
   [[gnu::always_inline]] explicit WingLanes(const SingleMotion& motion) {
@@ -196,6 +196,7 @@ struct WingLanes {
     span = inAllLanes<Floats>(motion.wing->span);
     slender = inAllLanes<Floats>(motion.wing->slender);
     pitching_rate = pitching_rate + motion.pitching_rate;
+    stalling_share = stalling_share + motion.stalling_share;
   }
 };
 

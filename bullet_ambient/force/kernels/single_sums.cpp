@@ -153,9 +153,14 @@ template <class Law, bool kRightAngle>
   };
   const auto wing = [&](const auto& law) {
     const Floats arm = load(run.faces.form[block].arm + lane);
-    const WingFlow<FusedArithmetic> flow{dot(wings.facing, u), dot(wings.span, u),
+    const Floats facing = dot(wings.facing, u);
+    const Floats stalling = Law::kIsPart ? wings.stalling_share * facing : facing;
+    const WingFlow<FusedArithmetic> flow{facing,
+                                         stalling,
+                                         dot(wings.span, u),
                                          lessProduct(normal_speed, wings.pitching_rate, arm),
-                                         whole_sq, squareRoot(whole_sq)};
+                                         whole_sq,
+                                         squareRoot(whole_sq)};
     const FacePressure<Floats> pressure = law(flow, *run.motion.wing);
     pitch = plusProduct(pitch, pressure.lift, arm);
     return pressure;

@@ -72,6 +72,7 @@ struct PublishedPressure {
       false;  ///< true: faces on the lee side, which the flow has left, feel pressure
   static constexpr bool kIsSlender = false;  ///< `speed` is speedAcross()
   static constexpr bool kLifts = false;
+  static constexpr bool kIsPart = false;      ///< of a wing of a body that has several parts
   static constexpr bool kHasFriction = true;  ///< of faces; the angle of separation may be larger
                                               ///< than pi/2
   using Windward = PublishedPressure;  ///< the law at a right angle without the lee side, which is
@@ -102,6 +103,7 @@ struct FormPressure {
   static constexpr bool kPressesLee = true;
   static constexpr bool kIsSlender = kSlender;
   static constexpr bool kLifts = false;
+  static constexpr bool kIsPart = false;
   static constexpr bool kHasFriction = false;
   using Windward = WindwardFormPressure<kSlender>;
 
@@ -113,14 +115,15 @@ struct FormPressure {
 };
 
 /// Form law of eq. (43) to (43d) for wings. `kLee`: with the lee side, which addEvenPart() can sum
-/// for a whole body; `kSlender`: for wings that are slender, too.
-template <bool kLee, bool kSlender>
+/// for a whole body; `kSlender`: for wings that are slender, too; `kPart`: for one part of a body.
+template <bool kLee, bool kSlender, bool kPart = false>
 struct WingPressure {
   static constexpr bool kPressesLee = kLee;
   static constexpr bool kIsSlender = kSlender;
   static constexpr bool kLifts = true;
+  static constexpr bool kIsPart = kPart;
   static constexpr bool kHasFriction = false;
-  using Windward = WingPressure<false, kSlender>;
+  using Windward = WingPressure<false, kSlender, kPart>;
 
   template <class Real, class... Functions>
   static FacePressure<Real> of(const FaceState<Real, Functions...>& face) {
@@ -157,6 +160,7 @@ auto withPressure(PressureLaw law, const WingFactors<Number>* wing, const Sum& s
   if (law != PressureLaw::kForm) return sum(PublishedPressure{});
   if (!wing) return sum(FormPressure<false>{});
   if (!wing->is_wing) return sum(FormPressure<true>{});
+  if (wing->is_part) return sum(WingPressure<true, false, true>{});
   return wing->is_slender ? sum(WingPressure<true, true>{}) : sum(WingPressure<true, false>{});
 }
 

@@ -12,25 +12,43 @@ namespace ambient {
 namespace {
 
 template <class Number>
-WingFactors<Number> wingFactorsOf(const FormShape& shape) {
+WingFactors<Number> wingFactorsOf(const ShapeFactors& of) {
   WingFactors<Number> factors;
-  const double sigma = stallSine(shape.aspect), slope = normalForceSlope(shape.aspect);
+  const FormShape& shape = of.shape;
+  const double sigma = of.stall_sine;
   constexpr double kLeastWing = 1e-12;  // of W: keeps the inverse of k finite
   const double root = std::sqrt(std::max(shape.wing, kLeastWing));
   const double stall = std::sqrt(root) / (4 * sigma * sigma);
   factors.is_wing = shape.isWing();
   factors.is_slender = shape.isSlender();
-  const double along = slope - normalForceSlope(1 / shape.aspect);
-  const double span = std::sqrt(std::max(along, 0.0) / stall);
+  factors.is_part = !of.reach.isZero(0);
+  const double more = of.slope - of.slope_along;
+  const bool is_along = !(more < 0);  // K|y|^2 + (K' - K)(h.u)^2 = K'|y|^2 - (K' - K)(h x z.u)^2
+  const Vector3 axis = is_along ? shape.span : Vector3(shape.facing.cross(shape.span));
+  const Vector3 span = std::sqrt(std::abs(more) / stall) * axis;
   factors.wing_root = static_cast<Number>(root);
   factors.stall = static_cast<Number>(stall);
-  factors.slope = static_cast<Number>(slope / stall);
+  factors.slope = static_cast<Number>((is_along ? of.slope : of.slope_along) / stall);
   for (int axis = 0; axis < 3; ++axis) {
     factors.facing[axis] = static_cast<Number>(shape.facing[axis]);
-    factors.span[axis] = static_cast<Number>(span * shape.span[axis]);
+    factors.span[axis] = static_cast<Number>(span[axis]);
     factors.slender[axis] = static_cast<Number>(shape.slender[axis]);
   }
   return factors;
+}
+
+FormShape formShapeOf(const Wing& wing, double share) {
+  FormShape shape;
+  shape.wing = share;
+  shape.aspect = wing.aspect;
+  shape.chord = wing.chord;
+  shape.facing = wing.facing;
+  shape.span = wing.span_axis;
+  shape.centre = wing.centre;
+  constexpr double kPitchRelief = 0.4;  // of eq. (43d)
+  const double strip = 1 - 1 / (wing.aspect * wing.aspect);
+  shape.pitching = std::sqrt(kPitchRelief * std::max(0.0, strip)) * wing.span_axis;
+  return shape;
 }
 
 }  // namespace
@@ -47,9 +65,30 @@ double stallSine(double aspect) {
 
 ShapeFactors::ShapeFactors(const FormShape& form_shape)
     : shape(form_shape),
-      in_single(wingFactorsOf<float>(shape)),
-      in_double(wingFactorsOf<double>(shape)) {
+      slope(normalForceSlope(shape.aspect)),
+      slope_along(normalForceSlope(1 / shape.aspect)),
+      stall_sine(stallSine(shape.aspect)),
+      in_single(wingFactorsOf<float>(*this)),
+      in_double(wingFactorsOf<double>(*this)) {
   AMBIENT_ASSERT(shape.aspect >= 1);
+}
+
+ShapeFactors::ShapeFactors(const Wing& wing, double share)
+    : shape(formShapeOf(wing, share)),
+      slope(wing.body_lift * normalForceSlope(wing.aspect)),
+      slope_along(normalForceSlope(1 / wing.aspect)),
+      stall_sine(stallSine(std::max(wing.aspect, 1.0))),
+      root(wing.centre - wing.span / 2 * wing.span_axis),
+      reach(wing.span * wing.span_axis),
+      in_single(wingFactorsOf<float>(*this)),
+      in_double(wingFactorsOf<double>(*this)) {
+  AMBIENT_ASSERT(wing.aspect > 0 && wing.span > 0);
+}
+
+double ShapeFactors::stallingShare(const Vector3& w, const Vector3& v, double length) const {
+  const double turning = w.cross(reach / length).squaredNorm();
+  const double moving = (v + w.cross(root / length)).squaredNorm();
+  return turning > 0 ? moving / (turning + moving) : 1;
 }
 
 double ShapeFactors::wakeShare() const {
@@ -78,10 +117,15 @@ double grown(double x) noexcept {
 }  // namespace
 
 FormLift::FormLift(const FluidBody& body, const ShapeFactors& factors, double stall_lag)
+    : FormLift({body.added_mass.bottomRightCorner<3, 3>(), body.volume, body.area,
+                body.centre_of_volume},
+               factors, stall_lag) {}
+
+FormLift::FormLift(const LiftedPart& body, const ShapeFactors& factors, double stall_lag)
     : wing_(factors.shape.wing) {
   AMBIENT_ASSERT(stall_lag >= 0);
   AMBIENT_ASSERT(body.volume >= 0 && body.area >= 0);
-  const SymmetricEigen<3> eigen = symmetricEigen<3>(body.added_mass.bottomRightCorner<3, 3>());
+  const SymmetricEigen<3> eigen = symmetricEigen<3>(body.added_mass);
   const Eigen::Vector3d& k = eigen.values;
   const Matrix3& axes = eigen.vectors;
   largest_ = k[2] - k[0];
@@ -89,7 +133,7 @@ FormLift::FormLift(const FluidBody& body, const ShapeFactors& factors, double st
     const Vector3 relative(0, (k[1] - k[0]) / largest_, 1);
     direction_ = axes * relative.asDiagonal() * axes.transpose();
     delay_ = 2 * stall_lag * 8 * largest_ / (kPi * body.area);
-    setWing(factors.shape, 8 * largest_ / (kPi * body.area));
+    setWing(factors, 8 * largest_ / (kPi * body.area));
   }
   const Vector3 differences(k[2] - k[1], k[2] - k[0], k[1] - k[0]);
   const double lifting =
@@ -98,10 +142,10 @@ FormLift::FormLift(const FluidBody& body, const ShapeFactors& factors, double st
                  lifting * (axes * differences.asDiagonal() * axes.transpose());
 }
 
-void FormLift::setWing(const FormShape& shape, double length) {
-  if (!shape.isWing()) return;
-  attached_ = std::min(1.0, normalForceSlope(shape.aspect) * shape.chord / (2 * kPi * length));
-  stall_sq_ = stallSine(shape.aspect) * stallSine(shape.aspect);
+void FormLift::setWing(const ShapeFactors& factors, double length) {
+  if (!factors.shape.isWing()) return;
+  attached_ = std::min(1.0, factors.slope * factors.shape.chord / (2 * kPi * length));
+  stall_sq_ = factors.stall_sine * factors.stall_sine;
 }
 
 Wrench FormLift::load(const Vector3& w, const Vector3& v, double density,

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bullet_ambient/fluid_body/fluid_body.h"
+#include "bullet_ambient/fluid_body/body_parts.h"
 #include "bullet_ambient/force/law/wing_pressure.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
 
@@ -16,18 +16,27 @@ double stallSine(double aspect);
 /// A shape as the form law sees it: its numbers, and the constants that follow from them.
 struct ShapeFactors {
   explicit ShapeFactors(const FormShape& shape);
+  /// A wing of a body that has several parts, docs/theory.md eq. (156) to (158).
+  /// @param wing its numbers
+  /// @param share W of eq. (158)
+  ShapeFactors(const Wing& wing, double share);
 
   /// False of blocks: their faces follow eq. (43) without wings and slender hulls.
   bool actOnFaces() const { return shape.isWing() || shape.isSlender(); }
   /// Share of the load that waits for the wake, 1 - epsilon of eq. (51d): 0 of boxes and plates.
   double wakeShare() const;
+  /// 1 - chi of eq. (161) in a motion about F's origin; 1 of a body that is one part. `length`:
+  /// unit of length of the motion [m].
+  double stallingShare(const Vector3& w, const Vector3& v, double length = 1) const;
 
   FormShape shape;
+  double slope, slope_along;  ///< K and K' of eq. (43c)
+  double stall_sine;          ///< sigma of eq. (43a)
+  Vector3 root{0, 0, 0};      ///< of a wing: the end of its span at the joint [m]
+  Vector3 reach{0, 0, 0};     ///< of a wing: b h; else 0 [m]
   WingFactors<float> in_single;
   WingFactors<double> in_double;
 };
-
-struct FormShape;
 
 /// Part of the form law that acts on a body as a whole: lift of the rotation, eq. (46), (47), and
 /// the loss of Munk's moment and of the turning impulse in separated flow, docs/theory.md eq. (48)
@@ -37,6 +46,8 @@ class FormLift {
   /// Cost: one eigenproblem of 3 rows.
   /// @pre stall_lag >= 0, in lengths of the body over its speed.
   FormLift(const FluidBody& body, const ShapeFactors& factors, double stall_lag);
+  /// Lift of a part, whose centre takes the place of the centre of volume.
+  FormLift(const LiftedPart& part, const ShapeFactors& factors, double stall_lag);
 
   /// Wrench about the centre of volume for the motion there relative to the ambient flow; density
   /// [kg/m^3]. Its power is 0. Homogeneous of degree 2 in the motion. munk_share: factor of eq.
@@ -45,7 +56,7 @@ class FormLift {
               double munk_share = 1) const noexcept;
 
  private:
-  void setWing(const FormShape& shape, double length);
+  void setWing(const ShapeFactors& factors, double length);
   /// 1 - f of eq. (49) and (49a); phi: sin^2 of the incidence, turning: what the lag takes from it.
   double separatedShare(double phi, double turning) const noexcept;
   void addStall(const Vector3& w, const Vector3& v, double munk_share,

@@ -2,21 +2,24 @@
 
 namespace ambient {
 
-// Pressure of the form law on wings, docs/theory.md eq. (43a) to (43c). The code serves numbers and
-// vectors of numbers: the same bits everywhere with the same Arithmetic.
+// Pressure of the form law on wings, docs/theory.md eq. (43a) to (43c), (161). The code serves
+// numbers and vectors of numbers: the same bits everywhere with the same Arithmetic.
 
 /// Constants of a shape in these equations, folded so that a face needs few operations; with
 /// k = W^(1/4) / (4 sigma^2). Plain data, for kernels; `Number`: float or double.
 template <class Number>
 struct WingFactors {
-  Number wing_root = 0;     ///< sqrt(W)
-  Number stall = 0;         ///< k
-  Number slope = 0;         ///< K(L) / k
-  Number facing[3] = {};    ///< z
-  Number span[3] = {};      ///< sqrt((K(L) - K(1/L)) / k) h
+  Number wing_root = 0;   ///< sqrt(W)
+  Number stall = 0;       ///< k
+  Number slope = 0;       ///< K / k
+  Number facing[3] = {};  ///< z
+  /// sqrt((K - K') / k) h; where K' is larger, sqrt((K' - K) / k) times the direction across z and
+  /// h, with K' in `slope`.
+  Number span[3] = {};
   Number slender[3] = {};   ///< m
   bool is_wing = false;     ///< W is not 0
   bool is_slender = false;  ///< m is not 0
+  bool is_part = false;     ///< a wing of a body that has several parts, eq. (161)
 };
 
 /// Sums of products with two roundings. Kernels that fuse have functions of the same names.
@@ -34,6 +37,7 @@ struct WingFlow {
   using Arithmetic = Sums;
   using Real = typename Sums::Real;
   Real facing;    ///< z.u [m/s]
+  Real stalling;  ///< (1 - chi) z.u of eq. (161); of a body that is one part z.u
   Real span;      ///< WingFactors::span . u
   Real lifting;   ///< nu [m/s]
   Real speed_sq;  ///< |u|^2; at rest any positive number whose inverse is finite
@@ -54,7 +58,7 @@ inline AttachedFlow<Real> attachedFlow(const Real& normal_speed, const Flow& flo
   using Sum = typename Flow::Arithmetic;
   constexpr auto kVortices = static_cast<Number>(3.14159265358979323846);
   const Real inverse = factors.stall / flow.speed_sq;
-  const Real across_sq = Sum::plus(normal_speed * normal_speed, flow.facing, flow.facing);
+  const Real across_sq = Sum::plus(normal_speed * normal_speed, flow.stalling, flow.facing);
   const Real incidence = across_sq * inverse;
   const Real root = Sum::positive(Sum::less(Real{} + factors.wing_root, incidence, incidence));
   const Real in_plane_sq = Sum::positive(Sum::less(flow.speed_sq, flow.facing, flow.facing));

@@ -58,9 +58,14 @@ PressureOnFace pressureOn(const FaceTable& faces, std::size_t face, const Twist&
     const WingFactors<double>& numbers = factors->in_double;
     const double(&h)[3] = numbers.span;
     constexpr double kLeast = 1e-200;  // at rest its inverse is finite
-    const WingFlow<PlainArithmetic<double>> flow{
-        shape.facing.dot(u), Vector3(h[0], h[1], h[2]).dot(u), normal_speed - rate * arm,
-        whole_sq + kLeast, std::sqrt(whole_sq)};
+    const double facing = shape.facing.dot(u);
+    const double stalling = factors->stallingShare(x.angular, x.linear) * facing;
+    const WingFlow<PlainArithmetic<double>> flow{facing,
+                                                 stalling,
+                                                 Vector3(h[0], h[1], h[2]).dot(u),
+                                                 normal_speed - rate * arm,
+                                                 whole_sq + kLeast,
+                                                 std::sqrt(whole_sq)};
     const FacePressure<double> pressure = law(flow, numbers);
     pitch = pressure.lift * arm;
     return pressure;
@@ -135,18 +140,18 @@ double ownDrag(const FaceTable& faces, const ShapeFactors& shape, const Vector3&
   return frontal_area > 0 ? force / frontal_area : 0;
 }
 
-DragScale::DragScale(const FluidBody& body, const FaceTable& faces, const ShapeFactors& shape)
+DragScale::DragScale(const FluidBody& body, const FaceTable& faces,
+                     const std::function<Vector3(const Vector3& frontal)>& own_drag)
     : is_measured_(!body.drag.isZero(0)), centre_(body.centre_of_volume), length_sq_(body.area) {
-  AMBIENT_ASSERT(faces.sharpness.size() == faces.size());
   if (!is_measured_) return;
-  for (int axis = 0; axis < 3; ++axis) {
-    double frontal_area = 0;
+  Vector3 frontal{0, 0, 0};
+  for (int axis = 0; axis < 3; ++axis)
     for (std::size_t i = 0; i < faces.size(); ++i)
-      frontal_area += 0.5 * faces.area[i] * std::abs(faces.normal(i)[axis]);
-    const double drag = ownDrag(faces, shape, Vector3::Unit(axis), frontal_area);
-    AMBIENT_ASSERT(std::isfinite(drag));
-    if (drag > 0) scales_[axis] = body.drag[axis] / drag;
-  }
+      frontal[axis] += 0.5 * faces.area[i] * std::abs(faces.normal(i)[axis]);
+  const Vector3 drag = own_drag(frontal);
+  AMBIENT_ASSERT(drag.allFinite());
+  for (int axis = 0; axis < 3; ++axis)
+    if (drag[axis] > 0) scales_[axis] = body.drag[axis] / drag[axis];
 }
 
 Wrench DragScale::scaled(const Wrench& load, const Twist& x) const noexcept {
@@ -222,6 +227,9 @@ inline void addShape(const ShapeFactors& factors, const ScaledMotion& motion, do
   const Vector3 v = motion.linear + rate / length * shape.pitching.cross(shape.centre);
   single.wing = &factors.in_single;
   single.pitching_rate = static_cast<float>(rate);
+  if (factors.in_single.is_part)
+    single.stalling_share =
+        static_cast<float>(factors.stallingShare(motion.angular, motion.linear, length));
   for (int axis = 0; axis < 3; ++axis) {
     single.pitched_angular[axis] = static_cast<float>(w[axis]);
     single.pitched_linear[axis] = static_cast<float>(v[axis]);

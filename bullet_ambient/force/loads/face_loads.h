@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
@@ -90,8 +91,10 @@ Wrench computeFaceLoad(const PackedFaces& faces, double reference_length,
 /// Lift stays. Frame F.
 class DragScale {
  public:
-  /// Computes the law's own drag on `faces`, which need their sharpness. Cost O(F).
-  DragScale(const FluidBody& body, const FaceTable& faces, const ShapeFactors& shape);
+  /// `own_drag`: returns the law's own coefficients along the axes of F on frontal areas; called
+  /// where drag is measured, with half of the projected areas of `faces`. Cost O(F).
+  DragScale(const FluidBody& body, const FaceTable& faces,
+            const std::function<Vector3(const Vector3& frontal)>& own_drag);
 
   /// Returns `load`, the load on the faces in a twist relative to the flow, with its drag scaled.
   Wrench scaled(const Wrench& load, const Twist& relative_twist) const noexcept;

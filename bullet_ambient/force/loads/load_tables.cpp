@@ -4,6 +4,7 @@
 #include <mutex>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "bullet_ambient/force/loads/face_loads.h"
 #include "bullet_ambient/force/medium/medium.h"
@@ -21,6 +22,18 @@ LoadKey keyOf(const Medium& medium, const FlowSettings& flow, LoadPlace place) {
           flow.stall_lag};
 }
 
+/// The rest of a body with wings, then its wings.
+std::vector<BodyPart> partsOf(const FluidBody& body) {
+  std::vector<BodyPart> parts;
+  if (body.wings.empty()) return parts;
+  const std::vector<LiftedPart> lifted = liftedPartsOf(body);
+  parts.push_back({ShapeFactors(body.form.rest), facesOfPart(body.form, 0), lifted.front()});
+  for (std::size_t i = 0; i < body.wings.size(); ++i)
+    parts.push_back({ShapeFactors(body.wings[i], body.form.wing_shares[i]),
+                     facesOfPart(body.form, i + 1), lifted[i + 1]});
+  return parts;
+}
+
 using Lock = std::lock_guard<std::recursive_mutex>;
 
 }  // namespace
@@ -30,6 +43,7 @@ using Lock = std::lock_guard<std::recursive_mutex>;
 struct BodyTables {
   std::recursive_mutex mutex;  // loads are made of other tables
   std::unique_ptr<const ShapeFactors> shape;
+  std::unique_ptr<const std::vector<BodyPart>> parts;
   std::map<std::pair<const FaceTable*, bool>, std::unique_ptr<const PackedFaces>> packed;
   std::map<const FaceTable*, Vector3> own_drag;
   std::unique_ptr<const PackedHull> hull;
@@ -63,6 +77,10 @@ LoadTables::Shape LoadTables::shape() const {
   return tables_.get(body_, tables_.shape, [this] { return ShapeFactors(body_->form.shape); });
 }
 
+LoadTables::Parts LoadTables::parts() const {
+  return tables_.get(body_, tables_.parts, [this] { return partsOf(*body_); });
+}
+
 std::shared_ptr<const PackedFaces> LoadTables::packedFaces(const Faces& faces,
                                                            const ShapeFactors* shape) const {
   const Lock lock(tables_.mutex);
@@ -71,15 +89,24 @@ std::shared_ptr<const PackedFaces> LoadTables::packedFaces(const Faces& faces,
   });
 }
 
+Vector3 LoadTables::ownDrag(const Faces& faces, const Matrix3& axes, const Vector3& frontal) const {
+  const Parts all = parts();
+  const Shape whole = shape();
+  Vector3 drag{0, 0, 0};
+  for (int j = 0; j < 3; ++j) {
+    if (all->empty()) drag[j] = ambient::ownDrag(*faces, *whole, axes.col(j), frontal[j]);
+    for (const BodyPart& part : *all)
+      drag[j] += ambient::ownDrag(part.faces, part.shape, axes.col(j), frontal[j]);
+  }
+  return drag;
+}
+
 Vector3 LoadTables::ownDrag(const Faces& faces) const {
   const Lock lock(tables_.mutex);
   const auto [entry, is_new] = tables_.own_drag.try_emplace(faces.get());
   if (!is_new) return entry->second;
   const ViscousForm& viscous = body_->viscous;
-  const Shape factors = shape();
-  for (int j = 0; j < 3; ++j)
-    entry->second[j] = ambient::ownDrag(*faces, *factors, viscous.separation.axes.col(j),
-                                        viscous.surface.frontal[j]);
+  entry->second = ownDrag(faces, viscous.separation.axes, viscous.surface.frontal);
   return entry->second;
 }
 

@@ -49,6 +49,13 @@ class SharedTables {
   std::size_t most_entries_ = 1;
 };
 
+/// A part of a body with wings as the form law sees it: the rest, or a wing. Frame F.
+struct BodyPart {
+  ShapeFactors shape;
+  FaceTable faces;  ///< of FluidBody::form
+  LiftedPart lifted;
+};
+
 struct BodyTables;
 struct Medium;
 class SurfaceLoads;
@@ -66,6 +73,7 @@ class LoadTables {
   using Faces = std::shared_ptr<const FaceTable>;
   using Shape = std::shared_ptr<const ShapeFactors>;
   using Loads = std::shared_ptr<const SurfaceLoads>;
+  using Parts = std::shared_ptr<const std::vector<BodyPart>>;
   using Wetted = std::shared_ptr<const WettedInertia>;
 
   explicit LoadTables(const Body& body);
@@ -83,8 +91,12 @@ class LoadTables {
   /// the form law of a shape; null: for the published law. Cost: PackedFaces().
   std::shared_ptr<const PackedFaces> packedFaces(const Faces& faces,
                                                  const ShapeFactors* shape) const;
-  /// Returns ownDrag() of faces along the axes of the fluid body's separation. Cost: six sums over
-  /// the faces.
+  /// The rest of a body with wings, then its wings; none: it is one part.
+  Parts parts() const;
+  /// Returns ownDrag() of faces, of a body with wings of all its parts, along the columns of `axes`
+  /// on frontal areas [m^2]. Cost: six sums over the faces.
+  Vector3 ownDrag(const Faces& faces, const Matrix3& axes, const Vector3& frontal) const;
+  /// The same along the axes of the fluid body's separation, once.
   Vector3 ownDrag(const Faces& faces) const;
   /// Hull for hydrostatics. Cost: PackedHull().
   std::shared_ptr<const PackedHull> hull() const;

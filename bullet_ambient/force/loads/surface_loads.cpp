@@ -4,12 +4,14 @@
 #include <optional>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/force/law/form_law.h"
 #include "bullet_ambient/force/law/viscous_law.h"
 #include "bullet_ambient/force/loads/face_loads.h"
 #include "bullet_ambient/force/loads/load_tables.h"
+#include "bullet_ambient/force/loads/wing_lift.h"
 
 namespace ambient {
 namespace {
@@ -141,15 +143,19 @@ ViscousFluid fluidOf(const LoadSettings& settings) {
 }
 
 /// Form law: loads on faces, their drag scaled by DragScale, plus FormLift on the body as a whole;
-/// with viscosity by ViscousLaw, docs/theory.md eq. (113).
+/// with viscosity by ViscousLaw, docs/theory.md eq. (113). Of a body with wings these are loads on
+/// its rest, and those on its wings are added, eq. (160).
 class FormLoads final : public ViscousLoads {
  public:
-  /// on_faces: pressure on `faces`.
+  /// on_faces: pressure on `faces` of the body, or on those of its rest.
   FormLoads(std::shared_ptr<const SurfaceLoads> on_faces, const LoadTables::Faces& faces,
             const LoadTables::Body& body, const LoadSettings& settings, double stall_lag)
       : on_faces_(std::move(on_faces)),
         shape_(LoadTables(body).shape()),
-        drag_(*body, *faces, *shape_),
+        drag_(*body, *faces,
+              [&](const Vector3& frontal) {
+                return LoadTables(body).ownDrag(faces, Matrix3::Identity(), frontal);
+              }),
         lift_(*body, *shape_, stall_lag),
         density_(settings.density),
         centre_(body->centre_of_volume) {
@@ -160,22 +166,37 @@ class FormLoads final : public ViscousLoads {
     if (settings.skin_friction) resistance_ = law_->resistance();
   }
 
-  int faces() const noexcept override { return on_faces_->faces(); }
+  /// Adds wings, which lift with the rest in place of the body as a whole: pressure on their faces.
+  void add(WingLift lift, std::vector<std::shared_ptr<const SurfaceLoads>> on_wings) {
+    wings_ = std::move(lift);
+    on_wings_ = std::move(on_wings);
+    lift_ = FormLift(LiftedPart{}, *shape_, 0);
+  }
+
+  int faces() const noexcept override {
+    int faces = on_faces_->faces();
+    for (const auto& wing : on_wings_) faces += wing->faces();
+    return faces;
+  }
   double wakeShare() const noexcept override { return shape_->wakeShare(); }
 
  protected:
   Parts compute(const Twist& x, const WetPart* wet) const noexcept override {
     const double share = wet ? wet->share : 1;
     const Vector3 &w = x.angular, v = x.at(centre_);
-    if (!law_)
-      return {
-          drag_.scaled(onFaces(x, wet), x) + share * atCentre(lift_.load(w, v, density_)), {}, {}};
+    if (!law_) {
+      const Wrench faces = drag_.scaled(withWings(onFaces(x, wet), x, wet), x);
+      Parts parts{faces + share * atCentre(lift_.load(w, v, density_)), {}, {}};
+      if (wings_) parts.pressure += wings_->load(x, density_, {}, wet);
+      return parts;
+    }
     const ViscousLaw::Scalars s = law_->scalars(x);
     if (!s.moves) return {{}, {}, resistance_ ? inWater(kCreeping, wet) : Growth{}};
-    const Wrench on_faces = drag_.scaled(pressure(s, x, v, wet), x);
+    const Wrench on_faces = drag_.scaled(withWings(pressure(s, x, v, wet), x, wet), x);
     Wrench whole = lift_.load(w, v, density_, s.munk);
     if (law_->isSmooth()) whole += law_->smoothLoad(s, w, v);
     Parts parts{s.pressure * on_faces + share * atCentre(whole), {}, {}};
+    if (wings_) parts.pressure += wings_->load(x, density_, {s.munk, s.pressure}, wet);
     if (!resistance_) return parts;
     if (law_->isSmooth()) parts.layer = share * atCentre({Vector3::Zero(), law_->layerForce(s, v)});
     parts.growth = inWater(law_->growth(s, share > 0 ? -power(on_faces, x) / share : 0), wet);
@@ -185,6 +206,10 @@ class FormLoads final : public ViscousLoads {
  private:
   Wrench onFaces(const Twist& x, const WetPart* wet) const noexcept {
     return wet ? on_faces_->wetLoad(x, *wet) : on_faces_->load(x);
+  }
+  Wrench withWings(Wrench load, const Twist& x, const WetPart* wet) const noexcept {
+    for (const auto& wing : on_wings_) load += wet ? wing->wetLoad(x, *wet) : wing->load(x);
+    return load;
   }
   Wrench atCentre(const Wrench& about) const noexcept {
     return {about.torque + centre_.cross(about.force), about.force};
@@ -207,6 +232,8 @@ class FormLoads final : public ViscousLoads {
   double density_;
   Vector3 centre_;
   std::optional<ViscousLaw> law_;  ///< none: no viscosity
+  std::optional<WingLift> wings_;  ///< none: the body is one part
+  std::vector<std::shared_ptr<const SurfaceLoads>> on_wings_;
 };
 
 /// Form law on a ball in closed form, docs/theory.md eq. (119); on the part of it that is in the
@@ -405,6 +432,25 @@ std::shared_ptr<const SurfaceLoads> loadsOn(const Body& body, const LoadTables::
                                        length, settings);
 }
 
+/// Form law on a body with wings, part by part.
+std::shared_ptr<const SurfaceLoads> loadsOnParts(const Body& body, const LoadSettings& settings,
+                                                 const FlowSettings& flow) {
+  const LoadTables::Parts parts = LoadTables(body).parts();
+  const auto onFaces = [&](const BodyPart& part) {
+    LoadSettings smooth = settings;  // friction is no sum over faces
+    smooth.shape = &part.shape;
+    smooth.skin_friction = false;
+    return loadsOn(body, {body, &part.faces}, smooth, flow.precision);
+  };
+  const BodyPart& rest = parts->front();
+  const auto loads = std::make_shared<FormLoads>(
+      onFaces(rest), LoadTables::Faces{body, &body->form.faces}, body, settings, flow.stall_lag);
+  std::vector<std::shared_ptr<const SurfaceLoads>> on_wings;
+  for (std::size_t i = 1; i < parts->size(); ++i) on_wings.push_back(onFaces((*parts)[i]));
+  loads->add(WingLift(*parts, flow.stall_lag), std::move(on_wings));
+  return loads;
+}
+
 std::shared_ptr<const SurfaceLoads> loadsOnFaces(const Body& body, LoadSettings settings,
                                                  const FlowSettings& flow) {
   if (!hasFaces(*body)) return nullptr;
@@ -413,6 +459,7 @@ std::shared_ptr<const SurfaceLoads> loadsOnFaces(const Body& body, LoadSettings 
     return loadsOn(whole, {whole, &whole->faces}, settings, flow.precision);
   }
   requirePrepared(*body);
+  if (!body->wings.empty()) return loadsOnParts(body, settings, flow);
   const LoadTables::Shape shape = LoadTables(body).shape();
   const LoadTables::Faces faces = chooseFormFaces(body, *shape, flow);
   LoadSettings smooth = settings;  // friction is no sum over faces

@@ -48,6 +48,7 @@ ShapeBuildSettings settingsOf(const BuildArguments& arguments) {
   settings.flow.max_panels = arguments.panels;
   settings.flow.threads = arguments.threads;
   settings.tables = !arguments.no_tables;
+  settings.wings = arguments.wings;
   settings.waterline_subdivisions = arguments.waterline;
   return settings;
 }
@@ -89,6 +90,8 @@ FluidBody buildAndWrite(const ShapeDescription& shape, ShapeBuildSettings settin
       raiseInputError(arguments.input,
                       "--drag needs faces: a sphere has the loads of a smooth one");
     if (!arguments.drag.empty()) setMeasuredDrag(dragOf(arguments), built.body);
+    if (!built.body.wings.empty() && !arguments.levels.empty())
+      raiseUsageError("--levels", "a body with wings has none: its parts have few faces");
     built.body.form_levels = buildFormLevels(built.body, arguments.levels);
     built.body.provenance.settings = describeBody(shape, settings, arguments).settings;
   }
@@ -165,6 +168,10 @@ void addBodyOptions(CLI::App& command, BuildArguments& arguments) {
   addOption(command, "--levels", arguments.levels, "N,N,...",
             "Sets of so many faces that stand for all in the form law (default none)")
       ->delimiter(',');
+  addOption(
+      command, "--wings", arguments.wings, "none|auto|FILE",
+      "Parts that lift where they are: by the names of nodes in the mesh file, else found; or "
+      "as a JSON file lists them (default none)");
   addOption(command, "--drag", arguments.drag, "C[,C,C]",
             "Measured drag coefficients along the axes, on the frontal areas, that the drag of the "
             "form law is scaled to (default none)")

@@ -11,6 +11,7 @@
 #include <csignal>
 #include <cstring>
 #include <filesystem>
+#include <sstream>
 #include <stdexcept>
 
 #include "preprocess/mesh/input_error.h"
@@ -121,13 +122,13 @@ void requireGoodEnd(const ChildResult& reader, int most_seconds) {
   if (reader.signal != 0 || reader.exit_code != 0) throw std::runtime_error(its_reader + "crashed");
 }
 
-/// The next columns of three numbers in the reader's output.
-template <class Number>
-Eigen::Matrix<Number, 3, Eigen::Dynamic> take(const std::string& bytes, std::size_t& place,
-                                              std::int64_t columns) {
-  const std::size_t size = 3 * sizeof(Number) * static_cast<std::size_t>(columns);
+/// The next columns of numbers in the reader's output.
+template <class Number, int kRows = 3>
+Eigen::Matrix<Number, kRows, Eigen::Dynamic> take(const std::string& bytes, std::size_t& place,
+                                                  std::int64_t columns) {
+  const std::size_t size = kRows * sizeof(Number) * static_cast<std::size_t>(columns);
   if (size > bytes.size() - place) throw std::runtime_error("its reader ended without a result");
-  Eigen::Matrix<Number, 3, Eigen::Dynamic> numbers(3, columns);
+  Eigen::Matrix<Number, kRows, Eigen::Dynamic> numbers(kRows, columns);
   std::copy_n(bytes.data() + place, size, reinterpret_cast<char*>(numbers.data()));
   place += size;
   return numbers;
@@ -144,7 +145,14 @@ SceneTriangles readWithProgram(const std::filesystem::path& file) {
   scene.points_and_lines = counts(0);
   scene.mesh.vertices = take<double>(reader.output, place, counts(1));
   scene.mesh.triangles = take<int>(reader.output, place, counts(2));
-  scene.warning = reader.output.substr(place);
+  const auto nodes = take<int, 1>(reader.output, place, counts(2));
+  scene.nodes.assign(nodes.data(), nodes.data() + nodes.size());
+  std::istringstream text(reader.output.substr(place));
+  std::getline(text, scene.warning);
+  for (std::string name; std::getline(text, name);) scene.names.push_back(name);
+  for (const int node : scene.nodes)
+    if (node < -1 || node >= static_cast<int>(scene.names.size()))
+      throw std::runtime_error("its reader ended without a result");
   return scene;
 }
 

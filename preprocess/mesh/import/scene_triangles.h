@@ -27,6 +27,8 @@ struct SceneTriangles {
   TriangleMesh mesh;
   std::int64_t points_and_lines = 0;  ///< number of points and lines that were left out
   std::string warning;                ///< for the user, without the file's name; mostly empty
+  std::vector<int> nodes;             ///< index into `names` of each triangle; -1: none
+  std::vector<std::string> names;     ///< of nodes and groups; may be empty or the same
 };
 
 /// Exit code of ambient_mesh_reader if it refuses the file; it has then written why.
@@ -35,8 +37,8 @@ constexpr int kRefusedByReader = 3;
 /// Reads a file with the program ambient_mesh_reader, so that crashes, damaged memory and endless
 /// loops of its readers end with that program; polygons are divided into triangles. It may take
 /// 10 s of processor time, and 2 s for each megabyte. It writes three numbers of 64 bits: points
-/// and lines, vertices, triangles; then the coordinates as doubles, the corners as ints, and the
-/// warning.
+/// and lines, vertices, triangles; then the coordinates as doubles, the corners and the nodes of
+/// the triangles as ints, the warning, and the names of the nodes, a line each.
 /// @throws std::runtime_error in one line that begins with the file.
 SceneTriangles readSceneTriangles(const std::filesystem::path& file);
 

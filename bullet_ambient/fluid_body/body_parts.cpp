@@ -1,0 +1,62 @@
+#include "bullet_ambient/fluid_body/body_parts.h"
+
+#include <cmath>
+
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
+
+namespace ambient {
+namespace {
+
+/// Area of a wing along z, half of that of its faces [m^2].
+double planformOf(const Wing& wing, const FaceTable& faces) {
+  double area = 0;
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    area += faces.area[i] * std::abs(wing.facing.dot(faces.normal(i)));
+  return area / 2;
+}
+
+/// The matrix with 0 in place of negative eigenvalues.
+Matrix3 positivePartOf(const Matrix3& matrix) {
+  const SymmetricEigen<3> eigen = symmetricEigen<3>(matrix);
+  return eigen.vectors * eigen.values.cwiseMax(0.0).asDiagonal() * eigen.vectors.transpose();
+}
+
+}  // namespace
+
+FaceTable facesOfPart(const SurfaceForm& form, std::size_t label) {
+  AMBIENT_ASSERT(form.part_of_face.size() == form.faces.size());
+  FaceTable faces;
+  for (std::size_t i = 0; i < form.faces.size(); ++i) {
+    if (form.part_of_face[i] != label) continue;
+    faces.add(form.faces.normal(i), form.faces.centroid(i), form.faces.area[i]);
+    faces.sharpness.push_back(form.faces.sharpness[i]);
+  }
+  return faces;
+}
+
+std::vector<LiftedPart> liftedPartsOf(const FluidBody& body) {
+  constexpr double kLeastRest = 0.02;  // of the volume: below, what is left of K_vv is its error
+  const Matrix3 whole = body.added_mass.bottomRightCorner<3, 3>();
+  LiftedPart rest{whole, body.volume, 0, body.volume * body.centre_of_volume};
+  std::vector<LiftedPart> parts(1);
+  for (std::size_t i = 0; i < body.wings.size(); ++i) {
+    const Wing& wing = body.wings[i];
+    const double area = planformOf(wing, facesOfPart(body.form, i + 1));
+    const Matrix3 added_mass = wing.plateMass() * wing.facing * wing.facing.transpose();
+    parts.push_back({added_mass, area * wing.thickness, 2 * area, wing.centre});
+    rest.added_mass -= added_mass;
+    rest.volume -= parts.back().volume;
+    rest.centre -= parts.back().volume * wing.centre;
+  }
+  parts.front().centre = body.centre_of_volume;
+  if (!(rest.volume > kLeastRest * body.volume)) return parts;
+  for (std::size_t i = 0; i < body.form.faces.size(); ++i)
+    if (body.form.part_of_face[i] == 0) rest.area += body.form.faces.area[i];
+  rest.centre /= rest.volume;
+  rest.added_mass = positivePartOf(rest.added_mass);
+  parts.front() = rest;
+  return parts;
+}
+
+}  // namespace ambient

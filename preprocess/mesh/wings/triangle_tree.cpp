@@ -1,0 +1,125 @@
+#include "preprocess/mesh/wings/triangle_tree.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "preprocess/mesh/geometry.h"
+
+namespace ambient {
+
+using Eigen::Vector3d;
+
+TriangleTree::TriangleTree(const TriangleMesh& mesh)
+    : mesh_(mesh),
+      least_(1e-7 * mesh.extents().maxCoeff()),
+      order_(static_cast<std::size_t>(mesh.triangleCount())) {
+  std::iota(order_.begin(), order_.end(), 0);
+  Eigen::Matrix3Xd middles(3, mesh.triangleCount());
+  for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) middles.col(t) = mesh.barycentre(t);
+  if (!order_.empty()) build(0, static_cast<int>(order_.size()), middles);
+}
+
+void TriangleTree::build(int first, int count, const Eigen::Matrix3Xd& middles) {
+  constexpr int kLeaf = 4;
+  const std::size_t here = nodes_.size();
+  nodes_.emplace_back();
+  Eigen::AlignedBox3d box, of_middles;
+  for (int i = first; i < first + count; ++i) {
+    const int t = order_[static_cast<std::size_t>(i)];
+    for (int k = 0; k < 3; ++k) box.extend(Vector3d(mesh_.corner(t, k)));
+    of_middles.extend(Vector3d(middles.col(t)));
+  }
+  nodes_[here].box = box;
+  if (count <= kLeaf) {
+    nodes_[here].first = first;
+    nodes_[here].count = count;
+    return;
+  }
+  Eigen::Index axis = 0;
+  of_middles.sizes().maxCoeff(&axis);
+  const int half = count / 2;
+  const auto begin = order_.begin() + first;
+  std::nth_element(begin, begin + half, begin + count, [&](int a, int b) {
+    return std::make_pair(middles(axis, a), a) < std::make_pair(middles(axis, b), b);
+  });
+  build(first, half, middles);
+  nodes_[here].first = static_cast<int>(nodes_.size());
+  build(first + half, count - half, middles);
+}
+
+double TriangleTree::crossing(int triangle, const Vector3d& from, const Vector3d& direction) const {
+  constexpr double kRim = 1e-9;  // of a triangle: edges belong to both of their sides
+  const Vector3d a = mesh_.corner(triangle, 0), e1 = mesh_.corner(triangle, 1) - a,
+                 e2 = mesh_.corner(triangle, 2) - a;
+  const Vector3d p = direction.cross(e2);
+  const double determinant = p.dot(e1);
+  if (!(e1.cross(e2).dot(direction) > 0)) return kNever;
+  const Vector3d to = from - a;
+  const double u = to.dot(p) / determinant;
+  const Vector3d q = to.cross(e1);
+  const double v = q.dot(direction) / determinant;
+  if (!(u >= -kRim && v >= -kRim && u + v <= 1 + kRim)) return kNever;
+  const double way = q.dot(e2) / determinant;
+  return way > least_ ? way : kNever;
+}
+
+double TriangleTree::leave(const Vector3d& from, const Vector3d& direction) const {
+  double nearest = kNever;
+  const Vector3d inverse = direction.cwiseInverse();
+  const auto misses = [&](const Eigen::AlignedBox3d& box) {
+    double in = 0, out = nearest;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (direction[axis] == 0) {
+        if (from[axis] < box.min()[axis] - least_ || from[axis] > box.max()[axis] + least_)
+          return true;
+        continue;
+      }
+      const double a = (box.min()[axis] - least_ - from[axis]) * inverse[axis];
+      const double b = (box.max()[axis] + least_ - from[axis]) * inverse[axis];
+      in = std::max(in, std::min(a, b));
+      out = std::min(out, std::max(a, b));
+    }
+    return in > out;
+  };
+  std::vector<int> pending;
+  if (!nodes_.empty()) pending.push_back(0);
+  while (!pending.empty()) {
+    const Node& node = nodes_[static_cast<std::size_t>(pending.back())];
+    const int number = pending.back();
+    pending.pop_back();
+    if (misses(node.box)) continue;
+    for (int i = node.first; i < node.first + node.count; ++i)
+      nearest = std::min(nearest, crossing(order_[static_cast<std::size_t>(i)], from, direction));
+    if (node.count > 0) continue;
+    pending.push_back(node.first);
+    pending.push_back(number + 1);
+  }
+  return nearest;
+}
+
+int TriangleTree::nearest(const Vector3d& point) const {
+  double least = kNever;
+  int found = 0;
+  std::vector<int> pending{0};
+  while (!pending.empty()) {
+    const int number = pending.back();
+    const Node& node = nodes_[static_cast<std::size_t>(number)];
+    pending.pop_back();
+    if (node.box.squaredExteriorDistance(point) > least) continue;
+    for (int i = node.first; i < node.first + node.count; ++i) {
+      const int t = order_[static_cast<std::size_t>(i)];
+      if (!(mesh_.twiceArea(t).norm() > 0)) continue;
+      const double square = (nearestPoint(cornersOf(mesh_, t), point) - point).squaredNorm();
+      if (square > least || (square == least && t > found)) continue;
+      least = square;
+      found = t;
+    }
+    if (node.count > 0) continue;
+    pending.push_back(node.first);
+    pending.push_back(number + 1);
+  }
+  return found;
+}
+
+}  // namespace ambient

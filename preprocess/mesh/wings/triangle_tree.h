@@ -1,0 +1,42 @@
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "preprocess/mesh/triangle_mesh.h"
+
+namespace ambient {
+
+/// Rays through a mesh and its nearest triangles, by a binary tree of boxes around them.
+class TriangleTree {
+ public:
+  static constexpr double kNever = std::numeric_limits<double>::infinity();
+
+  /// Keeps a reference to the mesh. Cost O(T log T).
+  explicit TriangleTree(const TriangleMesh& mesh);
+
+  /// Returns the way from a point inside along a unit vector to where the ray leaves the solid [m],
+  /// or kNever. Crossings nearer than 1e-7 of the size of the mesh do not count. Cost O(log T).
+  /// @pre the mesh is closed
+  double leave(const Eigen::Vector3d& from, const Eigen::Vector3d& direction) const;
+  /// Returns the triangle nearest to a point, of several the first. @pre the mesh has triangles
+  int nearest(const Eigen::Vector3d& point) const;
+
+ private:
+  struct Node {
+    Eigen::AlignedBox3d box;
+    int first = 0, count = 0;  ///< of order_; count 0: two nodes follow, the second at `first`
+  };
+
+  void build(int first, int count, const Eigen::Matrix3Xd& middles);
+  /// Way to a crossing outwards through a triangle, or kNever.
+  double crossing(int triangle, const Eigen::Vector3d& from,
+                  const Eigen::Vector3d& direction) const;
+
+  const TriangleMesh& mesh_;
+  double least_;
+  std::vector<int> order_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace ambient
