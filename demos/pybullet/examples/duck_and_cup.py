@@ -63,6 +63,9 @@ for load, name in ((CUP, "the cup alone"), (CUP + DUCK, "the duck in the cup")):
     print("%s: draught %.2f mm, %.2f mm by its weight, heel %.1f degrees" % (name, 1000 * draught, 1000 * load / DENSITY / area, heel))
     if load == CUP:
         print("the duck swims: its middle is %.1f mm above the water" % (1000 * p.getBasePositionAndOrientation(duck)[0][2]))
-        p.resetBasePositionAndOrientation(duck, [*p.getBasePositionAndOrientation(cup)[0][:2], 0.05], [0, 0, 0, 1])
+        x, y, _ = p.getBasePositionAndOrientation(cup)[0]
+        p.resetBasePositionAndOrientation(duck, [x + 0.05, y, 0.05], [0, 0, 0, 1])
 print("\n".join(fluid.status()["said"]))
-picture.save(arguments.picture, [0.1, -0.75, 0.45], [0, 0, 0.02], lambda: picture.add_surface([-0.5, -0.3], [0.5, 0.5]), share=0.4)
+x, y, _ = p.getBasePositionAndOrientation(cup)[0]
+picture.save(arguments.picture, [x + 0.15, y - 0.45, 0.5], [x, y, 0.02], lambda: picture.add_surface(
+    [x - 0.5, y - 0.4], [x + 0.5, y + 0.6], cells=150, is_dry=lambda u, v: np.hypot(u - x, v - y) < WIDTH / 2 - WALL), share=0.4)
