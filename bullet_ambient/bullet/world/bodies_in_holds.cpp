@@ -112,6 +112,7 @@ void enterHold(const Vessel& vessel, const Member& member, FluidRegions& regions
   const Vector3 place_F = vessel.R_WF.transpose() * (member.centre() - vessel.origin_W);
   const std::vector<Hold>& holds = vessel.ambient.vessel->shape->holds;
   for (std::size_t i = 0; i < holds.size(); ++i) {
+    if (!(body.def->fluid_body->volume < holds[i].volume)) continue;
     if (isOfTheSea(vessel, i) || !isInside(holds[i].surface, place_F)) continue;
     if (!known) {
       body.in_hold = static_cast<int>(regions.in_holds.size());
