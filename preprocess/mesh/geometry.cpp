@@ -100,8 +100,11 @@ Points projected(const std::vector<Eigen::Vector3d>& corners) {
 /// The remaining polygon while its ears are cut off.
 class EarClipping {
  public:
-  explicit EarClipping(Points points)
-      : points_(std::move(points)), left_(points_.size()), blocker_(points_.size(), kUnknown) {
+  EarClipping(Points points, const std::set<std::pair<int, int>>& apart)
+      : points_(std::move(points)),
+        apart_(apart),
+        left_(points_.size()),
+        blocker_(points_.size(), kUnknown) {
     std::iota(left_.begin(), left_.end(), 0);
   }
 
@@ -161,6 +164,7 @@ class EarClipping {
     double best_shape = 0, best_shape_regardless = -2;
     for (std::size_t i = 0; i < left_.size(); ++i) {
       const Eigen::Vector3i triangle = triangleAt(i);
+      if (apart_.count(std::minmax({triangle[0], triangle[2]})) > 0) continue;
       const double value = shape(triangle);
       if (value > best_shape_regardless) {
         best_shape_regardless = value;
@@ -176,16 +180,18 @@ class EarClipping {
 
   static constexpr int kUnknown = -2, kNobody = -1;
   Points points_;
+  const std::set<std::pair<int, int>>& apart_;
   std::vector<int> left_;
   std::vector<int> blocker_;  // of each corner: who lies in its ear
 };
 
 }  // namespace
 
-std::vector<Eigen::Vector3i> dividePolygon(const std::vector<Eigen::Vector3d>& corners) {
+std::vector<Eigen::Vector3i> dividePolygon(const std::vector<Eigen::Vector3d>& corners,
+                                           const std::set<std::pair<int, int>>& apart) {
   AMBIENT_ASSERT(corners.size() >= 3);
   if (corners.size() == 3) return {{0, 1, 2}};
-  return EarClipping(projected(corners)).triangles();
+  return EarClipping(projected(corners), apart).triangles();
 }
 
 namespace {

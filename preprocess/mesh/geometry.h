@@ -1,6 +1,8 @@
 #pragma once
 
 #include <optional>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "preprocess/mesh/triangle_mesh.h"
@@ -51,8 +53,10 @@ bool areNear(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b, double 
 /// triples into `corners` [m], with the orientation of the polygon. The ears of best shape are cut
 /// off first, seen along the polygon's area vector. A polygon that crosses itself yields triangles
 /// that overlap. Cost O(n^2), of shapes with many hollow corners O(n^3).
-/// @pre at least three corners, finite.
-std::vector<Eigen::Vector3i> dividePolygon(const std::vector<Eigen::Vector3d>& corners);
+/// @param corners at least three, finite [m]
+/// @param apart pairs of corners, (low, high), that no new edge joins if there is another way
+std::vector<Eigen::Vector3i> dividePolygon(const std::vector<Eigen::Vector3d>& corners,
+                                           const std::set<std::pair<int, int>>& apart = {});
 
 /// Deviation of a triangle from an equilateral one.
 struct TriangleQuality {

@@ -11,7 +11,7 @@
 #include "bullet_ambient/bullet/links/tree_step.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/bullet/members/attach.h"
-#include "bullet_ambient/bullet/members/bodies_in_holds.h"
+#include "bullet_ambient/bullet/world/bodies_in_holds.h"
 #include "bullet_ambient/bullet/members/flight_coupling.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
 #include "bullet_ambient/bullet/rows/row_motion.h"

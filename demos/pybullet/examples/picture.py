@@ -9,12 +9,14 @@ import pybullet as p
 SIZE = (800, 400)
 
 
-def add_surface(lower, upper, height=lambda x, y: 0 * x, cells=48, colour=(0.25, 0.55, 0.85, 1)):
-    """Adds a surface of water over a rectangle: a body without mass and collisions, for pictures alone."""
+def add_surface(lower, upper, height=lambda x, y: 0 * x, cells=48, colour=(0.25, 0.55, 0.85, 1), is_dry=None):
+    """Adds a surface of water over a rectangle, but for cells whose corner (x, y) `is_dry`: a body without mass and collisions, for pictures alone."""
     x, y = (np.linspace(lower[i], upper[i], cells + 1) for i in (0, 1))
     x, y = np.meshgrid(x, y)
     vertices = np.stack([x, y, height(x, y)], axis=-1).reshape(-1, 3)
     corner = (np.arange(cells)[:, None] * (cells + 1) + np.arange(cells)).reshape(-1, 1)
+    if is_dry:
+        corner = corner[~is_dry(*vertices[corner[:, 0], :2].T)]
     triangles = np.concatenate([corner + [0, 1, cells + 2], corner + [0, cells + 2, cells + 1]])
     shape = p.createVisualShape(p.GEOM_MESH, vertices=vertices.tolist(), indices=triangles.ravel().tolist(), rgbaColor=colour)
     return p.createMultiBody(0, -1, shape)

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Six first trials with vessels, docs/vessels.md: what floats, floods, is pumped, poured out and sinks."""
+"""Seven first trials with vessels, docs/vessels.md: what floats, heels, floods, is pumped, poured out and sinks."""
 
 import argparse
 from pathlib import Path
@@ -125,9 +125,27 @@ def bilge_pump(cache=None):
         return follow(world, 240, lambda body: (0.13 - body.position[2], body.holds[0]["volume"]), pump)
 
 
+def loose_ball(cache=None):
+    """A tray with a loose ball of lead, 10.3 kg, near its middle: slope of its long and of its short side, place of the ball on them [m]."""
+    ball = {"name": "ball", "shape": {"type": "sphere", "radius": 0.06}, "mass": 10.26, "position": [0, 0.01, -0.035]}
+    tray = {"name": "vessel", "shape": open_box(1, 0.6, 0.4, 0.02), "mass": 60, "centre_of_mass": [0, 0, -0.05], "position": [0, 0, 0.083]}
+    scene = {"time_step": STEP, "duration": 1, "output_step": STEP, "water": {"level": 0}, "bodies": [tray, ball]}
+    with ba.World(ba.Scene(scene), cache=cache) as world:
+
+        def numbers(body):
+            w, x, y, z = body.orientation
+            along = np.array([1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)])
+            across = np.array([2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)])
+            way = world.bodies["ball"].position - body.position
+            return along[2], across[2], along @ way, across @ way
+
+        return follow(world, 40, numbers)
+
+
 def draw(file, cache):
-    figure, axes = plt.subplots(2, 3, figsize=(13, 7), layout="constrained")
-    (above, bowl, pail), (bell, ship, leak) = axes
+    figure, axes = plt.subplots(2, 4, figsize=(17, 7), layout="constrained")
+    (above, bowl, pail, tray), (bell, ship, leak, empty) = axes
+    empty.set_axis_off()
 
     def plot(axis, rows, columns, labels, title):
         for column, label in zip(columns, labels):
@@ -152,6 +170,7 @@ def draw(file, cache):
     ship.set(xlabel="t [s]", ylabel="height [m]", ylim=(-3, 0.3), title="ship of four compartments")
     ship.legend(fontsize=8)
     plot(leak, bilge_pump(cache), (1, 2), ("draught [m]", "water inside [m³]"), "leak, and a pump from 60 s on")
+    plot(tray, loose_ball(cache), (1, 2, 3, 4), ("trim", "heel", "ball along [m]", "ball across [m]"), "tray with a loose ball of lead")
     figure.savefig(file, dpi=90)
 
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -120,11 +121,27 @@ class LidSpanner {
     return loops;
   }
 
+  /// Finds edges of the mesh from one place of a loop to another, (low, high): a lid that had them,
+  /// too, would not close.
+  std::set<std::pair<int, int>> edgesAcross(const std::vector<int>& loop) const {
+    std::map<int, int> place_of;
+    for (std::size_t i = 0; i < loop.size(); ++i) place_of.emplace(loop[i], static_cast<int>(i));
+    std::set<std::pair<int, int>> edges;
+    for (const auto& corners : mesh_.triangles.colwise()) {
+      for (int k = 0; k < 3; ++k) {
+        const auto a = place_of.find(corners[k]), b = place_of.find(corners[(k + 1) % 3]);
+        if (a != place_of.end() && b != place_of.end())
+          edges.insert(std::minmax({a->second, b->second}));
+      }
+    }
+    return edges;
+  }
+
   Loop spanned(Loop loop) const {
     if (loop.vertices.size() < 3) return loop;
     std::vector<Vector3d> corners;
     for (const int v : loop.vertices) corners.emplace_back(mesh_.vertices.col(v));
-    for (const Eigen::Vector3i& t : dividePolygon(corners))
+    for (const Eigen::Vector3i& t : dividePolygon(corners, edgesAcross(loop.vertices)))
       loop.lid.push_back({loop.vertices[t[0]], loop.vertices[t[1]], loop.vertices[t[2]]});
     return loop;
   }

@@ -46,6 +46,13 @@ class ExamplesTest(unittest.TestCase):
         self.assertGreater(water / seconds, 0.1)
         self.assertLess(water, 0.8 * land)
 
+    def test_a_cup_stays_dry_and_bears_a_duck(self):
+        alone, weight, upright, height, loaded, both, heel, *_ = self.run_example("duck_and_cup.py")
+        np.testing.assert_allclose([alone, loaded], [weight, both], rtol=5e-3)
+        self.assertLess(upright, 0.1)
+        self.assertGreater(heel, 2)
+        self.assertLess(abs(height), 20)
+
     def test_a_boat_heaves_with_waves_twice_as_long_as_it_is(self):
         amplitude, heave, pitch = self.run_example("boat_in_waves.py")
         self.assertAlmostEqual(heave / amplitude, 1, delta=0.25)

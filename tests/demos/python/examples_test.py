@@ -97,6 +97,17 @@ class VesselsTest(unittest.TestCase):
         self.assertAlmostEqual(np.interp(10, time, draught), 0.1 + np.interp(10, time, water) / 2, delta=1e-3)
         self.assertLess(water[-1], 1e-5)  # what leaks in a step
 
+    def test_a_loose_ball_of_lead_heels_a_tray_until_it_lies_in_a_corner(self):
+        _, trim, heel, along, across = vessels.loose_ball()[-1]
+        np.testing.assert_allclose(np.abs([along, across]), [0.42, 0.22], atol=1e-4)
+        # Of a box, in its frame from the bottom: middle of the water displaced below z = depth + slope . (x, y) over the middle of the weights.
+        mass, sizes = 70.26, np.array([1, 0.6])
+        depth, slope = mass / 998 / sizes.prod(), -np.array([trim, heel]) / np.sqrt(1 - trim**2 - heel**2)
+        displaced = np.append(slope * sizes**2 / 12 / depth, depth / 2 + (slope**2 @ sizes**2) / 24 / depth)
+        weights = (10.26 * np.array([along, across, 0.08]) + 60 * np.array([0, 0, 0.15])) / mass
+        lever = displaced - weights
+        np.testing.assert_allclose(lever[:2], -slope * lever[2], atol=8e-5)
+
 
 class PlateMapTest(unittest.TestCase):
     def test_shapes_are_made_before_the_runs_and_both_say_how_far_they_are(self):

@@ -229,6 +229,25 @@ TEST(HoldSearch, RoundRimIsMetOnItsCrest) {
   expectHold(makeLathe(profile, 64), (halfBall(.18, .18, .18) + 0.01329) / 2, 1, 0.05);
 }
 
+// A bowl whose rim goes up to a spout, of which one triangle belongs to the room: its lower edge is
+// no edge of the lid, though it would cut off the ear of best shape.
+TEST(HoldSearch, LidKeepsOffEdgesOfTheMesh) {
+  TriangleMesh mesh;
+  mesh.vertices.resize(3, 7);
+  mesh.vertices << -.5, .5, .5, 0, -.5, 0, 0,    //
+      -.8, -.8, 0, std::sqrt(.75), 0, -.3, -.2,  //
+      0, 0, 0, .1, 0, -.15, -1;
+  mesh.triangles.resize(3, 10);
+  mesh.triangles.col(0) << 2, 3, 4;
+  constexpr int kRoom[] = {0, 1, 2, 4}, kRim[] = {0, 1, 2, 3, 4};
+  for (int i = 0; i < 4; ++i) mesh.triangles.col(1 + i) << kRoom[i], kRoom[(i + 1) % 4], 5;
+  for (int i = 0; i < 5; ++i) mesh.triangles.col(5 + i) << kRim[(i + 1) % 5], kRim[i], 6;
+  const std::vector<double> volumes = volumesOf(mesh);
+  ASSERT_EQ(volumes.size(), 1u);
+  EXPECT_GT(volumes[0], .8 * .15 / 3);
+  EXPECT_LT(volumes[0], .8 * .15 / 3 + .1 * (.8 + std::sqrt(.75) / 2));
+}
+
 TEST(HoldSearch, WhichWayIsUp) {
   const TriangleMesh bowl = makeBowl(0.2, 0.01, 24, 8);
   HoldSearch search;

@@ -1,5 +1,9 @@
 #include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
 
+#include <functional>
+#include <utility>
+#include <vector>
+
 #include "bullet_ambient/force/medium/waves.h"
 #include "tests/bullet_ambient/bullet/robots/robot_world.h"
 #include "tests/support/bodies/vessel_bodies.h"
@@ -124,6 +128,56 @@ TEST(LinksAtASurface, SinkAsABody) {
   const double in_link = pair.world.fluid.find(pair.multi, -1)->holds().at(0).volume;
   EXPECT_GT(in_body, 0.25);
   EXPECT_NEAR(in_link, in_body, 1e-3);
+}
+
+/// A toy boat of 4.5 kg let go over the water in the hold of a barge; each is a link or a body.
+/// Returns the heights of both after ten seconds [m].
+std::pair<double, double> toyInABarge(bool is_link, bool is_in_link) {
+  btEmptyShape no_shape;
+  RobotWorld world;
+  world.world.setGravity({0, 0, bt(-9.81)});
+  world.fluid.addRegion(seaUnderAir());
+  std::vector<std::function<double()>> heights;
+  const auto add = [&](const Floater& floater, double height, bool as_link) {
+    const double mass = floater.specific_gravity * water().density * floater.shape.volume;
+    const btVector3 inertia = bt(mass) * toBullet(floater.gyration_squared);
+    AttachDef def;
+    def.fluid_body = std::make_shared<FluidBody>(floater.shape);
+    def.medium = air();
+    def.holds = floater.holds;
+    if (as_link) {
+      auto robot = std::make_unique<btMultiBody>(0, bt(mass), inertia, false, false);
+      robot->finalizeMultiDof();
+      robot->setBasePos({0, 0, bt(height)});
+      btMultiBody& multi = world.takeUndamped(std::move(robot));
+      world.fluid.add(multi, -1, def);
+      heights.emplace_back([&multi] { return static_cast<double>(multi.getBasePos().z()); });
+    } else {
+      btRigidBody& rigid = world.contents.add(
+          mass, inertia, no_shape, btTransform(btQuaternion::getIdentity(), {0, 0, bt(height)}));
+      rigid.setActivationState(DISABLE_DEACTIVATION);
+      world.fluid.add(rigid, def);
+      heights.emplace_back(
+          [&rigid] { return static_cast<double>(rigid.getWorldTransform().getOrigin().z()); });
+    }
+  };
+  Floater toy;
+  toy.shape = floatingBox({0.3, 0.3, 0.1});
+  toy.gyration_squared = {0.1 / 12, 0.1 / 12, 0.18 / 12};
+  add(bargeWithWater(0), 0.05, is_in_link);
+  add(toy, 0.1, is_link);
+  world.step(1 / kSurfaceHertz, static_cast<int>(10 * kSurfaceHertz));
+  return {heights[0](), heights[1]()};
+}
+
+TEST(LinksAtASurface, FloatInAHoldAsBodiesDo) {
+  const auto [barge, toy] = toyInABarge(false, false);
+  EXPECT_LT(toy, -0.01);  // the level in the hold lies below that of the sea
+  for (const bool is_in_link : {false, true}) {
+    const auto [barge_there, toy_there] = toyInABarge(true, is_in_link);
+    EXPECT_NEAR(barge_there, barge, 1e-3);
+    EXPECT_NEAR(toy_there, toy, 1e-3);
+  }
 }
 
 TEST(LinksAtASurface, RideWavesAsABody) {

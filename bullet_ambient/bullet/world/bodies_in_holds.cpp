@@ -1,4 +1,4 @@
-#include "bullet_ambient/bullet/members/bodies_in_holds.h"
+#include "bullet_ambient/bullet/world/bodies_in_holds.h"
 
 #include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
 
@@ -9,6 +9,8 @@
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/bullet/core/body_motion.h"
+#include "bullet_ambient/bullet/links/tree_step.h"
+#include "bullet_ambient/bullet/members/attach.h"
 
 AMBIENT_BEGIN
 namespace {
@@ -30,33 +32,53 @@ bool isInside(const Surface& surface, const Vector3& point) {
   return std::abs(angle) > 2 * kPi;
 }
 
-/// Calls visit(AmbientBody&) for the members among the bodies of a world that move.
+/// A body or link at its present pose.
+struct Member {
+  AmbientBody& ambient;
+  const AmbientLink* link = nullptr;  ///< null: a rigid body
+
+  Vector3 centre() const {
+    return link ? link->now.centre() : toVector3(ambient.body->getWorldTransform().getOrigin());
+  }
+  MotionView now() const { return link ? link->now : motionOf(*ambient.body); }
+  bool isAwake() const { return link ? !isAsleep(*ambient.multi_body) : ambient.body->isActive(); }
+};
+
+/// Calls visit(AmbientTree&) for the trees of a world.
 template <class Visit>
-void forEachBody(const btCollisionWorld& world, const AmbientBodies& bodies, const Visit& visit) {
+void forEachTreeOf(const btCollisionWorld& world, const AmbientTrees& trees, const Visit& visit) {
+  if (!trees.empty() && trees.world() == &world) forEachTree(*trees.world(), trees, visit);
+}
+
+/// Calls visit(const Member&) for the members of a world that move. @pre links are placed
+template <class Visit>
+void forEachMember(const btCollisionWorld& world, const AmbientBodies& bodies, const Visit& visit) {
   const btCollisionObjectArray& objects = world.getCollisionObjectArray();
   for (int i = 0; i < objects.size(); ++i) {
     AmbientBody* const ambient = bodies.find(objects[i]);
-    if (ambient && !objects[i]->isStaticOrKinematicObject()) visit(*ambient);
+    if (ambient && !objects[i]->isStaticOrKinematicObject()) visit(Member{*ambient});
   }
-}
-
-Vector3 centreOf(const AmbientBody& ambient) {
-  return toVector3(ambient.body->getWorldTransform().getOrigin());
+  forEachTreeOf(world, bodies.trees, [&visit](const AmbientTree& tree) {
+    for (const auto& link : tree.links)
+      if (link->mass.mass > 0) visit(Member{link->ambient, link.get()});
+  });
 }
 
 /// A vessel at its present pose.
 struct Vessel {
-  explicit Vessel(AmbientBody& of)
-      : ambient(of),
-        now(motionOf(*of.body)),
-        R_WF(now.rotation() * of.surface()->fluid_frame.rotation),
-        origin_W(now.centre() + now.rotation() * of.surface()->fluid_frame.translation),
-        sea_F(seenFrom(of.floating->plane_W, R_WF, origin_W)),
-        normal_W(-(now.gravity - of.medium.acceleration).normalized()),
+  explicit Vessel(const Member& of)
+      : ambient(of.ambient),
+        now(of.now()),
+        is_awake(of.isAwake()),
+        R_WF(now.rotation() * ambient.surface()->fluid_frame.rotation),
+        origin_W(now.centre() + now.rotation() * ambient.surface()->fluid_frame.translation),
+        sea_F(seenFrom(ambient.floating->plane_W, R_WF, origin_W)),
+        normal_W(-(now.gravity - ambient.medium.acceleration).normalized()),
         normal_F(R_WF.transpose() * normal_W) {}
 
   AmbientBody& ambient;
   MotionView now;
+  bool is_awake;
   Matrix3 R_WF;
   Vector3 origin_W;
   SurfacePlane sea_F;          ///< surface of the water outside
@@ -78,16 +100,18 @@ HoldAround* aroundOf(const AmbientBody& body, FluidRegions& regions) {
 }
 
 /// Puts a body into the hold of a vessel that has its centre, unless it is in a smaller one.
-void enterHold(const Vessel& vessel, AmbientBody& body, FluidRegions& regions) {
+void enterHold(const Vessel& vessel, const Member& member, FluidRegions& regions) {
+  AmbientBody& body = member.ambient;
   const SurfaceModel& model = *vessel.ambient.surface();
-  const Vector3 way = centreOf(body) - vessel.now.centre();
+  const Vector3 way = member.centre() - vessel.now.centre();
   const double size = vessel.ambient.metric().reference_length;
   if (!(way.squaredNorm() < model.radius * model.radius)) return;
   const HoldAround* const known = aroundOf(body, regions);
   if (known && !(size < known->size)) return;
-  const Vector3 place_F = vessel.R_WF.transpose() * (centreOf(body) - vessel.origin_W);
+  const Vector3 place_F = vessel.R_WF.transpose() * (member.centre() - vessel.origin_W);
   const std::vector<Hold>& holds = vessel.ambient.vessel->shape->holds;
   for (std::size_t i = 0; i < holds.size(); ++i) {
+    if (!(body.def->fluid_body->volume < holds[i].volume)) continue;
     if (isOfTheSea(vessel, i) || !isInside(holds[i].surface, place_F)) continue;
     if (!known) {
       body.in_hold = static_cast<int>(regions.in_holds.size());
@@ -98,7 +122,7 @@ void enterHold(const Vessel& vessel, AmbientBody& body, FluidRegions& regions) {
     around.hold = i;
     around.region = vessel.ambient.place.region;
     around.size = size;
-    around.is_awake = vessel.ambient.body->isActive();
+    around.is_awake = vessel.is_awake;
     around.normal_W = vessel.normal_W;
     around.vessel_W = vessel.now.twist_W;
     around.centre_W = vessel.now.centre();
@@ -106,26 +130,26 @@ void enterHold(const Vessel& vessel, AmbientBody& body, FluidRegions& regions) {
   }
 }
 
-/// Calls visit(AmbientBody&, HoldAround&) for the bodies in a hold.
+/// Calls visit(const Member&, HoldAround&) for the bodies in a hold.
 template <class Visit>
 void forEachInHold(const btCollisionWorld& world, AmbientBodies& bodies, const Vessel& vessel,
                    std::size_t hold, const Visit& visit) {
-  forEachBody(world, bodies, [&](AmbientBody& body) {
-    HoldAround* const around = aroundOf(body, bodies.regions);
-    if (around && around->vessel == &vessel.ambient && around->hold == hold) visit(body, *around);
+  forEachMember(world, bodies, [&](const Member& member) {
+    HoldAround* const around = aroundOf(member.ambient, bodies.regions);
+    if (around && around->vessel == &vessel.ambient && around->hold == hold) visit(member, *around);
   });
 }
 
 /// Volume and area of a body below a level of the vessel's hold, a height in F.
-Waterplane displacedBy(const AmbientBody& body, const Vessel& vessel, double height,
-                       double& volume) {
-  if (body.models->surfaces.empty()) return {};
-  const MotionView now = motionOf(*body.body);
+Waterplane displacedBy(const Member& member, const Vessel& vessel, double height, double& volume) {
+  const FluidModels& models = *member.ambient.models;
+  if (models.surfaces.empty()) return {};
+  const MotionView now = member.now();
   const Vector3& normal = vessel.normal_W;
   const SurfacePlane plane_W{normal, height + normal.dot(vessel.origin_W), 0, 0};
-  const WetVolume wet = immersionOf(body.models->surfaces.front().model,
-                                    seenFrom(plane_W, now.rotation(), now.centre()))
-                            .wet;
+  const WetVolume wet =
+      immersionOf(models.surfaces.front().model, seenFrom(plane_W, now.rotation(), now.centre()))
+          .wet;
   volume += wet.volume;
   return wet.waterplane;
 }
@@ -140,7 +164,7 @@ void findLevel(const btCollisionWorld& world, AmbientBodies& bodies, const Vesse
   const HoldShape& shape = vessel.ambient.surface()->holds->shapes[hold];
   const Vector3& normal_F = vessel.normal_F;
   bool is_any = false;
-  forEachInHold(world, bodies, vessel, hold, [&](AmbientBody&, HoldAround&) { is_any = true; });
+  forEachInHold(world, bodies, vessel, hold, [&](const Member&, HoldAround&) { is_any = true; });
   if (!is_any && state.displaced == 0) return;
   double displaced = 0, height = 0;
   const bool is_dry = !(state.volume > kEmpty * shape.capacity());
@@ -153,8 +177,8 @@ void findLevel(const btCollisionWorld& world, AmbientBodies& bodies, const Vesse
       const WetVolume full = computeWetVolume(shape.hull(), {normal_F, height, 0, 0});
       double area = full.waterplane.area;
       displaced = 0;
-      forEachInHold(world, bodies, vessel, hold, [&](AmbientBody& body, HoldAround&) {
-        area -= displacedBy(body, vessel, height, displaced).area;
+      forEachInHold(world, bodies, vessel, hold, [&](const Member& member, HoldAround&) {
+        area -= displacedBy(member, vessel, height, displaced).area;
       });
       const double error = full.volume - displaced - state.volume;
       if (std::abs(error) <= kAccuracy * shape.capacity()) break;
@@ -167,10 +191,10 @@ void findLevel(const btCollisionWorld& world, AmbientBodies& bodies, const Vesse
   if (displaced != state.displaced) vessel.ambient.floating->is_valid = false;
   state.displaced = displaced;
   const double height_W = height + vessel.normal_W.dot(vessel.origin_W);
-  forEachInHold(world, bodies, vessel, hold, [&](AmbientBody& body, HoldAround& around) {
+  forEachInHold(world, bodies, vessel, hold, [&](const Member& member, HoldAround& around) {
     around.is_dry = is_dry;
     around.height = height_W;
-    if (!is_dry && around.is_awake && !body.body->isActive()) body.body->activate();
+    if (!is_dry && around.is_awake && !member.isAwake()) wake(member.ambient);
   });
 }
 
@@ -184,14 +208,15 @@ void findBodiesInHolds(btCollisionWorld& world, AmbientBodies& bodies) noexcept 
   });
   bodies.regions.in_holds.clear();
   bodies.regions.in_holds.reserve(count);
+  forEachTreeOf(world, bodies.trees, [](AmbientTree& tree) { placeLinksNow(tree); });
   const auto forEachVessel = [&](const auto& visit) {
-    forEachBody(world, bodies, [&](AmbientBody& body) {
-      if (body.vessel && body.surface()) visit(Vessel(body));
+    forEachMember(world, bodies, [&](const Member& member) {
+      if (member.ambient.vessel && member.ambient.surface()) visit(Vessel(member));
     });
   };
   forEachVessel([&](const Vessel& vessel) {
-    forEachBody(world, bodies, [&](AmbientBody& body) {
-      if (&body != &vessel.ambient) enterHold(vessel, body, bodies.regions);
+    forEachMember(world, bodies, [&](const Member& member) {
+      if (&member.ambient != &vessel.ambient) enterHold(vessel, member, bodies.regions);
     });
   });
   forEachVessel([&](const Vessel& vessel) {
