@@ -58,6 +58,11 @@ class Immersed {
   void setFluidBody(std::shared_ptr<const FluidBody> fluid_body,
                     const std::optional<FrameOffset>& fluid_frame = std::nullopt) const;
 
+  /// Sets AttachDef::added_mass_factor and AttachDef::load_factor. The velocity of the body stays.
+  /// Cost: new models, some microseconds; no loads.
+  /// @throws std::invalid_argument if one is not positive and finite; then nothing has changed.
+  void setFactors(double added_mass, double loads) const;
+
   /// Returns the fluid around the body, that of its region or its own, at the start of its last
   /// step; before the first step, when it was added. Its acceleration is the one given, or that by
   /// which a velocity without one has changed since the step before.

@@ -44,12 +44,13 @@ void followWake(AmbientBody& ambient, const Twist& twist_W, double duration) noe
   const auto& loads = loadsOn(ambient);
   const double by_wake = loads ? loads->wakeShare() : 0;
   AMBIENT_ASSERT(by_wake >= 0 && by_wake <= 1);
-  ambient.load_share = 1;
+  const double factor = ambient.def->load_factor;
+  ambient.load_share = factor;
   if (by_wake > 0 && ambient.wake) {
     const Twist motion{twist_W.angular, twist_W.linear - ambient.medium.velocity};
     const FluidBody& shape = *ambient.def->fluid_body;
     const double developed = developWake(motion, shape.area, shape.volume, duration, *ambient.wake);
-    ambient.load_share = 1 - by_wake + by_wake * developed;
+    ambient.load_share = factor * (1 - by_wake + by_wake * developed);
   }
 }
 

@@ -174,7 +174,8 @@ struct AmbientBody {
   std::shared_ptr<const AttachDef> def;  ///< equal bodies without a name share it
   Medium medium;          ///< medium around the body now: its own, or that of its region; where no
                           ///< acceleration is given, with the one that FlowMemory tells
-  double load_share = 1;  ///< factor on the surface loads in this step, docs/theory.md eq. (51d)
+  double load_share = 1;  ///< factor on the surface loads in this step, docs/theory.md eq. (51d),
+                          ///< times AttachDef::load_factor
   RegionPlace place;      ///< kNone: the body is in its own medium
   FlowMemory flow;
   AmbientCounters counters;

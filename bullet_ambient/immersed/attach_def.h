@@ -37,6 +37,10 @@ struct AttachDef {
   bool follow_regions = true;
   /// Factor on the damping of a floating body by the waves that it makes; docs/water.md.
   double wave_damping = 1;
+  /// Factor on the added mass, > 0: K = K_body + factor rho K_fluid, docs/theory.md eq. (3).
+  double added_mass_factor = 1;
+  /// Factor on pressure, friction and wind, > 0. Buoyancy and waves have none.
+  double load_factor = 1;
   FlowSettings flow = {};
   FlightSettings flight = {};
   HoldSettings holds = {};

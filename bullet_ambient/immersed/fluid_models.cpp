@@ -67,7 +67,8 @@ void checkFluidMass(const FluidBody& shape, const BodyModel& model) {
 MediumModel inMedium(const AttachDef& def, const InverseMass& mass, const FluidKind& kind,
                      const std::shared_ptr<const SurfaceLoads>& loads) {
   const BodyModel model =
-      makeBodyModel(*def.fluid_body, def.fluid_frame, propertiesOf(mass), kind.medium(), loads);
+      makeBodyModel(*def.fluid_body, def.fluid_frame, propertiesOf(mass), kind.medium(), loads,
+                    {HoldContent::kFull, def.added_mass_factor, def.load_factor});
   checkFluidMass(*def.fluid_body, model);
   return {kind, model, makeVelocityBasis(model.inertia, model.mass, mass.moments())};
 }
@@ -83,6 +84,8 @@ SurfaceMedia atSurface(const AttachDef& def, const InverseMass& mass, const Surf
   if (kind.may_blow) model.above.velocity = Vector3::Ones();
   model.flow = def.flow;
   model.wave_damping = def.wave_damping;
+  model.added_mass_factor = def.added_mass_factor;
+  model.load_factor = def.load_factor;
   return {kind, makeSurfaceModel(model)};
 }
 
@@ -120,8 +123,9 @@ Key keyOf(const AttachDef& def) {
   Key key;
   key.reserve(64);
   append(key, FluidKind(def.medium));
-  append(key, def.follow_regions, def.wave_damping, flow.separation_angle, flow.roughness,
-         flow.skin_friction, flow.precision, flow.maximum_load_error, flow.law, flow.stall_lag);
+  append(key, def.follow_regions, def.wave_damping, def.added_mass_factor, def.load_factor,
+         flow.separation_angle, flow.roughness, flow.skin_friction, flow.precision,
+         flow.maximum_load_error, flow.law, flow.stall_lag);
   for (int axis = 0; axis < 3; ++axis) append(key, Vector3(def.fluid_frame.rotation.row(axis)));
   append(key, def.fluid_frame.translation);
   return key;
@@ -192,7 +196,7 @@ void setMass(FluidModels& models, const AttachDef& def, const InverseMass& mass)
     SurfaceModel& model = surface.model;
     const auto inFluid = [&](const Medium& medium, const BodyModel& before, HoldContent content) {
       return makeBodyModel(*def.fluid_body, def.fluid_frame, propertiesOf(mass), medium,
-                           before.loads, content);
+                           before.loads, {content, def.added_mass_factor, def.load_factor});
     };
     model.below = inFluid(surface.kind.below.medium(), model.below, HoldContent::kSealed);
     model.above = inFluid(surface.kind.mediumAbove(def.medium), model.above, HoldContent::kFull);

@@ -273,6 +273,7 @@ void refreshModels(AmbientBody& ambient, const InverseMass& mass, const FluidReg
   auto models =
       makeFluidModels(*ambient.def, mass.mass > 0 ? mass : InverseMass{}, regions.fluids(), tables);
   ambient.medium = ambient.def->medium;
+  ambient.load_share = ambient.def->load_factor;
   ambient.place = {};
   ambient.surface_media = -1;
   forgetSurface(ambient);

@@ -23,6 +23,7 @@ void bindMotion(pybind11::module_& module);
 void bindRobot(pybind11::module_& module);
 void bindWorld(pybind11::module_& module);
 void bindSweep(pybind11::module_& module);
+void bindWorldBatch(pybind11::module_& module);
 
 /// Converts a Medium of Python. @throws TypeError if it is none, ValueError if no fluid has its
 /// numbers

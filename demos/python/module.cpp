@@ -40,4 +40,5 @@ PYBIND11_MODULE(_core, module) {
   ambient::bindRobot(module);
   ambient::bindWorld(module);
   ambient::bindSweep(module);
+  ambient::bindWorldBatch(module);
 }

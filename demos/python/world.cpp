@@ -294,6 +294,45 @@ current folder. States that were saved before cannot be restored any more.
       .def_property_readonly("robots", &robotsOf, "Robots by name, in the order of the scene.");
 }
 
+py::array commandsOf(const PythonWorld& world) {
+  const Thrusters& thrusters = world.simulation().thrusters();
+  Eigen::VectorXd commands(static_cast<Eigen::Index>(thrusters.size()));
+  for (std::size_t i = 0; i < thrusters.size(); ++i)
+    commands[static_cast<Eigen::Index>(i)] = thrusters.command(i);
+  return arrayOf(commands);
+}
+
+void setCommands(PythonWorld& world, const InputArray& commands) {
+  Thrusters& thrusters = world.simulation().thrusters();
+  if (commands.ndim() != 1 || commands.shape(0) != static_cast<py::ssize_t>(thrusters.size()))
+    throw py::value_error("commands have shape " + shapeText(commands) +
+                          "; must be one for each of " + std::to_string(thrusters.size()) +
+                          " thrusters");
+  for (std::size_t i = 0; i < thrusters.size(); ++i) thrusters.command(i, commands.data()[i]);
+}
+
+void bindThrusters(py::class_<PythonWorld, std::shared_ptr<PythonWorld>>& type) {
+  type.def_property_readonly(
+          "thrusters",
+          [](const PythonWorld& w) {
+            std::vector<std::string> names;
+            for (const ThrusterDef& def : w.scene().thrusters) names.push_back(def.name);
+            return names;
+          },
+          "Names of the thrusters (T), in the order of the scene.")
+      .def_property("commands", &commandsOf, &setCommands,
+                    "Commands (T,) of the thrusters, which hold until others are set; 0 at first. "
+                    "Their thrusts follow by the curve and the lag of the scene.")
+      .def_property_readonly(
+          "thrusts",
+          [](const PythonWorld& w) {
+            const std::vector<double>& thrusts = w.simulation().thrusters().thrusts();
+            return arrayOf(
+                Eigen::VectorXd::Map(thrusts.data(), static_cast<Eigen::Index>(thrusts.size())));
+          },
+          "Thrusts (T,) at the end of the last step [N], without what dry discs lose.");
+}
+
 void bindStates(py::class_<PythonWorld, std::shared_ptr<PythonWorld>>& type) {
   type.def(
           "state", [](const PythonWorld& w) { return py::bytes(w.simulation().saveState()); },
@@ -333,6 +372,7 @@ True
 )");
   bindWorldMotion(type);
   bindWorldRobots(type);
+  bindThrusters(type);
   bindStates(type);
   type.def(
       "set_regions", [](PythonWorld& w, const Scene& scene) { w.setRegions(scene); },

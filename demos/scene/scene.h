@@ -109,6 +109,21 @@ struct JointDef {
   std::optional<Vector3> axis;      ///< axis of a hinge in W at t = 0; none: ball joint
 };
 
+/// A propeller, jet or rotor that pushes a body. Frame: that of the body's shape or link.
+struct ThrusterDef {
+  std::string name;
+  std::size_t body = 0;                          ///< index in Scene::bodies
+  Vector3 position = Vector3::Zero();            ///< [m]
+  Vector3 axis = Vector3::UnitX();               ///< direction of a positive thrust, unit
+  std::vector<std::pair<double, double>> curve;  ///< command, thrust at rest [N]; commands rise
+  double lag = 0;                                ///< time constant of the thrust [s]
+  double radius = 0;                             ///< of the disc [m]; 0: it is never dry
+  double torque_per_thrust = 0;                  ///< torque about the axis over the thrust [m]
+
+  /// Thrust for a command, linear in between, that of the ends beyond [N].
+  double thrustAt(double command) const;
+};
+
 /// Water with a surface, still or with waves. The fluid above the surface is Scene::medium.
 struct WaterDef {
   CalmSea sea;                       ///< sea.up is against the scene's gravity
@@ -138,6 +153,7 @@ struct Scene {
   std::vector<BodyDef> bodies;
   std::vector<RobotDef> robots;
   std::vector<JointDef> joints;
+  std::vector<ThrusterDef> thrusters;
 };
 
 }  // namespace ambient

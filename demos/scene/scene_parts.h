@@ -34,6 +34,10 @@ constexpr char kNeedsWholeDemo[] =
 /// @throws std::runtime_error, one line that names the file, the place, the value and the limit.
 void addRobot(const nlohmann::json& from, Scene& scene);
 
+/// Reads the entry of a thruster. @pre scene.bodies and scene.robots are read
+/// @throws std::runtime_error, one line that names the file, the place, the value and the limit.
+ThrusterDef toThruster(const nlohmann::json& from, const Scene& scene);
+
 // Values of keys of a scene. @pre the schema has accepted them
 
 inline Vector3 toVector(const nlohmann::json& v) {

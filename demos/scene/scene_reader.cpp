@@ -195,6 +195,8 @@ BodyDef toBody(const json& from, const Scene& scene, const std::filesystem::path
   body.attach.medium = scene.medium;
   body.attach.medium.density = from.value("fluid_density", scene.medium.density);
   body.attach.wave_damping = from.value("wave_damping", body.attach.wave_damping);
+  body.attach.added_mass_factor = from.value("added_mass_factor", body.attach.added_mass_factor);
+  body.attach.load_factor = from.value("load_factor", body.attach.load_factor);
   if (from.contains("holds")) body.attach.holds = toHolds(from.at("holds"));
   body.restitution = from.value("restitution", body.restitution);
   body.friction = from.value("friction", body.friction);
@@ -234,6 +236,9 @@ Scene toScene(const json& from, const std::filesystem::path& file) {
     for (const json& robot : from.at("robots")) addRobot(robot, scene);
   if (from.contains("joints"))
     for (const json& joint : from.at("joints")) scene.joints.push_back(toJoint(joint));
+  if (from.contains("thrusters"))
+    for (const json& thruster : from.at("thrusters"))
+      scene.thrusters.push_back(toThruster(thruster, scene));
   return scene;
 }
 

@@ -99,18 +99,29 @@ void setFunctions(WorldState& state, const LoadLaw& law, OwnFlight flight) {
     for (LinkFluidState& fluid : body.fluids) set(fluid.ambient.def);
 }
 
-[[noreturn]] void throwNotFinite(const std::string& scene, const std::string& body, double time) {
+std::string notFinite(const std::string& scene, const std::string& body, double time) {
   std::ostringstream text;
   text << scene << ": body \"" << body << "\": its state is not finite at t = " << time
        << " s; a smaller time_step may help";
-  throw std::runtime_error(text.str());
+  return text.str();
+}
+
+/// Makes Bullet's pools of contacts fit the scene, beyond which Bullet allocates. Its own have room
+/// for 4096, 7 MB.
+btDefaultCollisionConstructionInfo poolsFor(const Scene& scene) {
+  btDefaultCollisionConstructionInfo info;
+  const int most = 8 * static_cast<int>(std::min<std::size_t>(scene.bodies.size() + 1, 512));
+  info.m_defaultMaxPersistentManifoldPoolSize = most;
+  info.m_defaultMaxCollisionAlgorithmPoolSize = most;
+  return info;
 }
 
 }  // namespace
 
 Simulation::Simulation(const Scene& scene, const std::vector<PreparedBody>& prepared,
-                       bool takes_robots)
-    : bullet_(makeBulletWorld(takes_robots || !scene.robots.empty(), dispatcher_, broadphase_,
+                       bool takes_robots, FlowField flow)
+    : configuration_(poolsFor(scene)),
+      bullet_(makeBulletWorld(takes_robots || !scene.robots.empty(), dispatcher_, broadphase_,
                               configuration_)),
       fluid_(*bullet_.world),
       own_law_(loadLawOf(scene)),
@@ -125,10 +136,10 @@ Simulation::Simulation(const Scene& scene, const std::vector<PreparedBody>& prep
     warning_ += sentence;
   });
   bullet_.world->setGravity(toBullet(scene.gravity));
-  for (FluidRegion& region : makeRegions(scene))
-    regions_.push_back(fluid_.addRegion(std::move(region)));
+  fillWithFluids(scene, flow);
   addRobots(scene, prepared);
   for (const JointDef& joint : scene.joints) add(joint);
+  thrusters_ = Thrusters(scene, prepared);
 }
 
 Simulation::~Simulation() {
@@ -188,13 +199,30 @@ void Simulation::addRobots(const Scene& scene, const std::vector<PreparedBody>& 
 }
 
 void Simulation::step() {
+  stepUnchecked();
+  if (const auto sentence = fault()) throw std::runtime_error(*sentence);
+}
+
+void Simulation::push() {
+  thrusters_.follow(time_step_);
+  const auto poseOf = [this](std::size_t body) { return sample(bodies_[body]); };
+  thrusters_.push(poseOf, fluid_.time(),
+                  [this](std::size_t body, const Wrench& wrench) { apply(bodies_[body], wrench); });
+}
+
+void Simulation::stepUnchecked() {
+  if (thrusters_.size() > 0) push();
   if (robots_) robots_->prepareStep(0, time(), time_step_);
   // 0 substeps: Bullet makes exactly one step of this length.
   bullet_.world->stepSimulation(static_cast<btScalar>(time_step_), 0);
   ++steps_;
+}
+
+std::optional<std::string> Simulation::fault() const {
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     if (work(i).rejected > 0 || !sample(bodies_[i]).isFinite())
-      throwNotFinite(file_, bodies_[i].name, time());
+      return notFinite(file_, bodies_[i].name, time());
+  return std::nullopt;
 }
 
 void Simulation::setRegions(const Scene& scene) {
@@ -202,8 +230,9 @@ void Simulation::setRegions(const Scene& scene) {
   if (regions.size() != regions_.size())
     raiseInputError(scene.file.string(), "it has ", regions.size(),
                     " waters and regions, the world ", regions_.size(), "; must be as many");
-  for (std::size_t i = 0; i < regions.size(); ++i)
-    fluid_.setRegion(regions_[i], std::move(regions[i]));
+  thrusters_.setRegions(regions);
+  fluids_ = std::move(regions);
+  for (std::size_t i = 0; i < fluids_.size(); ++i) fluid_.setRegion(regions_[i], fluids_[i]);
 }
 
 btMultiBody& Simulation::multiBodyOf(const WorldBody& link) const {
@@ -340,22 +369,37 @@ void Simulation::setMedium(std::size_t body, const Medium& medium) {
 }
 
 std::string Simulation::saveState() const {
-  std::string bytes(sizeof steps_, '\0');
+  const std::vector<double>& thrusts = thrusters_.thrusts();
+  std::string bytes(sizeof steps_ + thrusts.size() * sizeof(double), '\0');
   std::memcpy(bytes.data(), &steps_, sizeof steps_);
+  std::copy_n(reinterpret_cast<const char*>(thrusts.data()), thrusts.size() * sizeof(double),
+              bytes.data() + sizeof steps_);
   return bytes + encodeState(fluid_.save());
 }
 
 void Simulation::restoreState(std::string_view bytes) {
   const std::string source = "saved state";
-  if (bytes.size() < sizeof steps_) throw std::runtime_error(source + ": is cut short");
+  std::vector<double> thrusts(thrusters_.size());
+  const std::size_t head = sizeof steps_ + thrusts.size() * sizeof(double);
+  if (bytes.size() < head) throw std::runtime_error(source + ": is cut short");
   long long steps = 0;
   std::memcpy(&steps, bytes.data(), sizeof steps);
+  std::copy_n(bytes.data() + sizeof steps, head - sizeof steps,
+              reinterpret_cast<char*>(thrusts.data()));
   if (steps < 0) throw std::runtime_error(source + ": is damaged: its steps are below 0");
   const auto lookup = [this](const std::string& name) { return findFluidBody(name); };
-  WorldState state = decodeState(bytes.substr(sizeof steps), source, lookup);
+  WorldState state = decodeState(bytes.substr(head), source, lookup);
   setFunctions(state, own_law_, own_flight_);
+  thrusters_.setThrusts(thrusts);
   fluid_.restore(state);
   steps_ = steps;
+}
+
+void Simulation::restore(const SimulationState& state) {
+  fluid_.restore(state.world);
+  thrusters_.setThrusts(state.thrusts);
+  steps_ = state.steps;
+  for (WorldBody& body : bodies_) body.is_at_start = false;
 }
 
 }  // namespace ambient

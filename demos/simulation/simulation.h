@@ -12,10 +12,12 @@
 #include "bullet_ambient/fluid.h"
 #include "bullet_ambient/immersed/wet_state.h"
 #include "bullet_ambient/reading.h"
+#include "bullet_ambient/saved_state.h"
 #include "demos/analysis/motion_sample.h"
 #include "demos/scene/scene.h"
 #include "demos/simulation/body_preparation.h"
 #include "demos/simulation/robots/robots_in_world.h"
+#include "demos/simulation/thrusters.h"
 #include "demos/simulation/world_body.h"
 
 namespace ambient {
@@ -30,15 +32,23 @@ constexpr std::array<std::pair<const char*, long long AmbientCounters::*>, 6> kW
      {"too_long", &AmbientCounters::too_long},
      {"halted", &AmbientCounters::halted}}};
 
+/// All that changes of a simulation from step to step, in memory.
+struct SimulationState {
+  long long steps = 0;
+  std::vector<double> thrusts;  ///< [N]
+  WorldState world;
+};
+
 /// Bullet world with the bodies of a scene in their fluid.
 class Simulation {
  public:
   /// `bodies`: results of prepareBodies() for the scene. `takes_robots`: whether addRobots() may
-  /// follow; contacts of scenes without robots then have other last bits.
+  /// follow; contacts of scenes without robots then have other last bits. `flow`: wind or current
+  /// beside that of the scene, everywhere; null: none.
   /// @throws std::invalid_argument naming the scene's file and the body if its values are not
   /// physical.
-  Simulation(const Scene& scene, const std::vector<PreparedBody>& bodies,
-             bool takes_robots = false);
+  Simulation(const Scene& scene, const std::vector<PreparedBody>& bodies, bool takes_robots = false,
+             FlowField flow = nullptr);
   ~Simulation();
 
   /// Whether its Bullet world is one for robots.
@@ -52,12 +62,22 @@ class Simulation {
   /// Makes one step of scene.time_step.
   /// @throws std::runtime_error naming the scene's file, body and time if a state is not finite.
   void step();
+  /// Makes one step without looking at its result.
+  void stepUnchecked();
+  /// Says, as step() would, which body is not finite; none: all are.
+  std::optional<std::string> fault() const;
 
   /// Number of steps made so far times scene.time_step [s].
   double time() const { return static_cast<double>(steps_) * time_step_; }
 
   /// Present motion of all bodies, in the order of the scene.
   std::vector<MotionSample> sample() const;
+  /// Present motion of one body. Allocates nothing.
+  MotionSample sample(std::size_t body) const { return sample(bodies_.at(body)); }
+
+  /// Thrusters of the scene; their commands are 0 at first.
+  Thrusters& thrusters() { return thrusters_; }
+  const Thrusters& thrusters() const { return thrusters_; }
 
   /// Work done for one body by the fluid; zero for a body without fluid.
   AmbientCounters work(std::size_t body) const;
@@ -78,6 +98,8 @@ class Simulation {
 
   /// Adds a force [N] that acts at a point [m] during the next step; world axes.
   void applyForce(std::size_t body, const Vector3& force, const Vector3& point);
+  /// Adds a wrench about the centre of mass that acts during the next step; world axes.
+  void apply(std::size_t body, const Wrench& wrench) { apply(bodies_.at(body), wrench); }
   /// Adds a torque [N m] that acts during the next step; world axes.
   void applyTorque(std::size_t body, const Vector3& torque);
 
@@ -95,6 +117,19 @@ class Simulation {
   /// not physical.
   void setMedium(std::size_t body, const Medium& medium);
 
+  /// Multiplies mass and moments of inertia of a body.
+  void scaleMass(std::size_t body, double mass, double moments);
+  /// Sets the factors of Immersed::setFactors(); without effect on a body without fluid.
+  void setFactors(std::size_t body, double added_mass, double loads);
+
+  /// Medium of the fluid at the centre of mass of a body, as if the body were not there; of a body
+  /// without fluid: a vacuum.
+  Medium mediumAround(std::size_t body) const;
+  /// Height of the surface of the water over a point, along the vertical [m]; infinite without one.
+  double surfaceOver(const Vector3& point) const;
+  /// Sum of the normal impulses of contacts on a body in the last step [N s].
+  double contactImpulse(std::size_t body) const;
+
   /// Replaces water and regions by those of another scene, from the next step on.
   /// @throws std::invalid_argument or std::runtime_error, one sentence, if it has another number of
   /// them, or a body may not meet them.
@@ -107,6 +142,9 @@ class Simulation {
   /// @throws std::runtime_error or std::invalid_argument, one sentence, if the bytes are damaged or
   /// of another scene; the simulation then stays as it was.
   void restoreState(std::string_view bytes);
+  /// The same in memory, in microseconds; without the exceptions for bytes.
+  SimulationState state() const { return {steps_, thrusters_.thrusts(), fluid_.save()}; }
+  void restore(const SimulationState& state);
 
   /// All reports of the library, a sentence a line; empty: none.
   const std::string& warning() const { return warning_; }
@@ -117,11 +155,15 @@ class Simulation {
   /// @throws std::runtime_error if no rigid body has this name.
   btRigidBody& find(const std::string& name) const;
   btMultiBody& multiBodyOf(const WorldBody& link) const;
+  void fillWithFluids(const Scene& scene, const FlowField& flow);
+  /// Region that counts at a point; null: none.
+  const FluidRegion* regionAt(const Vector3& point) const;
   btRigidBody& rigidBody(std::size_t body);
   std::shared_ptr<const FluidBody> findFluidBody(const std::string& name) const;
   MotionSample sample(const WorldBody& of) const;
   /// Applies a wrench during the next step: about the centre of mass, axes of W.
   void apply(const WorldBody& to, const Wrench& wrench);
+  void push();
 
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_{&configuration_};
@@ -129,9 +171,11 @@ class Simulation {
   BulletWorld bullet_;
   Fluid fluid_;
   std::vector<RegionId> regions_;
+  std::vector<FluidRegion> fluids_;  ///< as regions_
   std::vector<WorldBody> bodies_;
   std::unique_ptr<RobotsInWorld> robots_ = makeRobotsInWorld();  ///< null: built without
   std::vector<std::unique_ptr<btTypedConstraint>> joints_;
+  Thrusters thrusters_;
   LoadLaw own_law_;       ///< law of all bodies; empty: this library's law
   OwnFlight own_flight_;  ///< integrator of all bodies; null: the passive leapfrog
   double time_step_;

@@ -54,6 +54,12 @@ void checkChoice(const std::string& who, const char* what, Choice choice, const 
                               std::to_string(names.size() - 1));
 }
 
+void checkFactor(const std::string& who, const char* name, double factor) {
+  if (factor > 0 && std::isfinite(factor)) return;
+  throw std::invalid_argument(who + " has a " + name + " of " + std::to_string(factor) +
+                              ", which must be positive and finite");
+}
+
 void checkHolds(const std::string& who, const AttachDef& def) {
   const std::vector<double>& water = def.holds.water;
   const std::vector<Hold>& holds = def.fluid_body->holds;
@@ -83,6 +89,8 @@ void checkWater(const std::string& who, int hold, double volume, double capacity
 }
 
 void checkDef(const std::string& who, const AttachDef& def) {
+  checkFactor(who, "added_mass_factor", def.added_mass_factor);
+  checkFactor(who, "load_factor", def.load_factor);
   checkFlight(who, def.flight);
   checkHolds(who, def);
   checkChoice(who, "the pressure law", def.flow.law, kPressureLawNames);

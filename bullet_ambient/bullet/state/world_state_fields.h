@@ -67,7 +67,7 @@ MultiBodySleep sleepOf(btMultiBody& body) noexcept;
 // All stored fields, listed once for all operations: write, read, check, copy from Bullet and back
 // to Bullet. Their order is that of the bytes. To add a field, add it to the structure and here,
 // and raise the version.
-constexpr std::uint32_t kStateVersion = 18;
+constexpr std::uint32_t kStateVersion = 19;
 
 /// Condition that each number of a field must meet, and the words of the message if one does not.
 /// The message begins with the name of the object; the value follows if the words end with a blank.
@@ -133,7 +133,8 @@ template <class V>
 void fields(V& v, AttachDef& s) {
   v.fluidBody(s.fluid_body);
   fields(v, s.medium);
-  each(v, kAny, s.follow_regions, s.wave_damping, s.flow.separation_angle, s.flow.roughness);
+  each(v, kAny, s.follow_regions, s.wave_damping, s.added_mass_factor, s.load_factor,
+       s.flow.separation_angle, s.flow.roughness);
   v.choice(s.flow.law, kPressureLawNames);
   each(v, kAny, s.flow.skin_friction, s.flow.stall_lag);
   v.choice(s.flow.precision, kLoadPrecisionNames);

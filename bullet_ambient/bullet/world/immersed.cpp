@@ -170,6 +170,18 @@ void Immersed::setFluidBody(std::shared_ptr<const FluidBody> fluid_body,
   wake(*held.member);
 }
 
+void Immersed::setFactors(double added_mass, double loads) const {
+  const Held held = require("setFactors");
+  held.bodies->requireChangeable("setFactors");
+  AttachDef def = *held.member->def;
+  if (added_mass == def.added_mass_factor && loads == def.load_factor) return;
+  def.added_mass_factor = added_mass;
+  def.load_factor = loads;
+  checkDef("setFactors: " + nameOf(def), def);
+  replaceDef(*held.member, std::move(def), *held.bodies);
+  wake(*held.member);
+}
+
 Medium Immersed::medium() const {
   const Held held = require("medium");
   Medium medium = held.member->medium;

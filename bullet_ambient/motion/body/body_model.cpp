@@ -126,8 +126,9 @@ struct Displacement {
 };
 
 /// Holds full of the fluid displace nothing; what is in them is carried along.
-Displacement withFullHolds(const FluidBody& body) {
-  Displacement walls{body.volume, body.volume * body.centre_of_volume, body.added_mass};
+Displacement withFullHolds(const FluidBody& body, double added_mass_factor) {
+  Displacement walls{body.volume, body.volume * body.centre_of_volume,
+                     added_mass_factor * body.added_mass};
   for (const Hold& hold : body.holds) {
     walls.volume -= hold.volume;
     walls.centre -= hold.volume * hold.centre;
@@ -150,15 +151,16 @@ void checkMedium(const FluidBody& body, const Medium& medium) {
 
 BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_frame,
                         const MassProperties& mass, const Medium& medium,
-                        std::shared_ptr<const SurfaceLoads> loads, HoldContent content) {
+                        std::shared_ptr<const SurfaceLoads> loads, const FluidEffect& effect) {
   checkMass(fluid_body, mass);
   checkShape(fluid_body);
   checkMedium(fluid_body, medium);
   checkFrame(fluid_body, fluid_frame);
-  const bool is_full = content == HoldContent::kFull && !fluid_body.holds.empty();
+  const bool is_full = effect.content == HoldContent::kFull && !fluid_body.holds.empty();
   const Displacement displaced =
-      is_full ? withFullHolds(fluid_body)
-              : Displacement{fluid_body.volume, fluid_body.centre_of_volume, fluid_body.added_mass};
+      is_full ? withFullHolds(fluid_body, effect.added_mass_factor)
+              : Displacement{fluid_body.volume, fluid_body.centre_of_volume,
+                             effect.added_mass_factor * fluid_body.added_mass};
   BodyModel model;
   model.inertia = rigidBodyInertia(mass.mass, mass.inertia) +
                   medium.density * fluid_frame.inertiaToB(displaced.added_mass);
@@ -180,7 +182,7 @@ BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_fr
   checkLever(fluid_body, model);
   if (loads) {
     model.load_frame = loads->frame(fluid_frame);
-    giveResistance(model, resistanceInB(loads, model.load_frame));
+    giveResistance(model, resistanceInB(loads, model.load_frame, effect.load_factor));
   }
   const Resistance* const resistance = model.resistance.get();
   model.has_diagonal_inertia =
@@ -211,11 +213,11 @@ SurfaceLoad computeSurfaceLoad(const BodyModel& model, const Twist& relative_twi
 }
 
 std::shared_ptr<const Resistance> resistanceInB(const std::shared_ptr<const SurfaceLoads>& loads,
-                                                const FrameOffset& frame) {
+                                                const FrameOffset& frame, double factor) {
   const Resistance* const in_F = loads->resistance();
   if (!in_F) return nullptr;
-  if (frame.isIdentity()) return {loads, in_F};
-  Resistance in_B{in_F->matrix, frame.rotation * in_F->centre + frame.translation};
+  if (frame.isIdentity() && factor == 1) return {loads, in_F};
+  Resistance in_B{factor * in_F->matrix, frame.rotation * in_F->centre + frame.translation};
   if (!frame.rotation.isIdentity(0)) in_B.matrix = rotateAxes(in_B.matrix, frame.rotation);
   return std::make_shared<const Resistance>(in_B);
 }

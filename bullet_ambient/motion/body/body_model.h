@@ -153,13 +153,19 @@ void checkMedium(const FluidBody& fluid_body, const Medium& medium);
 /// body and is not displaced, docs/theory.md eq. (134); or nothing.
 enum class HoldContent { kFull, kSealed };
 
+/// How the fluid acts on a body beside what its shape says.
+struct FluidEffect {
+  HoldContent content = HoldContent::kFull;
+  double added_mass_factor = 1;  ///< AttachDef::added_mass_factor
+  double load_factor = 1;        ///< on the resistance; the other loads have that of Surroundings
+};
+
 /// Builds the model. `fluid_frame`: pose of F in B; `loads`: of this body and medium, or null.
 /// @throws std::invalid_argument, naming value and limit, if shape, mass, inertia or medium are not
 /// physical.
 BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_frame,
                         const MassProperties& mass, const Medium& medium,
-                        std::shared_ptr<const SurfaceLoads> loads,
-                        HoldContent content = HoldContent::kFull);
+                        std::shared_ptr<const SurfaceLoads> loads, const FluidEffect& effect = {});
 
 /// The share of pressure and friction in B for a twist in B relative to the ambient flow, after
 /// removePositivePower(); docs/theory.md eq. (13) to (17) and (20). `load_share`: factor of eq.
@@ -167,9 +173,10 @@ BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_fr
 SurfaceLoad computeSurfaceLoad(const BodyModel& model, const Twist& relative_twist,
                                double load_share = 1, const FlowAlongBody* flow = nullptr) noexcept;
 
-/// Returns the resistance of loads in B, which sit in a frame there; null: they have none.
+/// Returns the resistance of loads in B times a factor; null: they have none. `frame`: where they
+/// sit in B.
 std::shared_ptr<const Resistance> resistanceInB(const std::shared_ptr<const SurfaceLoads>& loads,
-                                                const FrameOffset& frame);
+                                                const FrameOffset& frame, double factor = 1);
 
 /// Sets the resistance of a model and how quickly it settles the body. @pre the inertia is set
 void giveResistance(BodyModel& model, std::shared_ptr<const Resistance> resistance) noexcept;

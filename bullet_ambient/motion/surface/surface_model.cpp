@@ -44,7 +44,7 @@ PartLoads partLoads(const SurfaceModelDef& def, const Medium& medium) {
   PartLoads part{makeWaterlineLoads(def.shape, medium, def.flow), {}, nullptr};
   if (!part.loads) return part;
   part.frame = part.loads->frame(def.fluid_frame);
-  part.resistance = resistanceInB(part.loads, part.frame);
+  part.resistance = resistanceInB(part.loads, part.frame, def.load_factor);
   return part;
 }
 
@@ -64,13 +64,16 @@ SurfaceModel makeSurfaceModel(const SurfaceModelDef& def) {
   checkSurfaceBody(def);
   const auto modelIn = [&](const Medium& medium, HoldContent content) {
     return makeBodyModel(*def.shape, def.fluid_frame, def.mass, medium,
-                         makeSurfaceLoads(def.shape, medium, def.flow), content);
+                         makeSurfaceLoads(def.shape, medium, def.flow),
+                         {content, def.added_mass_factor, def.load_factor});
   };
   SurfaceModel model;
   model.above = modelIn(def.above, HoldContent::kFull);
   model.below = modelIn(def.below, HoldContent::kSealed);
   model.fluid_frame = def.fluid_frame;
   model.excess_density = def.below.density - def.above.density;
+  model.added_density = def.added_mass_factor * model.excess_density;
+  model.load_factor = def.load_factor;
   model.shape = def.shape;
   if (!(def.shape->sphere_radius > 0)) model.hull = LoadTables(def.shape).hull();
   if (!def.shape->holds.empty()) model.holds = std::make_shared<HoldShapes>(def.shape->holds);
@@ -148,9 +151,9 @@ WetVolume wetVolumeAt(const SurfaceModel& model, const SurfacePlane& plane_B,
 Matrix6 inertiaAt(const SurfaceModel& model, const Immersion& immersion) noexcept {
   const Matrix6 in_F = model.wetted->inertia(immersion);
   AMBIENT_ASSERT(isSymmetric(in_F, 1e-9));
-  if (model.fluid_frame.isIdentity()) return model.above.inertia + model.excess_density * in_F;
+  if (model.fluid_frame.isIdentity()) return model.above.inertia + model.added_density * in_F;
   const Matrix6 in_B = model.fluid_frame.inertiaToB(in_F);
-  return model.above.inertia + model.excess_density * 0.5 * (in_B + in_B.transpose());
+  return model.above.inertia + model.added_density * 0.5 * (in_B + in_B.transpose());
 }
 
 Matrix6 positiveInertia(const SurfaceModel& model, const Matrix6& inertia) noexcept {

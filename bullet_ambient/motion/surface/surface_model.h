@@ -17,6 +17,7 @@ struct SurfaceModelDef {
   Medium above, below;
   FlowSettings flow{};
   double wave_damping = 1;  ///< factor on the waves that the body makes, docs/theory.md eq. (69)
+  double added_mass_factor = 1, load_factor = 1;  ///< as in AttachDef
 };
 
 /// Loads of one fluid on the part of the body in it.
@@ -33,6 +34,8 @@ struct SurfaceModel {
   BodyModel above, below;
   FrameOffset fluid_frame;
   double excess_density = 0;  ///< density of the fluid below minus that of the fluid above [kg/m^3]
+  double added_density = 0;   ///< the same times the factor on the added mass
+  double load_factor = 1;     ///< on the wind
   std::shared_ptr<const FluidBody> shape;
   std::shared_ptr<const PackedHull> hull;   ///< null for a sphere
   std::shared_ptr<const HoldShapes> holds;  ///< null: none

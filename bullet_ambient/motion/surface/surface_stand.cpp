@@ -132,9 +132,8 @@ Wrench gradientAt(const SurfaceModel& model, const SurfacePlace& place, const Tw
   const FrameOffset& frame = model.fluid_frame;
   const Immersion& at = place.immersion_F;
   if (frame.isIdentity())
-    return model.excess_density * model.wetted->gradient(at, x).wrench(at.plane);
-  return model.excess_density *
-         frame.toB(model.wetted->gradient(at, frame.toF(x)).wrench(at.plane));
+    return model.added_density * model.wetted->gradient(at, x).wrench(at.plane);
+  return model.added_density * frame.toB(model.wetted->gradient(at, frame.toF(x)).wrench(at.plane));
 }
 
 Vector3 centreOfBuoyancy(const SurfaceModel& model, const SurfacePlace& place) noexcept {
@@ -192,7 +191,7 @@ Wrench loadAbove(const SurfaceModel& model, const SurfacePlace& place, const Twi
   const PartLoads& above = model.loads_above;
   AMBIENT_ASSERT(above.loads);
   const WetPart dry{seenFrom(place.plane.flipped(), above.frame), share};
-  return above.frame.toB(above.loads->wetLoad(above.frame.toF(x), dry));
+  return model.load_factor * above.frame.toB(above.loads->wetLoad(above.frame.toF(x), dry));
 }
 
 Vector6 takeWind(const SurfaceModel& model, const SurfaceStand& stand, const Vector3& wind,

@@ -26,6 +26,8 @@ from ._core import (
 from .cases import CaseCounts, collect, run_cases, write_cases
 from .settings import FlowSettings, Medium
 from .sweeps import Rollout, rollout
+from .vector_env import VectorEnv
+from .worlds import Gust, WorldBatch, act, observe
 
 __version__ = library_version.split()[1].rstrip(",")
 
@@ -34,16 +36,21 @@ __all__ = [
     "CaseCounts",
     "FlowSettings",
     "FluidBody",
+    "Gust",
     "Loads",
     "Medium",
     "Motion",
     "Robot",
     "Rollout",
     "Scene",
+    "VectorEnv",
     "World",
+    "WorldBatch",
+    "act",
     "air",
     "collect",
     "library_version",
+    "observe",
     "rollout",
     "run_cases",
     "scene_names",

@@ -12,8 +12,7 @@ import bullet_ambient as ba
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
-THRUSTERS = ("front_left", "front_right", "rear_left", "rear_right", "up_left", "up_right")
-LARGEST, LAG = 40, 0.15  # thrust [N], time constant of a propeller [s]
+LARGEST = 40  # thrust at the command 1 [N]
 STIFFNESS = np.diag([10, 0, 8, 800, 800, 800])  # about x, y, z [N m/rad], along them [N/m]
 DAMPING = np.diag([3, 0, 3, 250, 250, 250])  # [N m s], [N s/m]
 
@@ -25,12 +24,11 @@ class Controller:
     """
 
     def __init__(self, world, position):
-        self.robot, self.frame = world.robots["rov"], world.bodies["rov/frame"]
-        self.position, self.time_step, self.thrust = np.array(position), world.scene.time_step, np.zeros(len(THRUSTERS))
+        self.world, self.robot, self.frame, self.position = world, world.robots["rov"], world.bodies["rov/frame"], np.array(position)
         centre = (np.linalg.inv(self.robot.pose("frame")) @ [*self.frame.position, 1])[:3]
-        places = [np.linalg.inv(self.robot.pose("frame")) @ self.robot.pose(name) for name in THRUSTERS]
-        self.columns = np.array([[*np.cross(p[:3, 3] - centre, p[:3, 0]), *p[:3, 0]] for p in places]).T  # wrench of 1 N each
-        self.shares = np.linalg.pinv(self.columns)
+        places = [np.linalg.inv(self.robot.pose("frame")) @ self.robot.pose(name) for name in world.thrusters]
+        columns = np.array([[*np.cross(p[:3, 3] - centre, p[:3, 0]), *p[:3, 0]] for p in places]).T  # wrench of 1 N each
+        self.shares = np.linalg.pinv(columns)
 
     def wanted(self, axes):
         """Wrench of springs and dampers; the error of the attitude is taken for small angles."""
@@ -39,13 +37,8 @@ class Controller:
         return STIFFNESS @ error - DAMPING @ twist.ravel()
 
     def push(self):
-        """Call before each step: thrusts approach the wanted ones with the time constant LAG, and act on the frame."""
-        axes = self.robot.pose("frame")[:3, :3]
-        asked = np.clip(self.shares @ self.wanted(axes), -LARGEST, LARGEST)
-        self.thrust += (asked - self.thrust) * self.time_step / (LAG + self.time_step)
-        wrench = self.columns @ self.thrust
-        self.frame.apply_torque(axes @ wrench[:3])
-        self.frame.apply_force(axes @ wrench[3:])
+        """Call before each step: asks the thrusters for what springs and dampers want."""
+        self.world.commands = self.shares @ self.wanted(self.robot.pose("frame")[:3, :3]) / LARGEST
 
 
 def run(duration, controlled=True, cache=None):
@@ -57,7 +50,7 @@ def run(duration, controlled=True, cache=None):
             if controlled:
                 controller.push()
             world.step()
-            rows.append([world.time, *world.position[0], *controller.thrust])
+            rows.append([world.time, *world.position[0], *world.thrusts])
     rows = np.array(rows)
     return rows[:, 0], rows[:, 1:4], rows[:, 4:]
 
@@ -73,7 +66,7 @@ def draw(file, held, free):
     over_time.plot(time, 100 * (position - [0, 0, -2]), label=["x", "y", "z"])
     over_time.set(xlabel="t [s]", ylabel="from its place [cm]", title="deviation", ylim=(-10, 10))
     over_time.legend(fontsize=8)
-    thrusts.plot(time, thrust, label=THRUSTERS)
+    thrusts.plot(time, thrust, label=[of["name"] for of in ba.Scene("rov").document["thrusters"]])
     thrusts.set(xlabel="t [s]", ylabel="thrust [N]", title="thrusters")
     thrusts.legend(fontsize=7)
     figure.savefig(file, dpi=90)

@@ -3,7 +3,6 @@
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
 #include <cmath>
-#include <vector>
 
 #include "bullet_ambient/bullet/core/conversions.h"
 #include "preprocess/mesh/input_error.h"
@@ -32,24 +31,13 @@ MotorTarget targetOf(const JointDrive& drive, double time, double time_step) {
   return target;
 }
 
-/// Twists of all links in W, linear part at the centre of mass. Bullet has them in link frames.
-std::vector<Twist> linkTwists(const Robot& robot) {
-  const btMultiBody& body = robot.multiBody();
-  std::vector<btVector3> angular(static_cast<std::size_t>(body.getNumLinks() + 1));
-  std::vector<btVector3> linear(angular.size());
-  body.compTreeLinkVelocities(angular.data(), linear.data());
-  std::vector<Twist> twists;
-  for (int i = -1; i < body.getNumLinks(); ++i) {
-    const std::size_t at = static_cast<std::size_t>(i) + 1;
-    const btMatrix3x3& to_W = robot.bodyTransform(i).getBasis();
-    twists.push_back({toVector3(to_W * angular[at]), toVector3(to_W * linear[at])});
-  }
-  return twists;
-}
-
 }  // namespace
 
-SceneRobot::SceneRobot(const RobotDef& def) : def_(def), robot_(*def.model, settingsOf(def)) {}
+SceneRobot::SceneRobot(const RobotDef& def)
+    : def_(def),
+      robot_(*def.model, settingsOf(def)),
+      angular_(static_cast<std::size_t>(robot_.multiBody().getNumLinks()) + 1),
+      linear_(angular_.size()) {}
 
 void SceneRobot::prepareStep(double time, double time_step) {
   for (const auto& [joint, drive] : def_.motors)
@@ -90,12 +78,16 @@ Wrench SceneRobot::jointWrench(const std::string& joint) const {
   return {toVector3(body.getBasis() * wrench.m_bottomVec) + arm.cross(force), force};
 }
 
+// Bullet has velocities in link frames.
 MotionSample SceneRobot::sample(std::size_t link) const {
-  const RigidPose pose = robot_.linkPose(static_cast<int>(link) - 1);
+  const int number = static_cast<int>(link) - 1;
+  const RigidPose pose = robot_.linkPose(number);
+  const btMatrix3x3& to_W = robot_.bodyTransform(number).getBasis();
+  robot_.multiBody().compTreeLinkVelocities(angular_.data(), linear_.data());
   MotionSample sample;
   sample.position = pose * robot_.model().links[link].centre_of_mass;
   sample.orientation = Quaternion(Matrix3(pose.linear()));
-  sample.twist = linkTwists(robot_)[link];
+  sample.twist = {toVector3(to_W * angular_[link]), toVector3(to_W * linear_[link])};
   return sample;
 }
 

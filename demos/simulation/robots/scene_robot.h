@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "bullet_ambient/spatial/spatial_vectors.h"
 #include "demos/analysis/motion_sample.h"
@@ -48,6 +49,7 @@ class SceneRobot {
   RobotDef def_;
   Robot robot_;
   std::map<int, btMultiBodyJointFeedback> measured_;  ///< by Bullet's number of the link
+  mutable std::vector<btVector3> angular_, linear_;   ///< of sample(): velocities in link frames
 };
 
 }  // namespace ambient

@@ -72,7 +72,7 @@ TEST(BodyModel, FullHoldsMoveWithTheBodyAndDisplaceNothing) {
   // A force in x at the origin meets a mass that lies above it: momentum of turning about y.
   EXPECT_NEAR(inside(1, 3), mass * 0.05, 1e-12 * mass);
   const BodyModel sealed = makeBodyModel(input.shape, input.frame, input.mass, input.medium,
-                                         full.loads, HoldContent::kSealed);
+                                         full.loads, {HoldContent::kSealed});
   EXPECT_EQ(sealed.inertia, closed.inertia);
   EXPECT_EQ(sealed.displaced_mass, closed.displaced_mass);
 }

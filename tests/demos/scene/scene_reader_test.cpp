@@ -41,6 +41,8 @@ TEST(SceneReader, TakesEveryValueOver) {
   body["maximum_load_error"] = 0.02;
   body["fluid_density"] = 998;
   body["wave_damping"] = 0.5;
+  body["added_mass_factor"] = 0.8;
+  body["load_factor"] = 1.3;
   text["integrator"] = {{"method", "rk4"}, {"tolerance", 1e-4}, {"max_substeps", 7}};
   const Scene scene = sceneFrom(text);
 
@@ -56,6 +58,8 @@ TEST(SceneReader, TakesEveryValueOver) {
   EXPECT_EQ(scene.flight.max_substeps, 7);
   ASSERT_EQ(scene.bodies.size(), 1u);
   EXPECT_EQ(scene.bodies[0].attach.wave_damping, 0.5);
+  EXPECT_EQ(scene.bodies[0].attach.added_mass_factor, 0.8);
+  EXPECT_EQ(scene.bodies[0].attach.load_factor, 1.3);
   const BodyDef& ball = scene.bodies[0];
   EXPECT_EQ(ball.name, "ball");
   EXPECT_EQ(ball.mass, 0.43);
@@ -157,6 +161,29 @@ TEST(SceneReader, RejectsWhatCannotBe) {
   expectSceneRefusals("ball", ballScene());
   expectSceneRefusals("joints", jointScene());
   expectRefusals(AMBIENT_SCENE_REFUSALS, "texts", complaintAboutText);
+}
+
+TEST(SceneReader, ReadsThrusters) {
+  json text = ballScene();
+  text["thrusters"] = json::array({{{"on", "ball"},
+                                    {"position", {0, 0.1, 0}},
+                                    {"axis", {0, 3, 4}},
+                                    {"curve", {{-1, -20}, {0, 0}, {0.5, 4}, {1, 30}}},
+                                    {"lag", 0.2},
+                                    {"radius", 0.03},
+                                    {"torque_per_thrust", 0.01}}});
+  const Scene scene = sceneFrom(text);
+  const ThrusterDef& thruster = scene.thrusters.at(0);
+  EXPECT_EQ(thruster.name, "thruster_0");
+  EXPECT_EQ(thruster.body, 0u);
+  EXPECT_EQ(thruster.position, Vector3(0, 0.1, 0));
+  EXPECT_NEAR((thruster.axis - Vector3(0, 0.6, 0.8)).norm(), 0, 1e-15);
+  EXPECT_EQ(thruster.lag, 0.2);
+  EXPECT_EQ(thruster.radius, 0.03);
+  EXPECT_EQ(thruster.torque_per_thrust, 0.01);
+  const double thrusts[][2] = {{-3, -20},  {-0.5, -10}, {0, 0}, {0.25, 2},
+                               {0.75, 17}, {1, 30},     {2, 30}};
+  for (const auto& [command, thrust] : thrusts) EXPECT_EQ(thruster.thrustAt(command), thrust);
 }
 
 TEST(SceneReader, NamesAMissingFile) {

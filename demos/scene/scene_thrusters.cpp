@@ -1,0 +1,83 @@
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "demos/scene/scene_parts.h"
+#include "preprocess/mesh/input_error.h"
+#include "preprocess/robot/robot_model.h"
+
+namespace ambient {
+namespace {
+
+/// A body of a scene, and a frame in that of its shape or link.
+struct Mount {
+  std::size_t body;
+  RigidPose pose = RigidPose::Identity();
+};
+
+std::optional<std::size_t> findBody(const Scene& scene, const std::string& name) {
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    if (scene.bodies[i].name == name) return i;
+  return std::nullopt;
+}
+
+/// Finds a body, or a link robot/link that was merged into one, by its name.
+std::optional<Mount> findMount(const Scene& scene, const std::string& name) {
+  if (const auto body = findBody(scene, name)) return Mount{*body};
+  for (const RobotDef& robot : scene.robots)
+    for (const LinkModel& link : robot.model->links)
+      for (const auto& [merged, pose] : link.merged) {
+        if (robot.name + "/" + merged != name) continue;
+        if (const auto body = findBody(scene, robot.name + "/" + link.name))
+          return Mount{*body, pose};
+      }
+  return std::nullopt;
+}
+
+void checkCurve(const ThrusterDef& thruster, const std::string& place) {
+  for (std::size_t i = 1; i < thruster.curve.size(); ++i)
+    if (!(thruster.curve[i].first > thruster.curve[i - 1].first))
+      raiseInputError(place + "curve", "has the command ", thruster.curve[i].first, " after ",
+                      thruster.curve[i - 1].first, "; must be above that");
+}
+
+}  // namespace
+
+double ThrusterDef::thrustAt(double command) const {
+  if (!(command > curve.front().first)) return curve.front().second;
+  for (std::size_t i = 1; i < curve.size(); ++i) {
+    const auto& [from, low] = curve[i - 1];
+    const auto& [to, high] = curve[i];
+    if (command < to) return low + (high - low) * ((command - from) / (to - from));
+  }
+  return curve.back().second;
+}
+
+ThrusterDef toThruster(const nlohmann::json& from, const Scene& scene) {
+  const std::string index = std::to_string(scene.thrusters.size());
+  const std::string place = scene.file.string() + ": thrusters[" + index + "].";
+  const std::string on = from.at("on").get<std::string>();
+  const auto mount = findMount(scene, on);
+  if (!mount) raiseInputError(place + "on", "names \"", on, "\", which no body or link is called");
+  if (!(scene.bodies[mount->body].mass > 0))
+    raiseInputError(place + "on", "names \"", on, "\", which is static; must have a mass > 0");
+  ThrusterDef thruster;
+  thruster.name = from.value("name", "thruster_" + index);
+  for (const ThrusterDef& other : scene.thrusters)
+    if (other.name == thruster.name)
+      raiseInputError(place + "name", "\"", other.name, "\" is used twice");
+  thruster.body = mount->body;
+  thruster.position = mount->pose * vectorOr(from, "position", Vector3::Zero());
+  const Vector3 axis = vectorOr(from, "axis", Vector3::UnitX());
+  if (!(axis.norm() > 0)) raiseInputError(place + "axis", "is 0, 0, 0; must have a length > 0");
+  thruster.axis = mount->pose.linear() * axis.normalized();
+  for (const auto& point : from.at("curve"))
+    thruster.curve.emplace_back(point[0].get<double>(), point[1].get<double>());
+  checkCurve(thruster, place);
+  thruster.lag = from.value("lag", thruster.lag);
+  thruster.radius = from.value("radius", thruster.radius);
+  thruster.torque_per_thrust = from.value("torque_per_thrust", thruster.torque_per_thrust);
+  return thruster;
+}
+
+}  // namespace ambient

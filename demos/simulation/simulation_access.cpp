@@ -1,0 +1,127 @@
+#include <BulletDynamics/Featherstone/btMultiBody.h>
+#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
+
+#include <limits>
+
+#include "bullet_ambient/bullet/core/conversions.h"
+#include "demos/scene/scene_water.h"
+#include "demos/simulation/simulation.h"
+#include "preprocess/mesh/input_error.h"
+
+// Functions of Simulation for programs that change and read many worlds.
+
+namespace ambient {
+namespace {
+
+/// Priority of the region that a further flow fills, below all of scenes.
+constexpr int kLast = -1001;
+
+bool isSameFluid(const Medium& a, const Medium& b) {
+  return a.density == b.density && a.viscosity == b.viscosity;
+}
+
+FlowField sumOf(const FlowField& a, const FlowField& b) {
+  if (!a) return b;
+  return [a, b](const Vector3& point, double time) {
+    const FlowSample x = a(point, time), y = b(point, time);
+    return FlowSample{x.velocity + y.velocity, x.acceleration + y.acceleration};
+  };
+}
+
+void scale(btScalar& mass, btVector3& inertia, double by_mass, double by_moments) {
+  mass *= static_cast<btScalar>(by_mass);
+  inertia *= static_cast<btScalar>(by_moments);
+}
+
+}  // namespace
+
+void Simulation::fillWithFluids(const Scene& scene, const FlowField& flow) {
+  fluids_ = makeRegions(scene);
+  if (flow) {
+    for (FluidRegion& region : fluids_) region.flow = sumOf(region.flow, flow);
+    for (const BodyDef& body : scene.bodies)
+      if (body.mass > 0 && !isSameFluid(body.attach.medium, scene.medium))
+        raiseInputError(file_, "body \"", body.name,
+                        "\" has a medium of its own, which a current of each world cannot reach; "
+                        "must be that of the scene");
+    FluidRegion everywhere;
+    everywhere.below = scene.medium;
+    everywhere.flow = flow;
+    everywhere.priority = kLast;
+    fluids_.insert(fluids_.begin(), std::move(everywhere));
+  }
+  for (const FluidRegion& region : fluids_) regions_.push_back(fluid_.addRegion(region));
+}
+
+const FluidRegion* Simulation::regionAt(const Vector3& point) const {
+  const FluidRegion* found = nullptr;
+  for (const FluidRegion& region : fluids_)
+    if ((!region.bounds || region.bounds->hold(point)) &&
+        (!found || region.priority >= found->priority))
+      found = &region;
+  return found;
+}
+
+Medium Simulation::mediumAround(std::size_t body) const {
+  const WorldBody& of = bodies_.at(body);
+  if (!of.immersed) return {};
+  const Vector3 point = sample(of).position;
+  const FluidRegion* region = regionAt(point);
+  return region ? sampleRegion(*region, point, fluid_.time()).here() : of.immersed->medium();
+}
+
+double Simulation::surfaceOver(const Vector3& point) const {
+  for (const FluidRegion& region : fluids_)
+    if (region.surface) return sampleRegion(region, point, fluid_.time()).height;
+  return std::numeric_limits<double>::infinity();
+}
+
+double Simulation::contactImpulse(std::size_t body) const {
+  const WorldBody& of = bodies_.at(body);
+  const btCollisionObject* object = of.body.get();
+  if (of.link) {
+    const btMultiBody& multi_body = multiBodyOf(of);
+    const int number = of.linkNumber();
+    object = number < 0 ? multi_body.getBaseCollider() : multi_body.getLinkCollider(number);
+  }
+  btDispatcher& contacts = *bullet_.world->getDispatcher();
+  double sum = 0;
+  for (int i = 0; i < contacts.getNumManifolds(); ++i) {
+    const btPersistentManifold& pair = *contacts.getManifoldByIndexInternal(i);
+    if (pair.getBody0() != object && pair.getBody1() != object) continue;
+    for (int k = 0; k < pair.getNumContacts(); ++k)
+      sum += static_cast<double>(pair.getContactPoint(k).getAppliedImpulse());
+  }
+  return sum;
+}
+
+void Simulation::scaleMass(std::size_t body, double mass, double moments) {
+  const WorldBody& of = bodies_.at(body);
+  btScalar own = 0;
+  if (!of.link) {
+    btRigidBody& scaled = *of.body;
+    own = 1 / scaled.getInvMass();
+    btVector3 inertia = toBullet(toVector3(scaled.getInvInertiaDiagLocal()).cwiseInverse());
+    scale(own, inertia, mass, moments);
+    scaled.setMassProps(own, inertia);
+    scaled.updateInertiaTensor();
+    return;
+  }
+  btMultiBody& scaled = multiBodyOf(of);
+  if (of.linkNumber() >= 0) {
+    btMultibodyLink& link = scaled.getLink(of.linkNumber());
+    scale(link.m_mass, link.m_inertiaLocal, mass, moments);
+    return;
+  }
+  own = scaled.getBaseMass();
+  btVector3 inertia = scaled.getBaseInertia();
+  scale(own, inertia, mass, moments);
+  scaled.setBaseMass(own);
+  scaled.setBaseInertia(inertia);
+}
+
+void Simulation::setFactors(std::size_t body, double added_mass, double loads) {
+  if (const auto& immersed = bodies_.at(body).immersed) immersed->setFactors(added_mass, loads);
+}
+
+}  // namespace ambient

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace ambient {
+
+using RandomBlock = std::array<std::uint64_t, 4>;
+
+/// Philox4x64-10 (Salmon, Moraes, Dror and Shaw, 2011): four random numbers as a function of a
+/// counter and a key.
+RandomBlock philox(const RandomBlock& counter, const std::array<std::uint64_t, 2>& key) noexcept;
+
+/// Uses of random numbers, which do not meet.
+enum class RandomStream : std::uint64_t { kVariations, kBiases, kNoise, kGust };
+
+/// Place of random numbers in the life of a world.
+struct RandomPlace {
+  std::uint64_t seed = 0;
+  RandomStream stream = RandomStream::kVariations;
+  std::uint64_t episode = 0, step = 0;
+};
+
+/// Random numbers one after another from their place on. The k-th is a function of place and k.
+class RandomNumbers {
+ public:
+  explicit RandomNumbers(const RandomPlace& place) noexcept : place_(place) {}
+
+  double uniform() noexcept;  ///< in [0, 1), a multiple of 2^-53
+  /// Mean 0 and variance 1, by Box and Muller; takes two uniform ones.
+  double normal() noexcept;
+
+ private:
+  RandomPlace place_;
+  std::uint64_t drawn_ = 0;
+  RandomBlock block_{};
+};
+
+}  // namespace ambient

@@ -1,0 +1,362 @@
+#include "demos/worlds/batch_world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "bullet_ambient/base/elementary.h"
+#include "bullet_ambient/spatial/rotation.h"
+#include "demos/simulation/robots/scene_robot.h"
+#include "demos/worlds/observations.h"
+
+namespace ambient {
+namespace {
+
+Vector3 vectorAt(const double* x) { return {x[0], x[1], x[2]}; }
+
+/// Turn about the world's z axis.
+Quaternion headingOf(double angle) { return rotationFromVector({0, 0, angle}); }
+
+}  // namespace
+
+void BatchWorld::Flow::at(double share, double env_step) {
+  now.velocity = current + gust_before + share * (gust - gust_before);
+  now.acceleration = (gust - gust_before) / env_step;
+}
+
+BatchWorld::BatchWorld(const BatchPlan& plan, std::uint64_t seed, const BatchRows& rows)
+    : plan_(plan),
+      seed_(seed),
+      rows_(rows),
+      flow_(plan.hasFlow() ? std::make_unique<Flow>() : nullptr),
+      numbers_(static_cast<std::size_t>(plan.most_numbers)),
+      before_(plan.accelerated.size()) {
+  FlowField field;
+  if (flow_) field = [flow = flow_.get()](const Vector3&, double) { return flow->now; };
+  simulation_ = std::make_unique<Simulation>(plan.scene, plan.bodies, false, std::move(field));
+  for (const ObservationField& observation : plan.observations)
+    if (observation.read == findObservation("fluid_wrench")->read)
+      simulation_->readWrench(observation.body, true);
+}
+
+RandomNumbers BatchWorld::numbers(RandomStream stream) const {
+  return RandomNumbers({seed_, stream, episodes_, static_cast<std::uint64_t>(steps_)});
+}
+
+void BatchWorld::setSeed(std::uint64_t seed) {
+  seed_ = seed;
+  episodes_ = 0;
+}
+
+void BatchWorld::draw() {
+  RandomNumbers random = numbers(RandomStream::kVariations);
+  for (const VariationField& v : plan_.variations)
+    for (std::size_t i = 0; i < v.lowest.size(); ++i) {
+      const double x = v.lowest[i] + (v.highest[i] - v.lowest[i]) * random.uniform();
+      rows_.parameters[v.field.offset + static_cast<int>(i)] =
+          v.is_logarithmic ? portable::exp(x) : x;
+    }
+}
+
+const double* BatchWorld::find(VariationKind kind, std::size_t body) const {
+  for (const VariationField& v : plan_.variations)
+    if (v.kind == kind && (body == kAny || v.body == body))
+      return rows_.parameters + v.field.offset;
+  return nullptr;
+}
+
+void BatchWorld::applyMass(std::size_t body) {
+  const auto factor = [&](VariationKind kind) {
+    const double* found = find(kind, body);
+    return found ? *found : 1.0;
+  };
+  const double mass = factor(VariationKind::kMass), moments = factor(VariationKind::kInertia);
+  if (mass != 1 || moments != 1) simulation_->scaleMass(body, mass, mass * moments);
+  const BodyDef& def = plan_.scene.bodies[body];
+  simulation_->setFactors(body, def.attach.added_mass_factor * factor(VariationKind::kAddedMass),
+                          def.attach.load_factor * factor(VariationKind::kLoads));
+}
+
+void BatchWorld::placeBody(std::size_t body) {
+  const double* position = find(VariationKind::kPosition, body);
+  const double* heading = find(VariationKind::kHeading, body);
+  const double* attitude = find(VariationKind::kAttitude, body);
+  const double* twist = find(VariationKind::kTwist, body);
+  const Quaternion before = headingOf(heading ? *heading : 0);
+  const Quaternion after =
+      rotationFromVector(attitude ? vectorAt(attitude) : Vector3(Vector3::Zero()));
+  const Vector3 way = position ? vectorAt(position) : Vector3(Vector3::Zero());
+  const auto faster = [&](Twist x) {
+    if (!twist) return x;
+    return Twist{x.angular + vectorAt(twist), x.linear + vectorAt(twist + 3)};
+  };
+  const bool is_placed = position || heading || attitude;
+  const MotionSample start = simulation_->sample(body);
+  const auto& link = plan_.scene.bodies[body].link;
+  if (!link) {
+    if (is_placed)
+      simulation_->setPose(body, start.position + way, before * start.orientation * after);
+    if (twist) simulation_->setTwist(body, faster(start.twist));
+    return;
+  }
+  Robot& robot = simulation_->changedRobot(link->robot).robot();
+  if (is_placed) {
+    RigidPose pose = robot.linkPose(-1) * robot.model().links.front().joint.origin.inverse();
+    pose.linear() = Matrix3(before * Quaternion(Matrix3(pose.linear())) * after);
+    pose.translation() += way;
+    robot.setPose(pose);
+  }
+  if (twist)
+    robot.setTwist(faster(plan_.scene.robots[link->robot].fixed_base ? Twist{} : start.twist));
+}
+
+void BatchWorld::setFlowAndThrusters() {
+  const double* thrusts = find(VariationKind::kThrust);
+  const double* lag = find(VariationKind::kLag);
+  Thrusters& thrusters = simulation_->thrusters();
+  for (std::size_t i = 0; i < thrusters.size(); ++i) {
+    thrusters.setFactors(i, thrusts ? thrusts[i] : 1, lag ? *lag : 1);
+    thrusters.command(i, 0);
+  }
+  const double* target = find(VariationKind::kTarget);
+  target_ = target ? vectorAt(target) : Vector3(Vector3::Zero());
+  const double* gust = find(VariationKind::kGust);
+  gust_factor_ = gust ? *gust : 1;
+  const double* current = find(VariationKind::kCurrent);
+  if (flow_) flow_->current = current ? vectorAt(current) : Vector3(Vector3::Zero());
+}
+
+void BatchWorld::apply() {
+  setFlowAndThrusters();
+  drawGust();
+  if (flow_) flow_->at(0, plan_.envStep());
+  std::size_t joint = 0;
+  if (const double* offsets = find(VariationKind::kJointPosition))
+    for (const BatchJoint& of : plan_.joints) {
+      Robot& robot = simulation_->changedRobot(of.robot).robot();
+      robot.setPosition(of.name, robot.position(of.name) + offsets[joint++]);
+    }
+  for (std::size_t body = 0; body < plan_.bodies.size(); ++body) {
+    const auto varies = [body](const VariationField& v) { return v.body == body; };
+    if (std::none_of(plan_.variations.begin(), plan_.variations.end(), varies)) continue;
+    placeBody(body);
+    applyMass(body);
+  }
+}
+
+void BatchWorld::drawGust() {
+  if (!flow_ || !plan_.settings.gust) return;
+  const GustDef& def = *plan_.settings.gust;
+  RandomNumbers random = numbers(RandomStream::kGust);
+  const Vector3 noise(random.normal(), random.normal(), random.normal());
+  const Vector3 sigma = gust_factor_ * def.intensity;
+  flow_->gust_before = flow_->gust;
+  if (steps_ == 0) {
+    flow_->gust = sigma.cwiseProduct(noise);
+    flow_->gust_before = flow_->gust;
+    return;
+  }
+  const double kept = portable::exp(-plan_.envStep() / def.time);
+  flow_->gust = kept * flow_->gust + std::sqrt(1 - kept * kept) * sigma.cwiseProduct(noise);
+}
+
+void BatchWorld::reset(const SimulationState& start, bool draws) {
+  fault_.clear();
+  steps_ = 0;
+  ++episodes_;
+  if (draws) draw();
+  try {
+    simulation_->restore(start);
+    apply();
+  } catch (const std::exception& error) {
+    fail(error.what());
+  }
+  observe();
+}
+
+bool BatchWorld::isActionFinite() {
+  for (const ActionField& action : plan_.actions)
+    for (int i = 0; i < action.field.size; ++i) {
+      if (std::isfinite(rows_.action[action.field.offset + i])) continue;
+      fail("the action " + action.field.name + "[" + std::to_string(i) + "] is not finite");
+      return false;
+    }
+  return true;
+}
+
+void BatchWorld::setMotors(const ActionField& field) {
+  for (std::size_t i = 0; i < field.rows.size(); ++i) {
+    const BatchJoint& joint = plan_.joints[static_cast<std::size_t>(field.rows[i])];
+    const auto& motors = plan_.scene.robots[joint.robot].motors;
+    const auto found = motors.find(joint.name);
+    JointDrive drive = found == motors.end() ? JointDrive{} : found->second;
+    drive.amplitude = 0;
+    const double asked = field.scale * rows_.action[field.field.offset + static_cast<int>(i)];
+    drive.velocity.reset();
+    if (field.kind == ActionKind::kMotorVelocity) {
+      drive.velocity = asked;
+    } else {
+      drive.position = asked;
+    }
+    simulation_->robot(joint.robot).setDrive(joint.name, drive);
+  }
+}
+
+void BatchWorld::push(const ActionField& field) {
+  std::fill(numbers_.begin(), numbers_.end(), 0.0);
+  for (std::size_t i = 0; i < field.rows.size(); ++i)
+    numbers_[static_cast<std::size_t>(field.rows[i])] =
+        field.scale * rows_.action[field.field.offset + static_cast<int>(i)];
+  if (field.kind == ActionKind::kJointTorque) {
+    for (std::size_t i = 0; i < plan_.joints.size(); ++i)
+      if (numbers_[i] != 0)
+        simulation_->robot(plan_.joints[i].robot).addJointTorque(plan_.joints[i].name, numbers_[i]);
+    return;
+  }
+  Wrench wrench{vectorAt(numbers_.data()), vectorAt(numbers_.data() + 3)};
+  if (field.kind == ActionKind::kWrench) {
+    const Quaternion to_W = simulation_->sample(field.body).orientation;
+    wrench = {to_W * wrench.torque, to_W * wrench.force};
+  }
+  simulation_->apply(field.body, wrench);
+}
+
+void BatchWorld::act(bool is_first) {
+  for (const ActionField& action : plan_.actions) {
+    const double* asked = rows_.action + action.field.offset;
+    switch (action.kind) {
+      case ActionKind::kThrusters:
+        for (std::size_t i = 0; is_first && i < action.rows.size(); ++i)
+          simulation_->thrusters().command(static_cast<std::size_t>(action.rows[i]),
+                                           std::clamp(action.scale * asked[i], -1.0, 1.0));
+        break;
+      case ActionKind::kMotorPosition:
+      case ActionKind::kMotorVelocity:
+        if (is_first) setMotors(action);
+        break;
+      default:
+        push(action);
+    }
+  }
+}
+
+void BatchWorld::step() {
+  if (!fault_.empty()) return;
+  if (!isActionFinite()) return observe();
+  ++steps_;
+  drawGust();
+  try {
+    for (int k = 0; k < plan_.settings.substeps && fault_.empty(); ++k) {
+      if (flow_) flow_->at(static_cast<double>(k) / plan_.settings.substeps, plan_.envStep());
+      act(k == 0);
+      if (k == plan_.settings.substeps - 1)
+        for (std::size_t i = 0; i < before_.size(); ++i)
+          before_[i] = simulation_->sample(plan_.accelerated[i]).twist;
+      simulation_->stepUnchecked();
+      if (auto sentence = simulation_->fault()) fail(std::move(*sentence));
+    }
+  } catch (const std::exception& error) {
+    fail(error.what());
+  }
+  observe();
+}
+
+bool BatchWorld::isTruncated() const {
+  return plan_.settings.most_steps > 0 && steps_ >= plan_.settings.most_steps;
+}
+
+void BatchWorld::observe() {
+  if (!fault_.empty()) {
+    std::fill_n(rows_.observation, plan_.observation_size,
+                std::numeric_limits<double>::quiet_NaN());
+    return;
+  }
+  ObservationView view{plan_, *simulation_, rows_.parameters};
+  view.target = target_;
+  if (plan_.settings.most_steps > 0)
+    view.time_share = static_cast<double>(steps_) / static_cast<double>(plan_.settings.most_steps);
+  for (const ObservationField& observation : plan_.observations) {
+    if (view.field == nullptr || view.field->body != observation.body) {
+      view.now = simulation_->sample(observation.body);
+      view.to_W = view.now.orientation.toRotationMatrix();
+    }
+    view.field = &observation;
+    if (steps_ > 0 && observation.accelerated >= 0)
+      view.before = before_[static_cast<std::size_t>(observation.accelerated)];
+    observation.read(view, numbers_.data());
+    double* to = rows_.observation + observation.field.offset;
+    for (const int row : observation.rows) *to++ = numbers_[static_cast<std::size_t>(row)];
+  }
+  addNoise();
+}
+
+// Draws for every reading, so that a sensor's noise does not depend on others' settings.
+void BatchWorld::addNoise() {
+  const auto is_noisy = [](const ObservationField& o) { return o.noise > 0 || o.bias > 0; };
+  if (std::none_of(plan_.observations.begin(), plan_.observations.end(), is_noisy)) return;
+  RandomNumbers noise = numbers(RandomStream::kNoise);
+  RandomNumbers bias({seed_, RandomStream::kBiases, episodes_, 0});
+  double* reading = rows_.observation;
+  for (const ObservationField& observation : plan_.observations)
+    for (int i = 0; i < observation.field.size; ++i)
+      *reading++ += observation.noise * noise.normal() + observation.bias * bias.normal();
+}
+
+void BatchWorld::fail(std::string sentence) { fault_ = std::move(sentence); }
+
+/// What bytes of a state begin with.
+struct BatchWorld::Head {
+  char magic[8] = {'A', 'M', 'B', 'B', 'A', 'T', 'C', 'H'};
+  std::uint64_t version = 1, seed = 0, episodes = 0;
+  std::int64_t steps = 0;
+  double gust[6] = {};
+};
+
+std::string BatchWorld::saveState() const {
+  if (!fault_.empty()) throw std::runtime_error("a world that has failed has no state: " + fault_);
+  Head head;
+  head.seed = seed_;
+  head.episodes = episodes_;
+  head.steps = steps_;
+  if (flow_) {
+    Eigen::Map<Vector3>(head.gust) = flow_->gust_before;
+    Eigen::Map<Vector3>(head.gust + 3) = flow_->gust;
+  }
+  std::string bytes(reinterpret_cast<const char*>(&head), sizeof head);
+  bytes.append(reinterpret_cast<const char*>(rows_.parameters),
+               static_cast<std::size_t>(plan_.parameter_size) * sizeof(double));
+  bytes.append(reinterpret_cast<const char*>(before_.data()), before_.size() * sizeof(Twist));
+  return bytes + simulation_->saveState();
+}
+
+void BatchWorld::restoreState(std::string_view bytes) {
+  Head head;
+  const std::size_t parameters = static_cast<std::size_t>(plan_.parameter_size) * sizeof(double);
+  const std::size_t twists = before_.size() * sizeof(Twist);
+  const std::size_t size = sizeof head + parameters + twists;
+  if (bytes.size() < size || std::memcmp(bytes.data(), head.magic, sizeof head.magic) != 0)
+    throw std::runtime_error("saved state: is not one of a world of this batch");
+  std::memcpy(&head, bytes.data(), sizeof head);
+  if (head.version != 1 || head.steps < 0)
+    throw std::runtime_error("saved state: is of another version, or damaged");
+  simulation_->restoreState(bytes.substr(size));
+  const char* from = bytes.data() + sizeof head;
+  std::copy_n(from, parameters, reinterpret_cast<char*>(rows_.parameters));
+  std::copy_n(from + parameters, twists, reinterpret_cast<char*>(before_.data()));
+  seed_ = head.seed;
+  episodes_ = head.episodes;
+  steps_ = head.steps;
+  fault_.clear();
+  setFlowAndThrusters();
+  if (flow_) {
+    flow_->gust_before = vectorAt(head.gust);
+    flow_->gust = vectorAt(head.gust + 3);
+    flow_->at(1, plan_.envStep());
+  }
+  observe();
+}
+
+}  // namespace ambient

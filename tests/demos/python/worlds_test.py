@@ -1,0 +1,239 @@
+#!/usr/bin/python3
+"""Worlds at once from Python, and VectorEnv against Gymnasium's rules, by a plain loop over single worlds."""
+
+import sys
+import threading
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import bullet_ambient as ba
+
+sys.path.append(str(Path(__file__).resolve().parents[3] / "demos/python/examples"))
+import glide_to_target  # noqa: E402
+import station_keeping  # noqa: E402
+from cma import Cma  # noqa: E402
+
+SCENE = {
+    "duration": 1, "time_step": 0.01, "medium": {"density": 1000, "viscosity": 1e-3},
+    "bodies": [{"name": "hull", "mass": 31, "shape": {"type": "box", "size": [0.5, 0.3, 0.2]}, "position": [0, 0, 1]}],
+    "thrusters": [{"on": "hull", "position": [-0.2, y, 0], "curve": [[-1, -30], [1, 40]], "lag": 0.1} for y in (0.1, -0.1)],
+}
+MORE = {"substeps": 2, "most_steps": 7, "actions": ["thrusters"], "observations": ["position", "twist"],
+        "vary": {"mass": (0.8, 1.2), "position": (-1, 1)}}
+WORLDS = 5
+
+
+class Drift(ba.VectorEnv):
+    """Ends above a height, which some worlds reach."""
+
+    def reward(self, batch):
+        return batch["position"][:, 0]
+
+    def ended(self, batch):
+        return batch["position"][:, 0] > 0.9
+
+    def info(self, batch):
+        return {"speed": batch["twist"][:, 3]}
+
+
+class Loop:
+    """Single worlds, one after another, by the rules of gymnasium.vector.SyncVectorEnv."""
+
+    def __init__(self, mode):
+        self.mode, self.done = mode, np.zeros(WORLDS, bool)
+
+    def reset(self, seed):
+        self.worlds = [ba.WorldBatch(SCENE, 1, seed=seed + i, threads=1, **MORE) for i in range(WORLDS)]
+        return np.array([world.observations[0] for world in self.worlds], np.float32)
+
+    def step(self, actions):
+        observations, rewards, ends, cuts, finals = [], [], [], [], [None] * WORLDS
+        for i, world in enumerate(self.worlds):
+            reward, ended, cut = 0.0, False, False
+            if self.mode == "next_step" and self.done[i]:
+                world.reset()
+            else:
+                world.actions[:] = actions[i]
+                world.step()
+                reward, ended, cut = world["position"][0, 0], world["position"][0, 0] > 0.9, bool(world.truncated[0])
+            self.done[i] = ended or cut
+            if self.mode == "same_step" and self.done[i]:
+                finals[i] = world.observations[0].astype(np.float32)
+                world.reset()
+            if self.mode == "disabled" and self.done[i]:
+                observations.append(world.observations[0].astype(np.float32))
+                world.reset()  # reset() comes before the next step
+            else:
+                observations.append(world.observations[0].astype(np.float32))
+            rewards.append(reward), ends.append(ended), cuts.append(cut)
+        return np.array(observations), np.array(rewards), np.array(ends), np.array(cuts), finals
+
+
+class VectorEnvTest(unittest.TestCase):
+    def compare(self, mode):
+        env, loop = Drift(SCENE, WORLDS, autoreset=mode, **MORE), Loop(mode)
+        observations, infos = env.reset(seed=3)
+        np.testing.assert_array_equal(observations, loop.reset(3))
+        random, ends = np.random.default_rng(2), 0
+        for _ in range(60):
+            actions = random.uniform(-1, 1, (WORLDS, 2))
+            observations, rewards, terminated, truncated, infos = env.step(actions)
+            expected, pay, ended, cut, finals = loop.step(actions)
+            np.testing.assert_array_equal(observations, expected)
+            np.testing.assert_array_equal(rewards, pay)
+            np.testing.assert_array_equal(terminated, ended)
+            np.testing.assert_array_equal(truncated, cut)
+            done = ended | cut
+            ends += done.sum()
+            self.assertEqual(infos["speed"].shape, (WORLDS,))
+            if mode == "same_step" and done.any():
+                np.testing.assert_array_equal(infos["_final_obs"], done)
+                for i in np.flatnonzero(done):
+                    np.testing.assert_array_equal(infos["final_obs"][i], finals[i])
+                    self.assertEqual(np.float32(infos["final_info"]["speed"][i]), finals[i][6])
+            else:
+                self.assertNotIn("final_obs", infos)
+            if mode == "disabled" and done.any():
+                with self.assertRaisesRegex(ValueError, "has ended"):
+                    env.step(actions)
+                env.reset(options={"reset_mask": done})
+        self.assertGreater(ends, 20)
+
+    def test_next_step(self):
+        self.compare("next_step")
+
+    def test_same_step(self):
+        self.compare("same_step")
+
+    def test_disabled(self):
+        self.compare("disabled")
+
+    def test_spaces_and_refusals(self):
+        env = Drift(SCENE, WORLDS, **MORE)
+        self.assertEqual(env.single_action_space.shape, (2,))
+        self.assertEqual(env.observation_space.shape, (WORLDS, 9))
+        self.assertTrue(env.single_action_space.contains(np.float32([1, -1])))
+        self.assertFalse(env.single_action_space.contains(np.float32([1, -1.1])))
+        self.assertEqual(env.action_space.sample().shape, (WORLDS, 2))
+        with self.assertRaisesRegex(ValueError, r"shape \(5, 3\); must be \(5, 2\)"):
+            env.step(np.zeros((5, 3)))
+        for mask in (np.zeros(WORLDS, bool), np.ones(WORLDS), [True] * WORLDS, np.ones(3, bool)):
+            with self.assertRaisesRegex(ValueError, "reset_mask"):
+                env.reset(options={"reset_mask": mask})
+        with self.assertRaisesRegex(ValueError, "autoreset"):
+            Drift(SCENE, WORLDS, autoreset="never", **MORE)
+
+    def test_a_world_that_fails_is_terminated(self):
+        env = Drift(SCENE, 3, actions=["wrench_world"], observations=["position", "twist"])
+        env.reset(seed=1)
+        actions = np.zeros((3, 6))
+        actions[1, 3] = np.nan
+        observations, rewards, terminated, _, infos = env.step(actions)
+        self.assertEqual(terminated.tolist(), [False, True, False])
+        self.assertEqual(infos["failed"].tolist(), [False, True, False])
+        self.assertEqual((rewards[1], *observations[1]), (0,) * 10)
+        self.assertFalse(env.step(0 * np.nan_to_num(actions))[2].any())
+        self.assertFalse(env.batch.failed.any())
+
+
+class WorldBatchTest(unittest.TestCase):
+    def test_memory_is_the_worlds_own(self):
+        batch = ba.WorldBatch(SCENE, 2, **MORE)
+        actions, seen = batch.action("thrusters"), batch["position"]
+        actions[0] = 1
+        before = seen.copy()
+        for _ in range(5):
+            batch.step()
+        self.assertGreater(seen[0, 0], before[0, 0])
+        self.assertTrue(np.shares_memory(seen, batch.observations))
+        with self.assertRaises(ValueError):
+            batch.failed[0] = True
+        del batch
+        self.assertTrue(np.isfinite(seen).all())  # the view keeps the worlds alive
+
+    def test_parameters_can_be_written(self):
+        batch = ba.WorldBatch(SCENE, 2, **MORE)
+        batch.parameter("position")[:] = [[1, 2, 3], [4, 5, 6]]
+        batch.reset(draws=False)
+        np.testing.assert_array_equal(batch["position"], [[1, 2, 4], [4, 5, 7]])
+
+    def test_run_and_states(self):
+        batch, other = (ba.WorldBatch(SCENE, 2, **MORE) for _ in range(2))
+        actions = np.random.default_rng(1).uniform(-1, 1, (2, 6, 2))
+        out = batch.run(actions)
+        self.assertEqual(out.shape, (2, 6, 9))
+        for t in range(6):
+            other.actions[:] = actions[:, t]
+            other.step()
+            np.testing.assert_array_equal(other.observations, out[:, t])
+        state = batch.state(1)
+        batch.step()
+        expected = batch.observations[1].copy()
+        batch.restore(1, state)
+        batch.step()
+        np.testing.assert_array_equal(batch.observations[1], expected)
+
+    def test_refusals(self):
+        batch = ba.WorldBatch(SCENE, 2, **MORE)
+        for call, error, words in (
+            (lambda: batch.step(np.ones(3, bool)), ValueError, r"reset has shape \(3,\); must be \(2,\)"),
+            (lambda: batch.reset(seed=[1]), ValueError, "1 seeds; must be one for each world, 2"),
+            (lambda: batch.run(np.zeros((2, 3, 1))), ValueError, r"must be \(2, steps, 2\)"),
+            (lambda: batch.state(2), IndexError, "no world 2; there are 0 to 1"),
+            (lambda: batch.restore(0, b""), ValueError, "is not one of a world of this batch"),
+            (lambda: ba.WorldBatch(SCENE, 0), ValueError, "worlds: is 0; must be >= 1"),
+            (lambda: ba.WorldBatch(SCENE, vary={"mass": 3}), (TypeError, ValueError), ""),
+            (lambda: ba.WorldBatch(SCENE, observations=["smell"]), ValueError, "must be one of position"),
+        ):
+            with self.assertRaisesRegex(error, words):
+                call()
+
+    def test_a_second_thread_is_refused(self):
+        batch = ba.WorldBatch(SCENE, 64, actions=["thrusters"], threads=1)
+        running = threading.Thread(target=batch.run, args=(np.zeros((64, 400, 2)),))
+        running.start()
+        refused = 0
+        while running.is_alive() and not refused:
+            try:
+                batch.observations
+            except RuntimeError as error:
+                self.assertIn("in use by another thread", str(error))
+                refused += 1
+        running.join()
+        self.assertTrue(refused)
+
+    def test_thrusters_of_a_world(self):
+        with ba.World(ba.Scene(SCENE)) as world:
+            self.assertEqual(world.thrusters, ["thruster_0", "thruster_1"])
+            world.commands = [1, 0]
+            world.step(3)
+            self.assertAlmostEqual(world.thrusts[0], 40 * (1 - (0.1 / 0.11) ** 3), places=12)
+            self.assertEqual(world.commands.tolist(), [1, 0])
+            with self.assertRaisesRegex(ValueError, r"shape \(3,\); must be one for each of 2"):
+                world.commands = [1, 0, 0]
+            with self.assertRaisesRegex(ValueError, "\"thruster_1\" is not finite"):
+                world.commands = [0, np.nan]
+
+
+class LearningTest(unittest.TestCase):
+    def test_the_strategy_finds_a_minimum(self):
+        search = Cma(np.ones(6), 0.5, 12)
+        for _ in range(250):
+            tried = search.ask()
+            search.tell(((tried - np.arange(6)) ** 2 * 10.0 ** np.arange(6)).sum(1))
+        np.testing.assert_allclose(search.mean, np.arange(6), atol=1e-5)
+
+    def test_the_vehicle_begins_to_hold_its_place(self):
+        _, costs = station_keeping.learn(8, population=16, each=2, say=lambda *_: None)
+        self.assertLess(np.mean(costs[-3:]), 0.8 * np.mean(costs[:2]))
+
+    def test_the_sheet_begins_to_land_near_its_target(self):
+        _, misses = glide_to_target.learn(7, population=12, each=3, say=lambda *_: None)
+        self.assertGreater(misses[0], 2)
+        self.assertLess(np.mean(misses[-2:]), 1.8)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,205 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "bullet_ambient/force/medium/waves.h"
+#include "demos/worlds/world_batch.h"
+#include "tests/demos/scene/scene_text.h"
+#include "tests/demos/simulation/scenes/run_scene.h"
+#include "tests/support/refusal_of.h"
+
+// What the sensors of worlds read, and what varies.
+namespace ambient {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kGravity = 9.81;
+
+/// A heavy box over a floor, without a fluid.
+json boxOnFloor() {
+  json scene = ballScene();
+  scene["medium"] = {{"density", 0}};
+  scene["bodies"] = json::array({{{"name", "floor"},
+                                  {"mass", 0},
+                                  {"shape", {{"type", "box"}, {"size", {4, 4, 1}}}},
+                                  {"position", {0, 0, -0.5}}},
+                                 {{"name", "box"},
+                                  {"mass", 5},
+                                  {"shape", {{"type", "box"}, {"size", {0.4, 0.4, 0.4}}}},
+                                  {"position", {0, 0, 0.2}}}});
+  return scene;
+}
+
+/// Readings of one world after `steps` env steps.
+std::vector<double> read(const json& scene, BatchSettings settings, int steps) {
+  settings.threads = 1;
+  WorldBatch batch(sceneFrom(scene), settings);
+  for (int n = 0; n < steps; ++n) batch.step();
+  return {batch.observations(), batch.observations() + batch.plan().observation_size};
+}
+
+BatchSettings reading(std::vector<ObservationDef> observations) {
+  BatchSettings settings;
+  settings.observations = std::move(observations);
+  return settings;
+}
+
+TEST(Sensors, OnAFloorFeelWeightAndContact) {
+  const auto seen = read(boxOnFloor(), reading({{"imu"}, {"contact"}, {"wet"}}), 200);
+  for (const int k : {0, 1, 2, 3, 4}) EXPECT_NEAR(seen[static_cast<std::size_t>(k)], 0, 0.02) << k;
+  EXPECT_NEAR(seen[5], kGravity, 0.02);
+  EXPECT_NEAR(seen[6], 5 * kGravity * 0.01, 0.01 * 5 * kGravity * 0.01);
+  EXPECT_EQ(seen[7], 0);
+}
+
+TEST(Sensors, InFreeFallFeelNothing) {
+  json scene = boxOnFloor();
+  scene["bodies"][1]["position"] = {0, 0, 50};
+  const auto seen = read(scene, reading({{"imu"}, {"depth"}, {"contact"}}), 3);
+  EXPECT_NEAR(seen[5], 0, 1e-9);
+  EXPECT_EQ(seen[7], 0);
+  EXPECT_NEAR(seen[6], -50 + kGravity * 0.01 * 0.01 * 6, 1e-3);
+}
+
+// On an arm r at the rate w: w^2 r towards the axis, here besides gravity.
+TEST(Sensors, OnAnArmFeelTheTurn) {
+  json scene = boxOnFloor();
+  scene["gravity"] = {0, 0, 0};
+  scene["bodies"][1]["position"] = {0, 0, 50};
+  scene["bodies"][1]["angular_velocity"] = {0, 0, 3};
+  ObservationDef imu{"imu"}, log{"velocity_log"};
+  imu.place = log.place = Vector3(0.5, 0, 0);
+  const auto seen = read(scene, reading({imu, log}), 7);
+  EXPECT_NEAR(seen[2], 3, 1e-9);
+  EXPECT_NEAR(seen[3], -9 * 0.5, 1e-9);
+  EXPECT_NEAR(seen[4], 0, 1e-9);
+  EXPECT_NEAR(seen[7], 1.5, 1e-9);
+}
+
+json ballInSea() {
+  json scene = ballScene();
+  scene["water"] = {
+      {"level", 2}, {"current", {0.4, 0, 0}}, {"waves", {{{"amplitude", 0.3}, {"period", 4}}}}};
+  scene["bodies"][0]["mass"] = 5.5;
+  scene["bodies"][0]["linear_velocity"] = {1, 0, 0};
+  return scene;
+}
+
+// Height of a linear wave, a cos(k x - w t), carried along by the current, over the place.
+TEST(Sensors, ReadDepthUnderAWave) {
+  const auto seen = read(ballInSea(), reading({{"position"}, {"depth"}}), 20);
+  const double rate = 2 * std::acos(-1.0) / 4, time = 0.2;
+  const double number = rate * rate / kGravity;
+  const double level = 2 + 0.3 * std::cos(number * (seen[0] - 0.4 * time) - rate * time);
+  EXPECT_NEAR(seen[3], level - seen[2], 2e-3);
+}
+
+TEST(Sensors, ReadTheFlowThatAWorldHasDrawn) {
+  json scene = ballScene();
+  scene["gravity"] = {0, 0, 0};
+  scene["bodies"][0]["linear_velocity"] = {0, 0, 0};
+  scene["bodies"][0]["angular_velocity"] = {0, 0, 0};
+  BatchSettings settings = reading({{"flow"}, {"twist"}, {"parameters"}});
+  settings.variations = {{"current", "", {2, -1, 0}, {2, -1, 0}}};
+  const auto at_first = read(scene, settings, 0);
+  EXPECT_EQ(at_first[0], 2);
+  EXPECT_EQ(at_first[1], -1);
+  EXPECT_EQ(at_first[9], 2);
+  const auto later = read(scene, settings, 3);
+  EXPECT_GT(later[6], 0);  // the flow takes the ball along
+  EXPECT_NEAR(later[0] + later[6], 2, 1e-12);
+}
+
+// The current of a world acts as one that the scene has, bit for bit in what the ball does.
+TEST(Variations, ACurrentActsAsThatOfTheScene) {
+  json scene = ballScene();
+  BatchSettings settings = reading({{"position"}, {"twist"}});
+  json carried = scene;
+  carried["medium"]["velocity"] = {3, 1, 0};
+  const auto expected = read(carried, settings, 50);
+  settings.variations = {{"current", "", {3, 1, 0}, {3, 1, 0}}};
+  const auto seen = read(scene, settings, 50);
+  for (std::size_t k = 0; k < seen.size(); ++k)
+    EXPECT_NEAR(seen[k], expected[k], 1e-12 * std::abs(expected[k])) << k;
+}
+
+TEST(Variations, OfMassAndPlaceAreThoseOfTheScene) {
+  json scene = ballScene();
+  scene["bodies"][0]["angular_velocity"] = {0, 0, 0};
+  BatchSettings settings = reading({{"position"}, {"twist_world"}});
+  settings.variations = {{"mass", "", {1.5}, {1.5}},
+                         {"position", "", {1, 2, 3}, {1, 2, 3}},
+                         {"twist", "", {0, 0, 0, -10, 0, 0}, {0, 0, 0, -10, 0, 0}},
+                         {"loads", "", {0.5}, {0.5}},
+                         {"added_mass", "", {2}, {2}}};
+  const auto seen = read(scene, settings, 40);
+  json other = scene;
+  other["bodies"][0]["mass"] = 0.43 * 1.5;
+  other["bodies"][0]["position"] = {1, 2, 4};
+  other["bodies"][0]["linear_velocity"] = {20, 0, 0};
+  other["bodies"][0]["load_factor"] = 0.5;
+  other["bodies"][0]["added_mass_factor"] = 2;
+  const auto expected = read(other, reading(settings.observations), 40);
+  for (std::size_t k = 0; k < seen.size(); ++k)
+    EXPECT_NEAR(seen[k], expected[k], 1e-11 * (1 + std::abs(expected[k]))) << k;
+}
+
+// Variance s^2 and correlation exp(-T / time) from one env step to the next, in 4 standard
+// deviations of their estimates.
+TEST(Gusts, HaveTheirVarianceAndMemory) {
+  constexpr int kWorlds = 60, kSteps = 60;
+  json scene = ballScene();
+  scene["gravity"] = {0, 0, 0};
+  scene["model"] = "vacuum";
+  BatchSettings settings = reading({{"flow"}, {"twist"}});
+  settings.worlds = kWorlds;
+  settings.gust = GustDef{{2, 2, 2}, 0.03};
+  scene["model"] = "ambient";
+  scene["bodies"][0]["mass"] = 1e6;
+  WorldBatch batch(sceneFrom(scene), settings);
+  double square = 0, product = 0;
+  std::vector<double> before(kWorlds);
+  for (int n = 0; n <= kSteps; ++n) {
+    if (n > 0) batch.step();
+    for (int i = 0; i < kWorlds; ++i) {
+      // The gust at the start of the last substep, which is the one of the step before.
+      const double gust = batch.observations()[9 * i + 2];
+      if (n > 1) product += gust * before[static_cast<std::size_t>(i)];
+      if (n > 0) square += gust * gust;
+      before[static_cast<std::size_t>(i)] = gust;
+    }
+  }
+  const double kept = std::exp(-0.01 / 0.03), independent = kWorlds * kSteps * (1 - kept);
+  EXPECT_NEAR(square / (kWorlds * kSteps), 4, 4 * 4 * std::sqrt(2 / independent));
+  EXPECT_NEAR(product / square * kSteps / (kSteps - 1), kept, 4 / std::sqrt(independent));
+}
+
+TEST(WorldBatch, RefusesInOneLine) {
+  const auto refusal = [](BatchSettings settings) {
+    return test::refusalOf([&] { WorldBatch(sceneFrom(ballScene()), settings); });
+  };
+  EXPECT_EQ(
+      refusal(reading({{"colour"}})).rfind("observations[0]: is \"colour\"; must be one of", 0), 0u)
+      << refusal(reading({{"colour"}}));
+  EXPECT_NE(refusal(reading({{"twist", "nobody"}})).find("names the body \"nobody\""),
+            std::string::npos);
+  EXPECT_NE(refusal(reading({{"twist", "", {6}}})).find("has the row 6; must be from 0 to 5"),
+            std::string::npos);
+  BatchSettings settings;
+  settings.actions = {{"thrusters"}};
+  EXPECT_NE(refusal(settings).find("has no numbers"), std::string::npos);
+  settings = {};
+  settings.variations = {{"mass", "", {0}, {1}}};
+  EXPECT_NE(refusal(settings).find("is 0; must be > 0"), std::string::npos);
+  settings.variations = {{"position", "", {0, 0}, {1, 1}}};
+  EXPECT_NE(refusal(settings).find("has bounds of 2 numbers; must be 1 or 3"), std::string::npos);
+  settings.variations = {};
+  settings.worlds = 0;
+  EXPECT_NE(refusal(settings).find("worlds: is 0; must be >= 1"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace ambient
