@@ -20,7 +20,7 @@ struct ContactRows {
 /// Contacts of a group whose bodies bounce in this step. Bullet asks for the speed of the bounce at
 /// the end of the step; members of a fluid then have also moved all of the step by it, and would
 /// gain the work of their weight on this way. So the speed is lessened by what the forces change in
-/// the step, docs/theory.md eq. (28d). That takes an iteration without the bounces: find(), hold(),
+/// the step, docs/theory.md eq. (28e). That takes an iteration without the bounces: find(), hold(),
 /// iterations, release(). Without restitution each call costs a test per contact. Reuses its
 /// memory.
 class Bounces {

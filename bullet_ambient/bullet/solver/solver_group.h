@@ -102,7 +102,7 @@ class SolverGroup {
   /// True if contacts bounce. @pre rewriteRows()
   bool hasBounces() const noexcept;
   /// Call around iterations before the others: those without the bounces, which tell the velocities
-  /// that these ask for, docs/theory.md eq. (28d).
+  /// that these ask for, docs/theory.md eq. (28e).
   void holdBounces(SolverBodies& solver_bodies, const RowPools& rows,
                    const MultiBodyRows* multibodies) noexcept;
   void releaseBounces(SolverBodies& solver_bodies, const RowPools& rows,

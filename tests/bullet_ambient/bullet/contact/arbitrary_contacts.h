@@ -135,7 +135,7 @@ btContactSolverInfo plainSettings(double dt);
 // Contacts of an ambient body of coupled inertia, K_fluid from 1e-3 to 1e4 times K_body, with a
 // fixed, an ordinary or an ambient body.
 
-/// Returns the velocity that a contact asks for, docs/theory.md eq. (28d). `bounce`: restitution
+/// Returns the velocity that a contact asks for, docs/theory.md eq. (28e). `bounce`: restitution
 /// times the speed of the approach; `push`: change of the velocity along the row by the forces on
 /// bodies in a fluid; `correction`: by a penetration, < 0: by a gap.
 inline Real contactTarget(Real bounce, Real push, Real correction) {

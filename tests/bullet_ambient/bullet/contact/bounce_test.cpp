@@ -47,7 +47,7 @@ struct BouncingWorld : FluidWorld {
   btBoxShape floor{{5, 5, 1}};
 };
 
-double heightOf(const btRigidBody& body) {
+double levelOf(const btRigidBody& body) {
   return static_cast<double>(body.getWorldTransform().getOrigin().z());
 }
 double riseOf(const btRigidBody& body) { return static_cast<double>(body.getLinearVelocity().z()); }
@@ -76,7 +76,7 @@ TEST(Bounce, KeepsNoMoreThanTheSquareOfTheRestitution) {
         const double weight = (mass - density * volume()) * kGravity;
         // Where Bullet pushes it out of the floor, the way in the floor does not count.
         const auto energy = [&] {
-          return scene.of(body).kineticEnergy() + weight * std::max(0.0, heightOf(body) - kRadius);
+          return scene.of(body).kineticEnergy() + weight * std::max(0.0, levelOf(body) - kRadius);
         };
         double before = energy(), rise = 0;
         const double rounding = byPrecision(1e-12, 1e-5) * before;
@@ -112,7 +112,7 @@ TEST(Bounce, EndsWhenItDoesInStockBullet) {
         const double theirs = timeToRest(dry, 1 / rate, [&] { stock.step(1 / rate); });
         EXPECT_LT(ours, 1.2 * theirs + 0.2);
         EXPECT_GT(ours, 0.5 * theirs);
-        EXPECT_NEAR(heightOf(body), kRadius, 0.01);
+        EXPECT_NEAR(levelOf(body), kRadius, 0.01);
       }
 }
 
@@ -128,7 +128,7 @@ TEST(Bounce, OnWhatIsHeldEndsToo) {
       const btRigidBody& body =
           scene.bouncer(massOf(density), 3 * kRadius + kHeight, ball, density, 0.8);
       EXPECT_LT(timeToRest(body, 1 / rate, [&] { scene.step(1 / rate); }), 7);
-      EXPECT_NEAR(heightOf(body), 3 * kRadius, 0.02);
+      EXPECT_NEAR(levelOf(body), 3 * kRadius, 0.02);
       EXPECT_LT(std::abs(riseOf(lower)), 0.02);
     }
 }
@@ -148,9 +148,7 @@ TEST(Bounce, OfBodiesThatTurnNeverGainsEnergy) {
         btRigidBody& body = scene.bouncer(mass, 0.8, *shape, 998, restitution, axes);
         body.setAngularVelocity({bt(0.5), bt(1), bt(0.3)});
         const double weight = (mass - displaced) * kGravity;
-        const auto energy = [&] {
-          return scene.of(body).kineticEnergy() + weight * heightOf(body);
-        };
+        const auto energy = [&] { return scene.of(body).kineticEnergy() + weight * levelOf(body); };
         const double first = energy();
         double lowest = first, most = 0;
         for (int i = 0; i < 10 * rate; ++i) {
@@ -161,7 +159,9 @@ TEST(Bounce, OfBodiesThatTurnNeverGainsEnergy) {
         }
         // Bullet pushes corners out of the floor.
         EXPECT_LE(most, 0.03 * first);
-        if (restitution < 1) EXPECT_LT(body.getLinearVelocity().length(), bt(0.05));
+        if (restitution < 1) {
+          EXPECT_LT(body.getLinearVelocity().length(), bt(0.05));
+        }
       }
 }
 
@@ -181,57 +181,72 @@ std::unique_ptr<btMultiBody> ballsOnAHinge(int links, double mass) {
   return robot;
 }
 
+// That multibody in a fluid above a floor, both with restitution 0.8.
+struct BouncingRobot {
+  BouncingRobot(int link_count, double density)
+      : links(link_count), mass(massOf(density)), weight((mass - density * volume()) * kGravity) {
+    scene.world.setGravity({0, 0, bt(-kGravity)});
+    scene.world.getSolverInfo().m_restitutionVelocityThreshold = bt(0.2);
+    scene.world.getSolverInfo().m_numIterations = 20;
+    for (int i = -1; i < links; ++i)
+      scene.fluid.add(
+          robot, i, {std::make_shared<FluidBody>(facelessEllipsoid(kBalls)), idealFluid(density)});
+    const btTransform place(btQuaternion::getIdentity(), {0, 0, -1});
+    scene.addFixed(std::make_unique<btBoxShape>(btVector3(50, 50, 1)), place)
+        .setRestitution(bt(0.8));
+  }
+  double level(int i) const {
+    const auto* link = i < 0 ? robot.getBaseCollider() : robot.getLinkCollider(i);
+    return static_cast<double>(link->getWorldTransform().getOrigin().z());
+  }
+  // A ball that has bounced alone has no energy on its way in the floor.
+  double energy() const {
+    double sum = kineticEnergy(scene.fluid, robot);
+    for (int i = -1; i < links; ++i)
+      sum += weight * std::max(links > 0 ? -kHeight : 0, level(i) - kRadius);
+    return sum;
+  }
+
+  int links;
+  double mass, weight;
+  RobotWorld scene;
+  btMultiBody& robot = scene.takeUndamped(ballsOnAHinge(links, mass), kRadius);
+};
+
+void expectToRest(BouncingRobot& robot, double rate) {
+  const double part = robot.links == 0 ? 0.64 : 1;  // of the energy
+  const double rounding = byPrecision(1e-9, 1e-5) * robot.energy();
+  double before = robot.energy(), last = 0;
+  double levels[] = {robot.level(-1), robot.level(robot.links - 1)};
+  bool fell[] = {false, false};
+  for (int i = 0; i < 12 * rate; ++i) {
+    robot.scene.step(1 / rate);
+    bool bounces = false;
+    for (int k : {0, 1}) {
+      const double level = robot.level(k == 0 ? -1 : robot.links - 1);
+      bounces = bounces || (fell[k] && (level - levels[k]) * rate > 0.02);
+      fell[k] = level < levels[k];
+      levels[k] = level;
+    }
+    const double now = robot.energy();
+    if (bounces) {
+      EXPECT_LE(now, part * before + rounding) << i;
+      last = i / rate;
+    }
+    before = now;
+  }
+  EXPECT_GT(last, 0);
+  EXPECT_LT(last, 9);
+  for (const double level : levels) EXPECT_NEAR(level, kRadius, 0.005);
+}
+
 TEST(Bounce, OfLinksKeepsNoMoreEither) {
   for (const int links : {0, 1})
     for (const double density : kMedia)
       for (const double rate : kRates) {
         SCOPED_TRACE(testing::Message() << links << " " << density << " " << rate);
-        RobotWorld scene;
-        scene.world.setGravity({0, 0, bt(-kGravity)});
-        scene.world.getSolverInfo().m_restitutionVelocityThreshold = bt(0.2);
-        scene.world.getSolverInfo().m_numIterations = 20;
-        const double mass = massOf(density);
-        btMultiBody& robot = scene.takeUndamped(ballsOnAHinge(links, mass), kRadius);
-        for (int i = -1; i < links; ++i)
-          scene.fluid.add(
-              robot, i,
-              {std::make_shared<FluidBody>(facelessEllipsoid(kBalls)), idealFluid(density)});
-        scene
-            .addFixed(std::make_unique<btBoxShape>(btVector3(50, 50, 1)),
-                      btTransform(btQuaternion::getIdentity(), {0, 0, -1}))
-            .setRestitution(bt(0.8));
-        const double weight = (mass - density * volume()) * kGravity;
-        const auto heightOfLink = [&](int i) {
-          const auto* link = i < 0 ? robot.getBaseCollider() : robot.getLinkCollider(i);
-          return static_cast<double>(link->getWorldTransform().getOrigin().z());
-        };
-        const auto energy = [&] {
-          double sum = kineticEnergy(scene.fluid, robot);
-          // What has bounced alone has no energy on its way in the floor.
-          for (int i = -1; i < links; ++i)
-            sum += weight * std::max(links > 0 ? -kHeight : 0, heightOfLink(i) - kRadius);
-          return sum;
-        };
-        const double first = energy(), part = links == 0 ? 0.64 : 1;
-        double before = first, heights[] = {heightOfLink(-1), heightOfLink(links - 1)};
-        bool fell[] = {false, false};
-        double last = 0;
-        for (int i = 0; i < 12 * rate; ++i) {
-          scene.step(1 / rate);
-          bool bounces_now = false;
-          for (int k : {0, 1}) {
-            const double height = heightOfLink(k == 0 ? -1 : links - 1);
-            bounces_now = bounces_now || (fell[k] && (height - heights[k]) * rate > 0.02);
-            fell[k] = height < heights[k];
-            heights[k] = height;
-          }
-          if (bounces_now)
-            EXPECT_LE(energy(), part * before + byPrecision(1e-9, 1e-5) * first) << i;
-          if (bounces_now) last = i / rate;
-          before = energy();
-        }
-        EXPECT_LT(last, 9);
-        for (const double height : heights) EXPECT_NEAR(height, kRadius, 0.005);
+        BouncingRobot robot(links, density);
+        expectToRest(robot, rate);
       }
 }
 

@@ -34,7 +34,7 @@ TEST(WaterAtlas, ContactsAndJointsRaiseTheEnergyOfFew) {
     int most;
   };
   for (const auto& [setting, most] :
-       {Case{WaterSetting::kOnFloor, 5}, Case{WaterSetting::kAtWall, 1},
+       {Case{WaterSetting::kOnFloor, 3}, Case{WaterSetting::kAtWall, 1},
         Case{WaterSetting::kColliding, 0}, Case{WaterSetting::kJoined, 0},
         Case{WaterSetting::kTethered, 0}, Case{WaterSetting::kPile, 0},
         Case{WaterSetting::kTabled, 0}, Case{WaterSetting::kSteep, 0}}) {
@@ -149,14 +149,15 @@ TEST(SmallCube, StaysInTheWaterWhereAJointMovesItInLongSteps) {
   EXPECT_EQ(cube.timesSaid("less than four steps a period"), 1);
 }
 
-// The cube rises from the depth into air within a few steps. Measured gain: 0.049 where the
-// lightest one leaves from the greatest depth, 0.01 from two thirds of that, else none. It depends
-// on where within a step the surface is met. With buoyancy of the start of each step: 0.03 to 0.7.
-TEST(SmallCube, GainsNothingWhereItLeavesTheWaterOnAJoint) {
+// The cube rises from the depth into air within a few steps, and falls back. What buoyancy did not
+// have is given back, eq. (68a). Measured gain: 0.011 where the lightest one falls so deep in one
+// step that it comes to rest there with more energy than it had, else 0.
+TEST(SmallCube, GainsLittleWhereItPassesTheSurfaceOnAJoint) {
   for (const double specific_gravity : {0.1, 0.3, 0.5})
     for (const double depth : {0.5, 1.0, 2.0, 3.0}) {
       CubeOnRail cube(specific_gravity, -depth * kEdge);
-      EXPECT_LT(cube.settle(1), 0.06) << specific_gravity << ", " << depth;
+      EXPECT_LT(cube.settle(1), specific_gravity == 0.1 ? 0.012 : byPrecision(1e-9, 1e-5))
+          << specific_gravity << ", " << depth;
       EXPECT_GT(cube.run.counters().energy_removed, 0.02 * cube.run.energyScale());
     }
 }
