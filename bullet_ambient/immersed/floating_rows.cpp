@@ -95,23 +95,24 @@ struct Fall {
   }
 };
 
-/// Place and Fall of a body where its step began.
+/// Place and Fall of a body where its step began, and the inverse of its inertia there.
 struct Departure {
   SurfacePlace place;
   Fall fall;
+  SymmetricMatrix inverse;
 };
 
 /// One buoyancy has acted over the whole step, and the body has come to where it is another one:
-/// gives back the energy that weight and water did not have, docs/theory.md eq. (68a). `inverse`:
-/// of the inertia after it; x_before, x: twists.
-BoundedTwist withinPotential(const Fall& before, const Fall& after, const Matrix6& inverse,
-                             double duration, const Vector6& x_before, const Vector6& x) {
-  const double given = duration / 2 * before.wrench.dot(x_before + x);
-  const double excess = given - (before.potential - after.potential);
-  const Vector6 along = before.lift + after.lift;
+/// gives back the energy that weight and water did not have, docs/theory.md eq. (68a). x_before, x:
+/// twists; both have the inertia where the step began.
+BoundedTwist withinPotential(const Departure& before, const Fall& after, double duration,
+                             const Vector6& x_before, const Vector6& x) {
+  const double given = duration / 2 * before.fall.wrench.dot(x_before + x);
+  const double excess = given - (before.fall.potential - after.potential);
+  const Vector6 along = before.fall.lift + after.lift;
   const double rate = along.dot(x);
   if (!(excess > 0) || rate == 0) return {x};
-  const Vector6 response = inverse * along;
+  const Vector6 response = before.inverse.full() * along;
   const double per_part = along.dot(response), square = rate * rate - 2 * per_part * excess;
   const double part =
       square > 0 ? 2 * excess / (std::abs(rate) + std::sqrt(square)) : std::abs(rate) / per_part;
@@ -162,9 +163,8 @@ BoundedTwist passedFrom(const Departure& before, AmbientBody& ambient, Axes axes
     withWater(x);
     return scaledWithin(x, x.dot(after.inertia.full() * x), x.dot(before.place.inertia.full() * x));
   }
-  const Matrix6 inverse = after.inverse.full();
-  const BoundedTwist moved = withinPotential(before.fall, fallOf(ambient), inverse, duration,
-                                             ambient.floating->twist_before_rows, x);
+  const BoundedTwist moved =
+      withinPotential(before, fallOf(ambient), duration, ambient.floating->twist_before_rows, x);
   BoundedTwist end = passSurface(model, place, after, duration, withWater(moved.twist));
   end.energy_removed += moved.energy_removed;
   return end;
@@ -187,8 +187,9 @@ void passWithRows(AmbientBody* const* bodies, const FrameOffset* poses, int coun
   std::optional<Departure> departures[kFlightsTogether];
   for (int i = 0; i < count; ++i) {
     AmbientBody& ambient = *bodies[i];
-    departures[i] = Departure{ambient.stand(),  // since standNow()
-                              fallOf(ambient, ambient.floating->plane_before_rows)};
+    departures[i] =
+        Departure{ambient.stand(),  // since standNow()
+                  fallOf(ambient, ambient.floating->plane_before_rows), ambient.stand().inverse};
     if (falls) departures[i]->fall.wrench = falls[i];
     moveStandTo(seenFrom(movedPlane(ambient, duration), poses[i]), *ambient.floating);
   }

@@ -98,22 +98,14 @@ class FluidSolver : public Base {
     Base::convertContacts(manifolds, manifold_count, info);
     if constexpr (!kHasEvenFrictions) addSecondFrictions(info);
     group_.showPush(this->m_tmpSolverBodyPool, SolverGroup::Push::kTrue);
-    if constexpr (kHasMultiBodies) {
-      const MultiBodyRows multibodies{this->m_multiBodyNormalContactConstraints,
-                                      this->m_multiBodyFrictionContactConstraints,
-                                      this->m_multiBodyTorsionalFrictionContactConstraints,
-                                      this->m_multiBodySpinningFrictionContactConstraints,
-                                      this->m_multiBodyNonContactConstraints,
-                                      this->m_data,
-                                      trees_.solvedTrees()};
-      group_.rewriteRows(this->m_tmpSolverBodyPool, pools(), &multibodies, info);
-    } else {
-      group_.rewriteRows(this->m_tmpSolverBodyPool, pools(), nullptr, info);
-    }
+    withMultiBodyRows([&](const MultiBodyRows* multibodies) {
+      group_.rewriteRows(this->m_tmpSolverBodyPool, pools(), multibodies, info);
+    });
     solved_joints_ = 0;
     if constexpr (!kSolvesAtOnce)
       solved_joints_ =
           group_.solveJoints(this->m_tmpSolverBodyPool, this->m_tmpSolverNonContactConstraintPool);
+    if constexpr (kSolvesAtOnce) solveWithoutBounces([] {});
   }
 
   btScalar solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int body_count,
@@ -123,6 +115,15 @@ class FluidSolver : public Base {
                                              btIDebugDraw* debug_drawer) override {
     btContactSolverInfo once = info;
     useQuickRows();
+    if constexpr (!kSolvesAtOnce)
+      solveWithoutBounces([&] {
+        btScalar residual = BT_LARGE_FLOAT;
+        for (int i = 0; i < info.m_numIterations; ++i) {
+          if (!(residual > info.m_leastSquaresResidualThreshold)) break;
+          residual = solveSingleIteration(i, bodies, body_count, manifolds, manifold_count,
+                                          constraints, constraint_count, info, debug_drawer);
+        }
+      });
     // If all rows are solved already, a threshold that any residual meets ends the iterations after
     // the first one, which removes rounding errors. A threshold that the program has set stays.
     const bool is_enough = isSolved() && !(info.m_leastSquaresResidualThreshold > 0);
@@ -161,6 +162,34 @@ class FluidSolver : public Base {
   }
 
  private:
+  // Calls use(rows of multibodies); null: Base knows none.
+  template <class Use>
+  void withMultiBodyRows(const Use& use) {
+    if constexpr (kHasMultiBodies) {
+      const MultiBodyRows multibodies{this->m_multiBodyNormalContactConstraints,
+                                      this->m_multiBodyFrictionContactConstraints,
+                                      this->m_multiBodyTorsionalFrictionContactConstraints,
+                                      this->m_multiBodySpinningFrictionContactConstraints,
+                                      this->m_multiBodyNonContactConstraints,
+                                      this->m_data,
+                                      trees_.solvedTrees()};
+      use(&multibodies);
+    } else {
+      use(nullptr);
+    }
+  }
+
+  // If contacts bounce, calls iterate() without them, by which their speeds are found.
+  template <class Iterate>
+  void solveWithoutBounces(const Iterate& iterate) {
+    if (!group_.hasBounces()) return;
+    withMultiBodyRows([&](const MultiBodyRows* multibodies) {
+      group_.holdBounces(this->m_tmpSolverBodyPool, pools(), multibodies);
+      iterate();
+      group_.releaseBounces(this->m_tmpSolverBodyPool, pools(), multibodies);
+    });
+  }
+
   // Replaces Bullet's scalar row solvers by quick ones. Keeps row solvers with SSE of other builds
   // of Bullet, and those that the program has set.
   void useQuickRows() {

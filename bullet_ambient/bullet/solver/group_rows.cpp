@@ -116,6 +116,20 @@ void complete(AmbientBody& ambient, const Matrix6& inertia, const RigidState& st
   row.settled_inertia.reset();
 }
 
+// Returns the part of a body's velocity change by surface loads, in W. `row`: before complete().
+Twist changeByLoad(const btRigidBody& body, const FlightTask& task, const Quaternion& orientation,
+                   const RowVelocity& row) {
+  const double dt = task.duration;
+  const Surroundings& s = task.surroundings;
+  const Matrix3 R = orientation.toRotationMatrix();
+  const Vector6 forced =
+      dt * (task.model.inverse_inertia * externalWrench(task.model, s, R).vector());
+  const Twist by_forces = lockedChange(task.model.inertia, R, axisFactors(body), forced);
+  const Twist accelerated = onFreeAxes({{0, 0, 0}, dt * s.ambient_acceleration}, axisFactors(body));
+  return Twist::fromVector(row.change_W.vector() - row.turning_W.vector() - by_forces.vector() -
+                           accelerated.vector());
+}
+
 // Fills what rows need of a body at the orientation R, B to W. @pre the body's inertia tensor fits
 // it
 void fill(const AmbientBody& ambient, const BodyModel& model, const Matrix3& R,
@@ -202,6 +216,9 @@ void SolverGroup::prepareForRows(Member* const* members, int count,
     RowVelocity row = member.is_locked
                           ? computeLockedVelocity(taskOf(i), start, axisFactors(*ambient.body))
                           : rowVelocityOf(lanes, i, loads[i]);
+    Twist by_load;
+    if (models[i]->loads && ambient.body->getRestitution() != 0)
+      by_load = changeByLoad(*ambient.body, taskOf(i), start.orientation, row);
     complete(ambient, models[i]->inertia, start, time_step_, bodies_.complaints, row);
     // Those of FlightKernel::keep().
     batch.positions[i] = start.position;
@@ -217,6 +234,8 @@ void SolverGroup::prepareForRows(Member* const* members, int count,
     if (member.is_locked)
       lock(row_body, *ambient.body, rowInertia(*models[i], row), R, solver_body);
     fill(ambient, *models[i], R, row, solver_body, row_body);
+    row_body.spin_by_load = toBullet(by_load.angular);
+    row_body.velocity_by_load = toBullet(by_load.linear);
   }
 }
 

@@ -26,6 +26,7 @@
 #include "bullet_ambient/bullet/rows/joint_rows.h"
 #include "bullet_ambient/bullet/rows/row_motion.h"
 #include "bullet_ambient/bullet/rows/row_rewriting.h"
+#include "bullet_ambient/bullet/solver/bounces.h"
 #include "bullet_ambient/immersed/fluid_reading.h"
 #include "bullet_ambient/motion/flight/flight.h"
 #include "bullet_ambient/motion/rows/row_velocity.h"
@@ -85,7 +86,8 @@ SolverGroup::SolverGroup(AmbientBodies& bodies)
     : bodies_(bodies),
       row_bodies_(std::make_unique<RowBodies>()),
       joint_chains_(std::make_unique<JointChains>()),
-      joint_gaps_(std::make_unique<JointGaps>()) {}
+      joint_gaps_(std::make_unique<JointGaps>()),
+      bounces_(std::make_unique<Bounces>()) {}
 
 SolverGroup::~SolverGroup() = default;
 
@@ -252,12 +254,14 @@ void SolverGroup::rewriteRows(SolverBodies& solver_bodies, const RowPools& rows,
                               const MultiBodyRows* multibodies,
                               const btContactSolverInfo& info) noexcept {
   const bool has_trees = multibodies && multibodies->trees;
+  bounces_->clear();
   if (members_.empty() && !has_trees) return;
   if (multibodies && !members_.empty())
     prepareJoinedToMultiBodies(solver_bodies, multibodies->joints);
   if (row_bodies_->empty() && !has_trees) return;
   saveFeedbackJacobians(rows.joints);
   joint_gaps_->watch(rows.joints, *row_bodies_, solver_bodies);
+  bounces_->find({rows.contacts, multibodies, *row_bodies_, solver_bodies}, info);
   const auto rewrite = [&](btConstraintArray& pool, RowKind kind, btScalar relaxation) {
     ambient::rewriteRows(pool, kind, relaxation, *row_bodies_, solver_bodies);
   };
@@ -285,6 +289,18 @@ bool SolverGroup::touchesMember(const btMultiBodySolverConstraint& row) const no
 
 int SolverGroup::solveJoints(SolverBodies& solver_bodies, btConstraintArray& joints) noexcept {
   return joint_chains_->solve(joints, *row_bodies_, solver_bodies);
+}
+
+bool SolverGroup::hasBounces() const noexcept { return !bounces_->empty(); }
+
+void SolverGroup::holdBounces(SolverBodies& solver_bodies, const RowPools& rows,
+                              const MultiBodyRows* multibodies) noexcept {
+  bounces_->hold({rows.contacts, multibodies, *row_bodies_, solver_bodies});
+}
+
+void SolverGroup::releaseBounces(SolverBodies& solver_bodies, const RowPools& rows,
+                                 const MultiBodyRows* multibodies) noexcept {
+  bounces_->release({rows.contacts, multibodies, *row_bodies_, solver_bodies});
 }
 
 void SolverGroup::reapplyWarmStart(SolverBodies& solver_bodies, const RowPools& rows,

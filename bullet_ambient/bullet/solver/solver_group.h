@@ -26,6 +26,7 @@ inline void setExternalImpulse(btSolverBody& solver_body, const Twist& change_W)
 }
 
 class AmbientBodies;
+class Bounces;
 class JointChains;
 class JointGaps;
 class RowBodies;
@@ -98,6 +99,15 @@ class SolverGroup {
   /// iterations go on from their impulses. Returns the number of rows solved.
   int solveJoints(SolverBodies& solver_bodies, btConstraintArray& joints) noexcept;
 
+  /// True if contacts bounce. @pre rewriteRows()
+  bool hasBounces() const noexcept;
+  /// Call around iterations before the others: those without the bounces, which tell the velocities
+  /// that these ask for, docs/theory.md eq. (28e).
+  void holdBounces(SolverBodies& solver_bodies, const RowPools& rows,
+                   const MultiBodyRows* multibodies) noexcept;
+  void releaseBounces(SolverBodies& solver_bodies, const RowPools& rows,
+                      const MultiBodyRows* multibodies) noexcept;
+
   /// Call after the iterations, before Bullet writes velocities back. Maps velocity changes from
   /// the bases to world axes, du = T du', and flies the members that no row has
   /// moved.
@@ -160,6 +170,7 @@ class SolverGroup {
   std::unique_ptr<RowBodies> row_bodies_;
   std::unique_ptr<JointChains> joint_chains_;
   std::unique_ptr<JointGaps> joint_gaps_;
+  std::unique_ptr<Bounces> bounces_;
   std::vector<SavedJacobian> saved_;
 };
 

@@ -275,11 +275,14 @@ LinkFlightResult LinkFlight::computeRowVelocity(const TreePose& start, const Coo
   dynamics_.accelerations(end_, mean_);
   mean_ = duration * (rate_ - mean_);
   end_ = u + duration * rate_ - mean_;
+  correction_.setZero();
   if (kick_.hasLoads()) {
+    correction_ = end_;
     result.count += kick_.sampleForRows(dynamics_, u, duration);
     is_stiff_ = kick_.isStiff(duration);
     if (is_stiff_) end_ = u;  // forces are in the kick
     kickBy(duration, end_);
+    correction_ = end_ - correction_;
     dynamics_.setForces(true);
     if (!is_stiff_) dynamics_.factor();  // else rows meet the resistance, too
   }

@@ -91,6 +91,8 @@ class LinkFlight {
   LinkFlightResult computeRowVelocity(const TreePose& start, const CoordinatesIn& u,
                                       double duration) noexcept;
   const Coordinates& rowVelocity() const { return end_; }
+  /// Returns the part of rowVelocity() by surface loads.
+  const Coordinates& rowVelocityByLoads() const { return correction_; }
   /// Returns the turning part t of eq. (28): h times the difference of du/dt at u and at rest in
   /// the flow. Not contained in rowVelocity(), because it is meaningless in a fast turn.
   const Coordinates& turning() const { return mean_; }

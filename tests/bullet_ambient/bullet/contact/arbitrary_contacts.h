@@ -135,6 +135,15 @@ btContactSolverInfo plainSettings(double dt);
 // Contacts of an ambient body of coupled inertia, K_fluid from 1e-3 to 1e4 times K_body, with a
 // fixed, an ordinary or an ambient body.
 
+/// Returns the velocity that a contact asks for, docs/theory.md eq. (28e). `bounce`: restitution
+/// times the speed of the approach; `push`: change of the velocity along the row by the forces on
+/// bodies in a fluid; `correction`: by a penetration, < 0: by a gap.
+inline Real contactTarget(Real bounce, Real push, Real correction) {
+  if (!(bounce > 0)) return correction;
+  const Real speed = std::max<Real>(0, bounce + std::min<Real>(0, push));
+  return correction < 0 ? speed + correction : std::max(speed, correction);
+}
+
 enum class Other { kPlane, kOrdinary, kAmbient };
 constexpr Other kOthers[] = {Other::kPlane, Other::kOrdinary, Other::kAmbient};
 

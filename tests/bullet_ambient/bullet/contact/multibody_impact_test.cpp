@@ -178,16 +178,6 @@ btContactSolverInfo chainSettings(double dt) {
   return info;
 }
 
-// Velocity along the row by Bullet's forces of the dry body, without fluid. Bullet's restitution of
-// this contact uses it.
-Real dryApproach(const ChainTask& task, const reference::DenseRow& normal, Real dt) {
-  const btRigidBody& body = task.body().body();
-  DenseVector6 change;
-  change << exact(body.getInvInertiaTensorWorld()) * exact(body.getTotalTorque()),
-      exact(body.getTotalForce()) * body.getInvMass();
-  return task.approach() + dt * normal.jacobian_a.dot(change);
-}
-
 // Restitution, position error, softness of contact and friction, friction in a box.
 TEST(MultiBodyImpact, WithSoftBoxFrictionEqualsTheDenseSolution) {
   Arbitrary arbitrary(52);
@@ -212,9 +202,10 @@ TEST(MultiBodyImpact, WithSoftBoxFrictionEqualsTheDenseSolution) {
     const auto normal = rows.size();
     rows.push_back(task.row(exact(contact.m_normalWorldOnB)));
     rows[normal].lower = 0;
-    rows[normal].target =
-        std::max<Real>(0, -restitution * dryApproach(task, rows[normal], info.m_timeStep)) -
-        Real(contact.m_distance1) * info.m_erp2 / info.m_timeStep;
+    const auto of_body = static_cast<std::size_t>(task.denseBody());
+    const Real push = rows[normal].jacobian_a.dot(bodies[of_body].free_velocity - before.body);
+    rows[normal].target = contactTarget(-restitution * task.approach(), push,
+                                        -Real(contact.m_distance1) * info.m_erp2 / info.m_timeStep);
     rows[normal].softness = Real(info.m_globalCfm) / info.m_timeStep;
     btVector3 tangent[2];
     btPlaneSpace1(contact.m_normalWorldOnB, tangent[0], tangent[1]);

@@ -34,7 +34,7 @@ TEST(WaterAtlas, ContactsAndJointsRaiseTheEnergyOfFew) {
     int most;
   };
   for (const auto& [setting, most] :
-       {Case{WaterSetting::kOnFloor, 5}, Case{WaterSetting::kAtWall, 1},
+       {Case{WaterSetting::kOnFloor, 3}, Case{WaterSetting::kAtWall, 1},
         Case{WaterSetting::kColliding, 0}, Case{WaterSetting::kJoined, 0},
         Case{WaterSetting::kTethered, 0}, Case{WaterSetting::kPile, 0},
         Case{WaterSetting::kTabled, 0}, Case{WaterSetting::kSteep, 0}}) {
@@ -149,14 +149,15 @@ TEST(SmallCube, StaysInTheWaterWhereAJointMovesItInLongSteps) {
   EXPECT_EQ(cube.timesSaid("less than four steps a period"), 1);
 }
 
-// The cube rises from the depth into air within a few steps. Measured gain: 0.049 where the
-// lightest one leaves from the greatest depth, 0.01 from two thirds of that, else none. It depends
-// on where within a step the surface is met. With buoyancy of the start of each step: 0.03 to 0.7.
-TEST(SmallCube, GainsNothingWhereItLeavesTheWaterOnAJoint) {
+// The cube rises from the depth into air within a few steps, and falls back. What buoyancy did not
+// have is given back, eq. (68a). Measured gain: 0.011 where the lightest one falls so deep in one
+// step that it comes to rest there with more energy than it had, else 0.
+TEST(SmallCube, GainsLittleWhereItPassesTheSurfaceOnAJoint) {
   for (const double specific_gravity : {0.1, 0.3, 0.5})
     for (const double depth : {0.5, 1.0, 2.0, 3.0}) {
       CubeOnRail cube(specific_gravity, -depth * kEdge);
-      EXPECT_LT(cube.settle(1), 0.06) << specific_gravity << ", " << depth;
+      EXPECT_LT(cube.settle(1), specific_gravity == 0.1 ? 0.012 : byPrecision(1e-9, 1e-5))
+          << specific_gravity << ", " << depth;
       EXPECT_GT(cube.run.counters().energy_removed, 0.02 * cube.run.energyScale());
     }
 }
@@ -173,7 +174,7 @@ TEST(SmallCube, SwingsByATenthTooLittleWhereAJointMovesIt) {
 constexpr double kDepth = 1.5;  // of the centre at the start [m]
 
 /// Returns the height to which a body of 0.115 times the density of water leaps [m].
-double leapOf(const FluidBody& shape, double hertz) {
+double leapOf(const FluidBody& shape, double hertz, bool is_on_rail = false) {
   FluidWorld world;
   world.world.setGravity({0, 0, bt(-9.81)});
   world.fluid.addRegion(seaUnderAir());
@@ -185,6 +186,14 @@ double leapOf(const FluidBody& shape, double hertz) {
   AttachDef attach;
   attach.fluid_body = std::make_shared<FluidBody>(shape);
   world.fluid.add(body, attach);
+  if (is_on_rail) {
+    auto rail = std::make_unique<btGeneric6DofConstraint>(body, btTransform::getIdentity(), false);
+    rail->setLinearLowerLimit({0, 0, -10});
+    rail->setLinearUpperLimit({0, 0, 10});
+    rail->setAngularLowerLimit({0, 0, 0});
+    rail->setAngularUpperLimit({0, 0, 0});
+    world.contents.take(std::move(rail));
+  }
   double before = -kDepth, now = -kDepth;
   for (double time = 0; time < 3; time += 1 / hertz) {
     world.step(1 / hertz);
@@ -199,13 +208,22 @@ double leapOf(const FluidBody& shape, double hertz) {
 }
 
 TEST(Leap, IsAsHighAtStepsOfGamesAsAtShortOnes) {
-  const FluidBody shapes[] = {floatingBall(0.5), floatingBox({0.8, 0.8, 0.8})};
+  const FluidBody shapes[] = {floatingBall(0.5), floatingBox({0.8, 0.8, 0.8}),
+                              floatingBox({0.6, 0.6, 1})};
   for (const FluidBody& shape : shapes) {
     const double limit = leapOf(shape, 2000);
     EXPECT_GT(limit, 0.5);
-    for (const double hertz : {60, 144, 240})
+    for (const double hertz : {30, 60, 75, 144, 240})
       EXPECT_NEAR(leapOf(shape, hertz), limit, 0.03 * limit) << shape.volume << ", " << hertz;
   }
+}
+
+// With buoyancy taken back in the inertia where the step ended: 7.5 % too low at 30 Hz.
+TEST(Leap, OfABallOnARailIsAsHigh) {
+  const FluidBody ball = floatingBall(0.5);
+  const double limit = leapOf(ball, 2000, true);
+  for (const double hertz : {30, 60, 75, 144, 240})
+    EXPECT_NEAR(leapOf(ball, hertz, true), limit, 0.03 * limit) << hertz;
 }
 
 }  // namespace
