@@ -44,6 +44,11 @@ FaceTable formLawFaces(const FluidBody& body, const FormShape& shape);
 /// @pre labels and numbers of the wings are there, and the added mass
 void makeWingForm(FluidBody& body);
 
+/// Returns triangles that enclose what those of a surface do, three indices of its vertices each:
+/// flat sides with a convex outline become fans where that needs fewer. The first `count` triangles
+/// may be replaced, all others stay, and come last. Cost O(F log F).
+std::vector<std::int32_t> fewTriangles(const Surface& surface, int count);
+
 /// Makes FluidBody::form from the other fields, also where it is there already; a part of
 /// prepare(). Spheres get none. Cost O(F log F), 2 us per face.
 /// @throws std::invalid_argument as computeSharpness().

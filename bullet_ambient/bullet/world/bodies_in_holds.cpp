@@ -44,23 +44,37 @@ struct Member {
   bool isAwake() const { return link ? !isAsleep(*ambient.multi_body) : ambient.body->isActive(); }
 };
 
-/// Calls visit(AmbientTree&) for the trees of a world.
-template <class Visit>
-void forEachTreeOf(const btCollisionWorld& world, const AmbientTrees& trees, const Visit& visit) {
-  if (!trees.empty() && trees.world() == &world) forEachTree(*trees.world(), trees, visit);
-}
+constexpr int kAway = -2;  // AmbientBody::in_hold of what does not move in this world
 
-/// Calls visit(const Member&) for the members of a world that move. @pre links are placed
-template <class Visit>
-void forEachMember(const btCollisionWorld& world, const AmbientBodies& bodies, const Visit& visit) {
+/// Sets AmbientBody::in_hold of all members to -1 or kAway, and places links. Returns how many
+/// members there are.
+std::size_t findMembers(const btCollisionWorld& world, AmbientBodies& bodies) {
+  std::size_t count = 0;
+  bodies.forEach([&count](AmbientBody& body) {
+    body.in_hold = kAway;
+    ++count;
+  });
   const btCollisionObjectArray& objects = world.getCollisionObjectArray();
   for (int i = 0; i < objects.size(); ++i) {
     AmbientBody* const ambient = bodies.find(objects[i]);
-    if (ambient && !objects[i]->isStaticOrKinematicObject()) visit(Member{*ambient});
+    if (ambient && !objects[i]->isStaticOrKinematicObject()) ambient->in_hold = -1;
   }
-  forEachTreeOf(world, bodies.trees, [&visit](const AmbientTree& tree) {
+  const AmbientTrees& trees = bodies.trees;
+  if (trees.empty() || trees.world() != &world) return count;
+  forEachTree(*trees.world(), trees, [](AmbientTree& tree) {
+    placeLinksNow(tree);
     for (const auto& link : tree.links)
-      if (link->mass.mass > 0) visit(Member{link->ambient, link.get()});
+      if (link->mass.mass > 0) link->ambient.in_hold = -1;
+  });
+  return count;
+}
+
+/// Calls visit(const Member&) for the members that move. @pre findMembers()
+template <class Visit>
+void forEachMember(AmbientBodies& bodies, const Visit& visit) {
+  bodies.forEach([&](AmbientBody& ambient) {
+    if (ambient.in_hold == kAway) return;
+    visit(Member{ambient, ambient.body ? nullptr : &bodies.trees.linkOf(ambient)});
   });
 }
 
@@ -132,9 +146,9 @@ void enterHold(const Vessel& vessel, const Member& member, FluidRegions& regions
 
 /// Calls visit(const Member&, HoldAround&) for the bodies in a hold.
 template <class Visit>
-void forEachInHold(const btCollisionWorld& world, AmbientBodies& bodies, const Vessel& vessel,
-                   std::size_t hold, const Visit& visit) {
-  forEachMember(world, bodies, [&](const Member& member) {
+void forEachInHold(AmbientBodies& bodies, const Vessel& vessel, std::size_t hold,
+                   const Visit& visit) {
+  forEachMember(bodies, [&](const Member& member) {
     HoldAround* const around = aroundOf(member.ambient, bodies.regions);
     if (around && around->vessel == &vessel.ambient && around->hold == hold) visit(member, *around);
   });
@@ -156,15 +170,14 @@ Waterplane displacedBy(const Member& member, const Vessel& vessel, double height
 
 /// Finds the level in a hold with what floats there: V_hold(h) - sum of V_body(h) is the volume of
 /// its water, docs/theory.md eq. (155). Newton's method between brackets.
-void findLevel(const btCollisionWorld& world, AmbientBodies& bodies, const Vessel& vessel,
-               std::size_t hold) {
+void findLevel(AmbientBodies& bodies, const Vessel& vessel, std::size_t hold) {
   constexpr double kEmpty = 1e-12, kAccuracy = 1e-12;  // of the hold
   constexpr int kMostSteps = 60;
   HoldState& state = vessel.ambient.vessel->holds[hold];
   const HoldShape& shape = vessel.ambient.surface()->holds->shapes[hold];
   const Vector3& normal_F = vessel.normal_F;
   bool is_any = false;
-  forEachInHold(world, bodies, vessel, hold, [&](const Member&, HoldAround&) { is_any = true; });
+  forEachInHold(bodies, vessel, hold, [&](const Member&, HoldAround&) { is_any = true; });
   if (!is_any && state.displaced == 0) return;
   double displaced = 0, height = 0;
   const bool is_dry = !(state.volume > kEmpty * shape.capacity());
@@ -177,7 +190,7 @@ void findLevel(const btCollisionWorld& world, AmbientBodies& bodies, const Vesse
       const WetVolume full = computeWetVolume(shape.hull(), {normal_F, height, 0, 0});
       double area = full.waterplane.area;
       displaced = 0;
-      forEachInHold(world, bodies, vessel, hold, [&](const Member& member, HoldAround&) {
+      forEachInHold(bodies, vessel, hold, [&](const Member& member, HoldAround&) {
         area -= displacedBy(member, vessel, height, displaced).area;
       });
       const double error = full.volume - displaced - state.volume;
@@ -191,7 +204,7 @@ void findLevel(const btCollisionWorld& world, AmbientBodies& bodies, const Vesse
   if (displaced != state.displaced) vessel.ambient.floating->is_valid = false;
   state.displaced = displaced;
   const double height_W = height + vessel.normal_W.dot(vessel.origin_W);
-  forEachInHold(world, bodies, vessel, hold, [&](const Member& member, HoldAround& around) {
+  forEachInHold(bodies, vessel, hold, [&](const Member& member, HoldAround& around) {
     around.is_dry = is_dry;
     around.height = height_W;
     if (!is_dry && around.is_awake && !member.isAwake()) wake(member.ambient);
@@ -201,27 +214,22 @@ void findLevel(const btCollisionWorld& world, AmbientBodies& bodies, const Vesse
 }  // namespace
 
 void findBodiesInHolds(btCollisionWorld& world, AmbientBodies& bodies) noexcept {
-  std::size_t count = 0;
-  bodies.forEach([&](AmbientBody& body) {
-    body.in_hold = -1;
-    ++count;
-  });
+  const std::size_t count = findMembers(world, bodies);
   bodies.regions.in_holds.clear();
   bodies.regions.in_holds.reserve(count);
-  forEachTreeOf(world, bodies.trees, [](AmbientTree& tree) { placeLinksNow(tree); });
   const auto forEachVessel = [&](const auto& visit) {
-    forEachMember(world, bodies, [&](const Member& member) {
+    forEachMember(bodies, [&](const Member& member) {
       if (member.ambient.vessel && member.ambient.surface()) visit(Vessel(member));
     });
   };
   forEachVessel([&](const Vessel& vessel) {
-    forEachMember(world, bodies, [&](const Member& member) {
+    forEachMember(bodies, [&](const Member& member) {
       if (&member.ambient != &vessel.ambient) enterHold(vessel, member, bodies.regions);
     });
   });
   forEachVessel([&](const Vessel& vessel) {
     for (std::size_t i = 0; i < vessel.ambient.vessel->holds.size(); ++i)
-      findLevel(world, bodies, vessel, i);
+      findLevel(bodies, vessel, i);
   });
 }
 

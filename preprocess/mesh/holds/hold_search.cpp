@@ -9,6 +9,7 @@
 
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
+#include "preprocess/base/surface_form.h"
 #include "preprocess/mesh/defects/surface_crossing.h"
 #include "preprocess/mesh/geometry.h"
 #include "preprocess/mesh/holds/hold_labels.h"
@@ -180,6 +181,7 @@ HoldOpening openingOf(const TriangleMesh& mesh, const Loop& loop) {
 /// A hold while it is put together.
 struct Draft {
   Triangles triangles;  // walls, turned round, and lids
+  std::size_t walls = 0;
   std::vector<HoldOpening> openings;
   const char* fault = nullptr;
 };
@@ -200,6 +202,7 @@ Drafts draftsOf(const TriangleMesh& mesh, const TriangleNeighbours& neighbours,
     if (labels[t] == 0) drafts.outside.push_back(corners);
     if (labels[t] > 0) drafts.holds[labels[t]].triangles.push_back(turned(corners));
   }
+  for (Draft& draft : drafts.holds) draft.walls = draft.triangles.size();
   const LidSpanner spanner(mesh, neighbours, labels);
   for (int k = 1; k <= count; ++k) {
     Draft& draft = drafts.holds[k];
@@ -220,6 +223,16 @@ Drafts draftsOf(const TriangleMesh& mesh, const TriangleNeighbours& neighbours,
   return drafts;
 }
 
+/// Returns the surface of a hold with few triangles in place of flat walls; its lids stay those of
+/// the closed vessel. Less is computed in each step then.
+Surface withFewWalls(const Surface& surface, std::size_t walls) {
+  const std::vector<std::int32_t> few = fewTriangles(surface, static_cast<int>(walls));
+  Triangles triangles;
+  for (std::size_t i = 0; i < few.size(); i += 3)
+    triangles.emplace_back(few[i], few[i + 1], few[i + 2]);
+  return surfaceOf(withUsedVertices(meshOf(surface).vertices, triangles));
+}
+
 Hold holdOf(const TriangleMesh& mesh, Draft& draft) {
   Hold hold;
   const TriangleMesh own = withUsedVertices(mesh.vertices, draft.triangles);
@@ -234,6 +247,7 @@ Hold holdOf(const TriangleMesh& mesh, Draft& draft) {
   const MassDistribution mass = computeMassProperties(own).uniform;
   hold.centre = mass.centre;
   hold.turning_inertia = hold.volume * turningInertia(mass.inertia);
+  hold.surface = withFewWalls(hold.surface, draft.walls);
   return hold;
 }
 
