@@ -41,9 +41,8 @@ class AmbientBodies;
 /// Copies refer to the same member. Use it between steps.
 ///
 /// All functions but isValid() and remove() throw std::logic_error, in one line, if the member was
-/// removed, or if the Fluid or its world was destroyed. They need the body to be alive. A body that
-/// is destroyed without remove() leaves an unused entry, which the next body at its address
-/// replaces.
+/// removed, or if the Fluid was destroyed. They need the body to be alive. A body that is destroyed
+/// without remove() leaves an unused entry, which the next body at its address replaces.
 class Immersed {
  public:
   /// True if the member is still in the fluid. Does not access the body.
@@ -156,14 +155,13 @@ struct WorldState;
 /// The flow or surface function of a region must not change the fluid: such a call throws
 /// std::logic_error and changes nothing.
 ///
-/// Fluid, world, solvers and bodies may be destroyed in any order. When the world is destroyed, all
-/// members are removed, and functions that need the world throw std::logic_error.
+/// Destroy a Fluid before its world; its bodies before or after it.
 class Fluid {
  public:
   /// Gives a btDiscreteDynamicsWorld, btMultiBodyDynamicsWorld, btSoftRigidDynamicsWorld or one
   /// derived from these the solver that fits it, in place of a plain
   /// btSequentialImpulseConstraintSolver, btMultiBodyConstraintSolver,
-  /// btMultiBodyMLCPConstraintSolver or a pool of plain ones, and an action. For other solvers see
+  /// btMultiBodyMLCPConstraintSolver, and an action. For other solvers, and pools of several, see
   /// makeSolver(). A world without bodies in a fluid moves bit for bit as before.
   /// @throws std::invalid_argument, in one sentence, if this kind of world is not supported or has
   /// another solver; the world is then unchanged.
@@ -173,11 +171,9 @@ class Fluid {
   Fluid(const Fluid&) = delete;
   Fluid& operator=(const Fluid&) = delete;
 
-  /// True until the world is destroyed.
-  bool isWorldAlive() const;
   /// Replaces a solver that somebody else has given the world since. Call before each step if the
   /// owner of the world does that. Cost if nothing has changed: a comparison.
-  /// @throws as the constructor; std::logic_error if the world was destroyed.
+  /// @throws as the constructor
   void refit();
 
   /// Puts a dynamic body into a fluid, before or after it is added to the world.
@@ -206,7 +202,6 @@ class Fluid {
   /// Adds bodies that have come to the world since an addAll() with AttachSettings::later_bodies,
   /// at once, before their first substep. Refusals go to the report function, as at the end of a
   /// substep.
-  /// @throws std::logic_error if the world was destroyed.
   void addLaterBodies();
 
   /// Finds a body or link that was added; never confuses it with an earlier one at the same

@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <cstring>
+#include <functional>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -34,14 +35,15 @@ std::string text(const Eigen::MatrixXd& matrix) {
 }
 
 std::unique_ptr<WorldFluid> makeFluid(btDiscreteDynamicsWorld* world,
-                                      std::set<std::string>& printed) {
+                                      std::set<std::string>& printed,
+                                      std::function<void()> at_end) {
   auto* multi_bodies = dynamic_cast<btMultiBodyDynamicsWorld*>(world);
   if (!multi_bodies)
     throw std::invalid_argument("this PyBullet has another kind of world than the plugin knows");
   const btConstraintSolver* solver = multi_bodies->getConstraintSolver();
   if (solver && std::strstr(typeid(*solver).name(), "FluidSolver"))
     throw std::invalid_argument("another copy of this plugin has its fluid in this world");
-  return std::make_unique<WorldFluid>(*multi_bodies, printed);
+  return std::make_unique<WorldFluid>(*multi_bodies, printed, std::move(at_end));
 }
 
 // Returns the cache of all clients of the process that keep fluid bodies in this folder, "": the
@@ -76,12 +78,11 @@ const std::map<std::string, FluidPlugin::Answer> FluidPlugin::kCommands = {
     {"off", &FluidPlugin::leave},
 };
 
-// Compares with the world itself: a step may come before the notification of resetSimulation.
+// The world tells its end itself: a step may come before the notification of resetSimulation.
 void FluidPlugin::meetWorld() {
-  if (fluid_ && !fluid_->fluid().isWorldAlive()) forgetWorld();
   if (fluid_ || !refusal_.empty()) return;
   try {
-    fluid_ = makeFluid(findWorld(server_, client_), printed_);
+    fluid_ = makeFluid(findWorld(server_, client_), printed_, [this] { forgetWorld(); });
     for (auto& [name, region] : regions_) region.id = fluid_->fluid().addRegion(region.region);
   } catch (const std::exception& error) {
     fluid_.reset();
@@ -159,7 +160,6 @@ std::string FluidPlugin::removeRegion(const Command& command) {
 }
 
 std::string FluidPlugin::setSettings(const Command& command) {
-  if (fluid_ && !fluid_->fluid().isWorldAlive()) forgetWorld();
   if (fluid_ && fluid_->hasBodies())
     command.fail("comes too late: bodies are in the fluid; give it before the first step");
   flow_.law = lawOr(command.values, flow_.law);

@@ -138,8 +138,12 @@ bool isLoneHull(const btCollisionShape& shape) {
 
 }  // namespace
 
-WorldFluid::WorldFluid(btMultiBodyDynamicsWorld& world, std::set<std::string>& printed)
-    : world_(requireLayout(world)), printed_(printed), fluid_(world, SolverOwner::kAsksWorld) {
+WorldFluid::WorldFluid(btMultiBodyDynamicsWorld& world, std::set<std::string>& printed,
+                       std::function<void()> at_end)
+    : world_(requireLayout(world)),
+      printed_(printed),
+      end_(world, std::move(at_end)),
+      fluid_(world, SolverOwner::kAsksWorld) {
   fluid_.setNaming(nameOf);
   fluid_.setReport([this](const std::string& sentence) { say(sentence); });
 }

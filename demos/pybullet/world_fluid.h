@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "bullet_ambient/saved_state.h"
 #include "demos/pybullet/command.h"
 #include "demos/pybullet/pybullet_interface.h"
+#include "demos/pybullet/world_end.h"
 #include "preprocess/collision_shape/fluid_body_cache.h"
 
 namespace ambient::pybullet {
@@ -48,8 +50,7 @@ ChosenBody readChosenBody(const Command& command, const FlowSettings& flow);
 AttachDef definitionOf(const ChosenBody& chosen, std::shared_ptr<const FluidBody> shape,
                        double mass);
 
-/// Fluid of one world of a PyBullet server. Finds bodies and links by PyBullet's numbers. Becomes
-/// unusable when the world is destroyed: Fluid::isWorldAlive().
+/// Fluid of one world of a PyBullet server. Finds bodies and links by PyBullet's numbers.
 class WorldFluid {
  public:
   /// Settings of all bodies that are added.
@@ -61,8 +62,10 @@ class WorldFluid {
 
   /// Connects a fluid with the world. @throws std::invalid_argument, in one sentence, if the
   /// world's classes have other layouts than the plugin's, or Fluid refuses the world
-  /// `printed`: sentences that need not be printed again, as of worlds before a reset.
-  WorldFluid(btMultiBodyDynamicsWorld& world, std::set<std::string>& printed);
+  /// `printed`: sentences that need not be printed again, as of worlds before a reset. `at_end`:
+  /// called when the world is destroyed; has to destroy this.
+  WorldFluid(btMultiBodyDynamicsWorld& world, std::set<std::string>& printed,
+             std::function<void()> at_end);
 
   Fluid& fluid() { return fluid_; }
   /// True once bodies have met the settings.
@@ -122,6 +125,7 @@ class WorldFluid {
 
   btMultiBodyDynamicsWorld& world_;
   std::set<std::string>& printed_;
+  WorldEnd end_;
   Fluid fluid_;
   bool was_added_ = false;  // true after addAll(): the fluid adds later bodies with its settings
   std::set<Key> excluded_;

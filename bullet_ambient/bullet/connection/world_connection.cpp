@@ -1,19 +1,16 @@
 #include "bullet_ambient/bullet/connection/world_connection.h"
 
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
-#include <BulletDynamics/Dynamics/btSimulationIslandManagerMt.h>
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 #include <BulletDynamics/Featherstone/btMultiBodyMLCPConstraintSolver.h>
 
-#include <new>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <typeinfo>
 #include <utility>
 
-#include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/bullet/solver/fluid_solver.h"
 
@@ -26,7 +23,7 @@ class FittedSolver {
   /// @throws std::invalid_argument, in one sentence that names makeSolver(), if the world has
   /// another solver than Bullet's plain ones.
   FittedSolver(btDiscreteDynamicsWorld& world, const std::shared_ptr<AmbientBodies>& members,
-                SolverOwner owner);
+               SolverOwner owner);
   /// Deletes the solver unless somebody else has.
   ~FittedSolver();
   FittedSolver(const FittedSolver&) = delete;
@@ -53,7 +50,7 @@ class FittedSolver {
 
   MadeSolver made_;
   btConstraintSolver* given_;  // that of before, which may have been deleted
-  bool owns_given_ = false;  // the world had made it itself
+  bool owns_given_ = false;    // the world had made it itself
   SolverOwner owner_;
 };
 
@@ -124,7 +121,7 @@ FittedSolver::MadeSolver FittedSolver::hold(std::unique_ptr<Made> made) {
 }
 
 FittedSolver::MadeSolver FittedSolver::makeFor(btDiscreteDynamicsWorld& world,
-                                                 const Members& members) {
+                                               const Members& members) {
   const btConstraintSolver* given = world.getConstraintSolver();
   if (dynamic_cast<btMultiBodyDynamicsWorld*>(&world)) {
     if (given && typeid(*given) == typeid(btMultiBodyMLCPConstraintSolver)) {
@@ -137,7 +134,7 @@ FittedSolver::MadeSolver FittedSolver::makeFor(btDiscreteDynamicsWorld& world,
 }
 
 FittedSolver::FittedSolver(btDiscreteDynamicsWorld& world, const Members& members,
-                             SolverOwner owner)
+                           SolverOwner owner)
     : made_(makeFor(world, members)), given_(world.getConstraintSolver()), owner_(owner) {}
 
 void FittedSolver::install(btDiscreteDynamicsWorld& world) {
@@ -167,100 +164,7 @@ bool FittedSolver::isIn(btDiscreteDynamicsWorld& world) const {
   return world.getConstraintSolver() == made_.get() && !made_.get_deleter().life.expired();
 }
 
-/// Says whether a world is alive. When the world is destroyed, all members leave their fluid.
-struct WorldLife {
-  std::weak_ptr<AmbientBodies> members;
-  btSimulationIslandManager* given = nullptr;  ///< the world's own island manager
-  bool has_ended = false;
-};
-
 namespace {
-
-// Lends access to members that Bullet keeps for derived worlds.
-struct IslandManagerOwner : btDiscreteDynamicsWorld {
-  using btDiscreteDynamicsWorld::m_islandManager;
-  using btDiscreteDynamicsWorld::m_ownsIslandManager;
-};
-constexpr auto kIslandManager = &IslandManagerOwner::m_islandManager;
-constexpr auto kOwnsIslandManager = &IslandManagerOwner::m_ownsIslandManager;
-
-void copySettings(btSimulationIslandManager& from, btSimulationIslandManager& to) {
-  to.setSplitIslands(from.getSplitIslands());
-}
-
-void copySettings(btSimulationIslandManagerMt& from, btSimulationIslandManagerMt& to) {
-  to.setSplitIslands(from.getSplitIslands());
-  to.setMinimumSolverBatchSize(from.getMinimumSolverBatchSize());
-  to.setIslandDispatchFunction(from.getIslandDispatchFunction());
-}
-
-// Destroys an island manager like Bullet's worlds do.
-void destroy(btSimulationIslandManager* manager) {
-  manager->~btSimulationIslandManager();
-  btAlignedFree(manager);
-}
-
-template <class Manager>
-class WatchingManager final : public Manager {
- public:
-  WatchingManager(Manager& given, std::shared_ptr<WorldLife> life) : life_(std::move(life)) {
-    copySettings(given, *this);
-  }
-  WatchingManager(const WatchingManager&) = delete;
-  WatchingManager& operator=(const WatchingManager&) = delete;
-  ~WatchingManager() override {
-    if (!life_->given) return;  // stopWatching() has given it back
-    destroy(std::exchange(life_->given, nullptr));
-    life_->has_ended = true;
-    const auto members = life_->members.lock();
-    if (!members) return;
-    members->clear();
-    members->is_closed = true;
-  }
-
- private:
-  const std::shared_ptr<WorldLife> life_;
-};
-
-template <class Manager>
-btSimulationIslandManager* makeWatching(btSimulationIslandManager& given,
-                                        const std::shared_ptr<WorldLife>& life) {
-  constexpr int kAlignment = 16;  // as Bullet's worlds allocate theirs
-  void* memory = btAlignedAlloc(sizeof(WatchingManager<Manager>), kAlignment);
-  return new (memory) WatchingManager<Manager>(static_cast<Manager&>(given), life);
-}
-
-/// Begins to watch a world: replaces its island manager by one that works alike and reports its
-/// destruction.
-/// @throws std::invalid_argument if the world has an island manager of a class of its own.
-void watch(btDiscreteDynamicsWorld& world, const std::shared_ptr<WorldLife>& life) {
-  btSimulationIslandManager& given = *(world.*kIslandManager);
-  const bool is_plain = typeid(given) == typeid(btSimulationIslandManager);
-  const bool is_multithreaded = typeid(given) == typeid(btSimulationIslandManagerMt);
-  if (!(world.*kOwnsIslandManager) || !(is_plain || is_multithreaded)) {
-    throw std::invalid_argument(
-        "Fluid: the world has an island manager of a class of its own; a fluid needs one of "
-        "Bullet's to know when the world is destroyed");
-  }
-  world.*kIslandManager = is_plain ? makeWatching<btSimulationIslandManager>(given, life)
-                                   : makeWatching<btSimulationIslandManagerMt>(given, life);
-  life->given = &given;
-}
-
-/// Gives the world its own island manager back. @pre the world is alive
-void stopWatching(btDiscreteDynamicsWorld& world, WorldLife& life) {
-  btSimulationIslandManager* watching = world.*kIslandManager;
-  AMBIENT_ASSERT(watching);
-  btSimulationIslandManager* given = std::exchange(life.given, nullptr);
-  auto* multithreaded = dynamic_cast<btSimulationIslandManagerMt*>(watching);
-  if (multithreaded) {
-    copySettings(*multithreaded, static_cast<btSimulationIslandManagerMt&>(*given));
-  } else {
-    copySettings(*watching, *given);
-  }
-  world.*kIslandManager = given;
-  destroy(watching);
-}
 
 btDiscreteDynamicsWorld& requireKind(btDynamicsWorld& world) {
   if (world.getWorldType() == BT_DEFORMABLE_MULTIBODY_DYNAMICS_WORLD) {
@@ -281,43 +185,29 @@ btDiscreteDynamicsWorld& requireKind(btDynamicsWorld& world) {
 WorldConnection::WorldConnection(btDynamicsWorld& world,
                                  const std::shared_ptr<AmbientBodies>& members,
                                  btActionInterface& action, SolverOwner owner)
-    : world_(&requireKind(world)),
+    : world_(requireKind(world)),
       action_(action),
       owner_(owner),
-      life_(std::make_shared<WorldLife>()) {
-  life_->members = members;
-  solver_ = std::make_unique<FittedSolver>(*world_, members, owner);
-  watch(*world_, life_);
-  solver_->install(*world_);
-  world_->addAction(&action_);
+      members_(members),
+      solver_(std::make_unique<FittedSolver>(world_, members, owner)) {
+  solver_->install(world_);
+  world_.addAction(&action_);
 }
 
 WorldConnection::~WorldConnection() {
-  if (life_->has_ended) return;
-  world_->removeAction(&action_);
-  stopWatching(*world_, *life_);
-  solver_->giveBack(*world_);
+  world_.removeAction(&action_);
+  solver_->giveBack(world_);
 }
-
-bool WorldConnection::isWorldAlive() const { return !life_->has_ended; }
 
 void WorldConnection::refit() {
-  btDiscreteDynamicsWorld& its = world("refit");
-  if (solver_->isIn(its)) return;
-  auto fitting = std::make_unique<FittedSolver>(its, life_->members.lock(), owner_);
+  if (solver_->isIn(world_)) return;
+  auto fitting = std::make_unique<FittedSolver>(world_, members_, owner_);
   solver_ = std::move(fitting);
-  solver_->install(its);
-}
-
-btDiscreteDynamicsWorld& WorldConnection::world(const char* who) const {
-  if (!life_->has_ended) return *world_;
-  throw std::logic_error(std::string(who) +
-                         ": the world of this Fluid was destroyed; make a new Fluid for a new one");
+  solver_->install(world_);
 }
 
 btMultiBodyDynamicsWorld& WorldConnection::multiBodyWorld(const char* who) const {
-  if (auto* multi_bodies = dynamic_cast<btMultiBodyDynamicsWorld*>(&world(who)))
-    return *multi_bodies;
+  if (auto* multi_bodies = dynamic_cast<btMultiBodyDynamicsWorld*>(&world_)) return *multi_bodies;
   throw std::invalid_argument(std::string(who) +
                               ": links of a btMultiBody move in a btMultiBodyDynamicsWorld only");
 }

@@ -23,11 +23,9 @@ enum class SolverOwner {
 };
 
 class FittedSolver;
-struct WorldLife;
 
-/// Gives a world a fitting solver and an action, and takes both back on destruction. World, solvers
-/// and connection may be destroyed in any order: Bullet destroys the island manager with the world,
-/// and one of a derived class reports that.
+/// Gives a world a fitting solver and an action, and takes both back on destruction, before the
+/// world's.
 class WorldConnection {
  public:
   /// @throws std::invalid_argument with one sentence that begins with "Fluid: "; the world is then
@@ -38,21 +36,20 @@ class WorldConnection {
   WorldConnection(const WorldConnection&) = delete;
   WorldConnection& operator=(const WorldConnection&) = delete;
 
-  bool isWorldAlive() const;
   /// Fits a new solver if somebody has given the world another solver since.
-  /// @throws as the constructor; world() if the world was destroyed
+  /// @throws as the constructor
   void refit();
 
-  /// @throws std::logic_error, in one sentence that begins with `who`, if it was destroyed.
-  btDiscreteDynamicsWorld& world(const char* who) const;
-  /// @throws as world(); std::invalid_argument if it is of another type.
+  btDiscreteDynamicsWorld& world() const { return world_; }
+  /// @throws std::invalid_argument, in one sentence that begins with `who`, if it is of another
+  /// type.
   btMultiBodyDynamicsWorld& multiBodyWorld(const char* who) const;
 
  private:
-  btDiscreteDynamicsWorld* world_;
+  btDiscreteDynamicsWorld& world_;
   btActionInterface& action_;
   SolverOwner owner_;
-  std::shared_ptr<WorldLife> life_;
+  const std::shared_ptr<AmbientBodies> members_;
   std::unique_ptr<FittedSolver> solver_;
 };
 

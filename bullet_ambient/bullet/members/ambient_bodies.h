@@ -260,7 +260,7 @@ class AmbientBodies : public std::enable_shared_from_this<AmbientBodies> {
   std::function<std::string(const btCollisionObject&)> naming;  ///< Fluid::setNaming()
   std::atomic<unsigned> solved{0};  ///< number of groups solved so far by all solvers of this fluid
   bool has_vessels = false;         ///< true: a body with holds was added
-  bool is_closed = false;           ///< Fluid or world were destroyed
+  bool is_closed = false;           ///< the Fluid was destroyed
 
  private:
   void forgetSolved(const AmbientBody& ambient) noexcept;

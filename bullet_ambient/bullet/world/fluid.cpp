@@ -66,8 +66,6 @@ Fluid::Fluid(btDynamicsWorld& world, SolverOwner owner)
 // Solvers of the program may keep the members, without anything of the program's.
 Fluid::~Fluid() { members_->close(); }
 
-bool Fluid::isWorldAlive() const { return connection_->isWorldAlive(); }
-
 void Fluid::refit() { connection_->refit(); }
 
 Immersed Fluid::add(btRigidBody* body, AttachDef def) {
@@ -75,7 +73,7 @@ Immersed Fluid::add(btRigidBody* body, AttachDef def) {
 }
 
 Immersed Fluid::add(btRigidBody& body, AttachDef def) {
-  const btDynamicsWorld& world = connection_->world("add");
+  const btDynamicsWorld& world = connection_->world();
   members_->requireChangeable("add");
   const AmbientBody& ambient = attachBody(*members_, body, std::move(def));
   return Immersed(*members_, reportIfLight(*members_, ambient, world.getGravity()));
@@ -93,7 +91,7 @@ Immersed Fluid::add(btMultiBody& multi_body, int link, AttachDef def) {
 }
 
 AttachReport Fluid::addAll(FluidBodySource& shapes, const Medium& medium, AttachSettings settings) {
-  btDiscreteDynamicsWorld& world = connection_->world("addAll");
+  btDiscreteDynamicsWorld& world = connection_->world();
   members_->requireChangeable("addAll");
   const bool later_bodies = settings.later_bodies;
   auto attachment =
@@ -104,7 +102,7 @@ AttachReport Fluid::addAll(FluidBodySource& shapes, const Medium& medium, Attach
 }
 
 void Fluid::addLaterBodies() {
-  btDiscreteDynamicsWorld& world = connection_->world("addLaterBodies");
+  btDiscreteDynamicsWorld& world = connection_->world();
   members_->requireChangeable("addLaterBodies");
   action_->attachLater(world);
 }
@@ -167,10 +165,10 @@ bool Fluid::removeRegion(RegionId id) {
   return true;
 }
 
-WorldState Fluid::save() const { return saveState(connection_->world("save"), *members_); }
+WorldState Fluid::save() const { return saveState(connection_->world(), *members_); }
 
 void Fluid::restore(const WorldState& state) {
-  btDynamicsWorld& world = connection_->world("restore");
+  btDynamicsWorld& world = connection_->world();
   restoreState(state, world, *members_);
   if (members_->has_vessels) findBodiesInHolds(world, *members_);
 }

@@ -150,7 +150,7 @@ Immersed::Held Immersed::require(const char* function) const {
   if (held.member) return held;
   const bool is_closed = !held.bodies || held.bodies->is_closed;
   throw std::logic_error(std::string(function) +
-                         (is_closed ? ": the Fluid or the world of this Immersed was destroyed"
+                         (is_closed ? ": the Fluid of this Immersed was destroyed"
                                     : ": this Immersed was removed from its Fluid"));
 }
 

@@ -239,7 +239,7 @@ TEST(Immersed, IsSafeAfterItsFluidWasDestroyed) {
   EXPECT_FALSE(body.isValid());
   EXPECT_FALSE(body.remove());
   EXPECT_EQ(refusal([&] { body.counters(); }),
-            "counters: the Fluid or the world of this Immersed was destroyed");
+            "counters: the Fluid of this Immersed was destroyed");
 }
 
 // A solver of the program keeps what its fluid was made of.
@@ -249,8 +249,7 @@ TEST(Immersed, IsSafeAfterItsFluidWasDestroyedBeforeASolver) {
   const auto solver = makeSolver<btSequentialImpulseConstraintSolver>(scene->fluid);
   scene.reset();
   EXPECT_FALSE(body.isValid());
-  EXPECT_EQ(refusal([&] { body.region(); }),
-            "region: the Fluid or the world of this Immersed was destroyed");
+  EXPECT_EQ(refusal([&] { body.region(); }), "region: the Fluid of this Immersed was destroyed");
 }
 
 TEST(Immersed, StaysValidWhenAStateIsRestored) {

@@ -220,16 +220,6 @@ TEST_F(GuestFluid, RefusesToRefitASolverThatItDoesNotKnow) {
   EXPECT_EQ(world->getConstraintSolver(), &other);
 }
 
-TEST_F(GuestFluid, KnowsWhenItsWorldHasEnded) {
-  const std::unique_ptr<btConstraintSolver> own(world->getConstraintSolver());
-  Fluid fluid(*world, SolverOwner::kAsksWorld);
-  EXPECT_TRUE(fluid.isWorldAlive());
-  world.reset();
-  EXPECT_FALSE(fluid.isWorldAlive());
-  EXPECT_THROW(fluid.refit(), std::logic_error);
-  EXPECT_THROW(fluid.addLaterBodies(), std::logic_error);
-}
-
 struct BallSource : FluidBodySource {
   std::shared_ptr<const FluidBody> fluidBody(const btCollisionShape&) override { return shape; }
   std::shared_ptr<const FluidBody> shape = unitBallIn(water()).fluid_body;

@@ -3,8 +3,8 @@
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorldMt.h>
 
 #include <algorithm>
+#include <optional>
 #include <type_traits>
-#include <utility>
 
 #include "tests/support/solver_kinds.h"
 
@@ -47,26 +47,27 @@ class SingleThreadedHost final : public WorldHost {
   std::optional<typename Kind::Ambient> ambient_;
 };
 
-/// Islands of more than a few contacts go to the multithreaded solver, as large ones do by default.
+/// A world with a pool of the fluid's solvers.
 class MultithreadedHost final : public WorldHost {
-  using Limit = btSequentialImpulseConstraintSolverMt;
-
  public:
-  explicit MultithreadedHost(bool is_ambient)
-      : default_limit_(std::exchange(Limit::s_minimumContactManifoldsForBatching, 3)) {
-    if (is_ambient) fluid_.emplace(world_);
+  explicit MultithreadedHost(bool is_ambient) {
+    if (!is_ambient) return;
+    world_.setConstraintSolver(&plain_);
+    fluid_.emplace(world_);
+    using Base = btSequentialImpulseConstraintSolver;
+    btConstraintSolver* solvers[] = {makeSolver<Base>(*fluid_).release(),
+                                     makeSolver<Base>(*fluid_).release()};
+    ambient_pool_.emplace(solvers, 2);
+    world_.setConstraintSolver(&*ambient_pool_);
   }
-  ~MultithreadedHost() override {
-    fluid_.reset();
-    Limit::s_minimumContactManifoldsForBatching = default_limit_;
-  }
+  ~MultithreadedHost() override { fluid_.reset(); }
   btDiscreteDynamicsWorld& world() override { return world_; }
 
  private:
-  int default_limit_;
+  btSequentialImpulseConstraintSolver plain_;
   btConstraintSolverPoolMt pool_{2};
-  btSequentialImpulseConstraintSolverMt large_;
-  btDiscreteDynamicsWorldMt world_{&dispatcher, &broadphase, &pool_, &large_, &configuration};
+  std::optional<btConstraintSolverPoolMt> ambient_pool_;
+  btDiscreteDynamicsWorldMt world_{&dispatcher, &broadphase, &pool_, nullptr, &configuration};
 };
 
 template <class Kind, class World>
