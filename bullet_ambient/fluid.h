@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "bullet_ambient/attach_world.h"
+#include "bullet_ambient/base/task_runner.h"
 #include "bullet_ambient/bullet/connection/world_connection.h"
 #include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/bullet/solver/fluid_solver.h"
@@ -28,8 +29,6 @@ namespace ambient {
 
 struct AmbientBody;
 struct FluidWrench;
-
-class TaskRunner;
 
 }  // namespace ambient
 
@@ -54,11 +53,10 @@ class Immersed {
   /// changed.
   void setMedium(const Medium& medium) const;
   /// Changes the fluid body, for example to scaled() of the old one after setLocalScaling() of the
-  /// collision shape. `fluid_frame`: as in AttachDef; without this argument it stays. Set new mass
-  /// properties before. @throws std::invalid_argument as Fluid::add(); then nothing has changed.
-  void setFluidBody(std::shared_ptr<const FluidBody> fluid_body) const;
+  /// collision shape. `fluid_frame`: as in AttachDef; none: it stays. Set new mass properties
+  /// before. @throws std::invalid_argument as Fluid::add(); then nothing has changed.
   void setFluidBody(std::shared_ptr<const FluidBody> fluid_body,
-                    const FrameOffset& fluid_frame) const;
+                    const std::optional<FrameOffset>& fluid_frame = std::nullopt) const;
 
   /// Returns the fluid around the body, that of its region or its own, at the start of its last
   /// step; before the first step, when it was added. Its acceleration is the one given, or that by
@@ -177,19 +175,17 @@ class Fluid {
   void refit();
 
   /// Puts a dynamic body into a fluid, before or after it is added to the world.
-  /// @throws std::invalid_argument, saying what and the limit: null, a static body, added twice, no
+  /// @throws std::invalid_argument, saying what and the limit: a static body, added twice, no
   /// fluid body, mass, inertia, medium or flow settings that are not physical.
   Immersed add(btRigidBody& body, AttachDef def);
-  Immersed add(btRigidBody* body, AttachDef def);
   /// Puts a link of a btMultiBody into a fluid; -1 is its base. `fluid_frame` is in the link's
   /// frame: that of its centre of mass. The btMultiBody is finalized, and is or will be in this
   /// world; docs/robots.md. In place of a link without mass the link with mass is added that fixed
   /// joints hold to it.
-  /// @throws std::invalid_argument, saying what and the limit: null, a world without multibodies,
+  /// @throws std::invalid_argument, saying what and the limit: a world without multibodies,
   /// no such link, added twice, a fixed base, mass or settings as of a body, a btMultiBody that
   /// uses RK4.
   Immersed add(btMultiBody& multi_body, int link, AttachDef def);
-  Immersed add(btMultiBody* multi_body, int link, AttachDef def);
   /// Puts all dynamic bodies of the world into a fluid, whatever their mass, and all links of its
   /// multibodies that have a collider:
   ///
@@ -259,8 +255,8 @@ class Fluid {
   /// add().
   void setNaming(std::function<std::string(const btCollisionObject&)> naming);
   /// Spreads the flights of free bodies over the threads of a runner; results have the same bits.
-  /// Null (default): flights run on the thread of the solver. The runner must outlive its use here.
-  void setTaskRunner(TaskRunner* runner);
+  /// Null (default): flights run on the thread of the solver. threads.h has that of Bullet.
+  void setTaskRunner(TaskRunner runner);
 
  private:
   friend AmbientBodies& membersOf(const Fluid& fluid);

@@ -9,31 +9,23 @@
 
 AMBIENT_BEGIN
 
-/// Runs tasks by Bullet's own task scheduler, set by btSetTaskScheduler(). If Bullet was built
-/// without BT_THREADSAFE, as Debian's is, its scheduler does not work: tasks then run one after
-/// another: derive a TaskRunner that uses the threads of the program.
-class BulletTaskRunner : public TaskRunner {
- public:
-  void runAll(const Task& task, int count) noexcept override {
-#if BT_THREADSAFE
-    constexpr int kGrainSize = 4;
-    const Loop loop(task);
-    btParallelFor(0, count, kGrainSize, loop);
-#else
-    for (int i = 0; i < count; ++i) task.run(i);
-#endif
-  }
-
- private:
+/// TaskRunner of Bullet's own task scheduler, set by btSetTaskScheduler(). If Bullet was built
+/// without BT_THREADSAFE, as Debian's is, its scheduler does not work: items then run one after
+/// another; write a TaskRunner that uses the threads of the program.
+inline void runByBullet(int count, const std::function<void(int)>& run) {
 #if BT_THREADSAFE
   struct Loop : btIParallelForBody {
-    explicit Loop(const Task& t) : task(t) {}
+    explicit Loop(const std::function<void(int)>& r) : run(r) {}
     void forLoop(int begin, int end) const override {
-      for (int i = begin; i < end; ++i) task.run(i);
+      for (int i = begin; i < end; ++i) run(i);
     }
-    const Task& task;
+    const std::function<void(int)>& run;
   };
+  constexpr int kGrainSize = 4;
+  btParallelFor(0, count, kGrainSize, Loop(run));
+#else
+  for (int i = 0; i < count; ++i) run(i);
 #endif
-};
+}
 
 AMBIENT_END

@@ -1,23 +1,12 @@
 #pragma once
 
+#include <functional>
+
 namespace ambient {
 
-/// Work on independent items, numbered from 0.
-class Task {
- public:
-  virtual void run(int item) const noexcept = 0;  ///< works on one item; on any thread
-
- protected:
-  ~Task() = default;
-};
-
-/// Spreads work over threads: derive from it to use the scheduler that a program already has.
-class TaskRunner {
- public:
-  virtual ~TaskRunner() = default;
-  /// Runs every item in [0, count) once, in any order and on any threads. Returns when all items
-  /// are done. A multithreaded world may call runAll() from several threads at a time.
-  virtual void runAll(const Task& task, int count) noexcept = 0;
-};
+/// Spreads work over the threads that a program already has: calls run(item) once for each item in
+/// [0, count), in any order and on any threads, and returns when all are done. `run` does not throw.
+/// A multithreaded world may call it from several threads at a time.
+using TaskRunner = std::function<void(int count, const std::function<void(int item)>& run)>;
 
 }  // namespace ambient

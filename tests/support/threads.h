@@ -8,16 +8,11 @@
 namespace ambient::test {
 
 /// Spreads work over threads that each call starts anew; the calling thread works, too.
-class Threads : public TaskRunner {
- public:
-  explicit Threads(int threads) : threads_(threads) {}
-  void runAll(const Task& task, int count) noexcept override {
-    parallelFor(threads_, count, [&task](std::ptrdiff_t i) { task.run(static_cast<int>(i)); });
-  }
-
- private:
-  int threads_;
-};
+inline TaskRunner onThreads(int threads) {
+  return [threads](int count, const std::function<void(int)>& run) {
+    parallelFor(threads, count, [&run](std::ptrdiff_t i) { run(static_cast<int>(i)); });
+  };
+}
 
 /// Scope in which no thread can start: the default stack is larger than the address space.
 class NoMoreThreads {

@@ -14,6 +14,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "bullet_ambient/base/task_runner.h"
 #include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
 #include "bullet_ambient/immersed/ambient_body.h"
@@ -200,16 +201,6 @@ class BodyIndex {
   std::size_t count_ = 0;
 };
 
-AMBIENT_END
-
-namespace ambient {
-
-class TaskRunner;
-
-}  // namespace ambient
-
-AMBIENT_BEGIN
-
 /// Number that Bullet gives to each btRigidBody on construction. Distinguishes a body from a later
 /// one at the same address. @pre the body is alive
 int instanceNumber(const btRigidBody& body) noexcept;
@@ -256,7 +247,7 @@ class AmbientBodies : public std::enable_shared_from_this<AmbientBodies> {
   Complaints complaints;
   FluidRegions regions;
   ModelTables load_tables;  ///< data that several bodies share
-  TaskRunner* task_runner = nullptr;
+  TaskRunner task_runner;   ///< null: flights run on the thread of the solver
   std::function<std::string(const btCollisionObject&)> naming;  ///< Fluid::setNaming()
   std::atomic<unsigned> solved{0};  ///< number of groups solved so far by all solvers of this fluid
   bool has_vessels = false;         ///< true: a body with holds was added

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "bullet_ambient/bullet/core/body_motion.h"
@@ -28,21 +29,9 @@
 #include "bullet_ambient/immersed/fluid_reading.h"
 #include "bullet_ambient/motion/flight/flight.h"
 #include "bullet_ambient/motion/rows/row_velocity.h"
-#include "bullet_ambient/threads.h"
 
 AMBIENT_BEGIN
 namespace {
-
-// Task that calls fly(item). Keeps a reference to `fly` and allocates nothing.
-template <class Fly>
-class FlightTasks final : public Task {
- public:
-  explicit FlightTasks(const Fly& fly) : fly_(fly) {}
-  void run(int item) const noexcept override { fly_(item); }
-
- private:
-  const Fly& fly_;
-};
 
 // Tells what may move a body in this substep. Written into its companion id while bodies are
 // selected: Bullet overwrites the id when it converts the body.
@@ -194,19 +183,18 @@ void SolverGroup::flyFreely(SolverBodies* solver_bodies) noexcept {
   if (free_.empty()) return;
   constexpr int kLeastGroups = 8;  // groups to make before a group is filled
   const int count = static_cast<int>(free_.size());
-  TaskRunner* runner = bodies_.task_runner;
+  const TaskRunner& runner = bodies_.task_runner;
   const int together =
       runner ? std::clamp(count / kLeastGroups, 1, kFlightsTogether) : kFlightsTogether;
   const auto fly = [&](int group) {
     const int first = group * together;
     flyTogether(first, std::min(together, count - first), solver_bodies);
   };
-  const FlightTasks flights(fly);
   const int groups = (count + together - 1) / together;
   if (runner) {
-    runner->runAll(flights, groups);
+    runner(groups, std::cref(fly));  // allocates nothing
   } else {
-    for (int i = 0; i < groups; ++i) flights.run(i);
+    for (int i = 0; i < groups; ++i) fly(i);
   }
   for (const FreeBody& body : free_) {
     const SubstepOutcome& outcome = body.ambient->outcome;

@@ -38,12 +38,6 @@ void takeAllStations(AmbientBodies& bodies) {
   bodies.forEach([&](AmbientBody& ambient) { takeStations(ambient, bodies.regions); });
 }
 
-template <class Object>
-Object& requireObject(Object* object) {
-  if (!object) throw std::invalid_argument("add: the body is null");
-  return *object;
-}
-
 // Reports a new member that is light beside what it displaces. Returns the member.
 const AmbientBody& reportIfLight(AmbientBodies& members, const AmbientBody& ambient,
                                  const btVector3& gravity) {
@@ -68,19 +62,11 @@ Fluid::~Fluid() { members_->close(); }
 
 void Fluid::refit() { connection_->refit(); }
 
-Immersed Fluid::add(btRigidBody* body, AttachDef def) {
-  return add(requireObject(body), std::move(def));
-}
-
 Immersed Fluid::add(btRigidBody& body, AttachDef def) {
   const btDynamicsWorld& world = connection_->world();
   members_->requireChangeable("add");
   const AmbientBody& ambient = attachBody(*members_, body, std::move(def));
   return Immersed(*members_, reportIfLight(*members_, ambient, world.getGravity()));
-}
-
-Immersed Fluid::add(btMultiBody* multi_body, int link, AttachDef def) {
-  return add(requireObject(multi_body), link, std::move(def));
 }
 
 Immersed Fluid::add(btMultiBody& multi_body, int link, AttachDef def) {
@@ -189,6 +175,6 @@ void Fluid::setNaming(std::function<std::string(const btCollisionObject&)> namin
   members_->naming = std::move(naming);
 }
 
-void Fluid::setTaskRunner(TaskRunner* runner) { members_->task_runner = runner; }
+void Fluid::setTaskRunner(TaskRunner runner) { members_->task_runner = std::move(runner); }
 
 AMBIENT_END

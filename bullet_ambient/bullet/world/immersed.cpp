@@ -73,11 +73,11 @@ bool changeMedium(AmbientBody& ambient, const Medium& medium, AmbientBodies& bod
 }
 
 void changeFluidBody(AmbientBody& ambient, std::shared_ptr<const FluidBody> fluid_body,
-                     const FrameOffset& fluid_frame, AmbientBodies& bodies) {
+                     const std::optional<FrameOffset>& fluid_frame, AmbientBodies& bodies) {
   if (!fluid_body) throw std::invalid_argument("setFluidBody: the fluid body is null");
   AttachDef def = *ambient.def;
   def.fluid_body = std::move(fluid_body);
-  def.fluid_frame = fluid_frame;
+  if (fluid_frame) def.fluid_frame = *fluid_frame;
   def.holds.water.clear();  // of other holds
   replaceDef(ambient, std::move(def), bodies);
 }
@@ -162,12 +162,8 @@ void Immersed::setMedium(const Medium& medium) const {
   if (changeMedium(*held.member, medium, *held.bodies)) wake(*held.member);
 }
 
-void Immersed::setFluidBody(std::shared_ptr<const FluidBody> fluid_body) const {
-  setFluidBody(std::move(fluid_body), require("setFluidBody").member->def->fluid_frame);
-}
-
 void Immersed::setFluidBody(std::shared_ptr<const FluidBody> fluid_body,
-                            const FrameOffset& fluid_frame) const {
+                            const std::optional<FrameOffset>& fluid_frame) const {
   const Held held = require("setFluidBody");
   held.bodies->requireChangeable("setFluidBody");
   changeFluidBody(*held.member, std::move(fluid_body), fluid_frame, *held.bodies);

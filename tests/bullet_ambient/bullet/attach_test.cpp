@@ -268,12 +268,6 @@ TEST(Immersed, StaysValidWhenAStateIsRestored) {
   EXPECT_FALSE(scene.fluid.find(other));
 }
 
-TEST(Immersed, RefusesNothing) {
-  FluidWorld scene;
-  btRigidBody* nothing = nullptr;
-  EXPECT_THROW(scene.fluid.add(nothing, inAir()), std::invalid_argument);
-}
-
 TEST(Naming, NamesBodiesInReportsAndErrors) {
   FluidWorld scene;
   scene.world.setGravity({0, 0, bt(-9.81)});

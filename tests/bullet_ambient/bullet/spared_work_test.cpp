@@ -194,7 +194,7 @@ struct Poses {
 };
 
 // Poses after steps with flying, colliding and hinged bodies.
-Poses flyBodies(TaskRunner* runner) {
+Poses flyBodies(const TaskRunner& runner) {
   constexpr int kBodies = 40;
   btBoxShape box(btVector3(btScalar(0.3), btScalar(0.25), btScalar(0.1)));
   FluidWorld scene;
@@ -226,32 +226,24 @@ void expectSame(const Poses& a, const Poses& b) {
 TEST(ParallelFlight, EndsWithTheSameBitsOnAnyNumberOfThreads) {
   const Poses alone = flyBodies(nullptr);
   EXPECT_GT(alone.counters.rows, 0);
-  for (const int threads : {1, 2, 4}) {
-    Threads runner(threads);
-    expectSame(alone, flyBodies(&runner));
-  }
+  for (const int threads : {1, 2, 4}) expectSame(alone, flyBodies(onThreads(threads)));
 }
 
 TEST(ParallelFlight, RunsByBulletsSchedulerOrWithout) {
-  BulletTaskRunner runner;
-  expectSame(flyBodies(nullptr), flyBodies(&runner));
+  expectSame(flyBodies(nullptr), flyBodies(runByBullet));
 }
 
 TEST(ParallelFlight, IsHandedAllFreeBodiesAtOnce) {
-  class Recorder final : public TaskRunner {
-   public:
-    void runAll(const Task& task, int count) noexcept override {
-      counts.push_back(count);
-      for (int i = count; i-- > 0;) task.run(i);  // reversed order
-    }
-    std::vector<int> counts;
-  } recorder;
+  std::vector<int> counts;
   FluidWorld scene;
-  scene.fluid.setTaskRunner(&recorder);
+  scene.fluid.setTaskRunner([&](int count, const std::function<void(int)>& run) {
+    counts.push_back(count);
+    for (int i = count; i-- > 0;) run(i);  // reversed order
+  });
   const FluidBody shape = meshedEllipsoid(Vector3(0.3, 0.25, 0.1), 0);
   for (int i = 0; i < 10; ++i) scene.add({}, shape, air());
   scene.step(1.0 / 60);
-  EXPECT_EQ(recorder.counts, std::vector<int>{10});
+  EXPECT_EQ(counts, std::vector<int>{10});
 }
 
 }  // namespace

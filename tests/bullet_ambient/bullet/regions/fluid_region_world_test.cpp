@@ -296,7 +296,7 @@ TEST(FluidRegions, AWorldWithoutAnyAsksNothing) {
 
 // Bodies that cross layers; some collide.
 struct Layers {
-  explicit Layers(TaskRunner* runner = nullptr) {
+  explicit Layers(const TaskRunner& runner = nullptr) {
     scene.world.getDispatchInfo().m_deterministicOverlappingPairs = true;
     scene.world.setGravity({0, 0, bt(-9.81)});
     scene.fluid.setTaskRunner(runner);
@@ -339,8 +339,7 @@ TEST(FluidRegions, EndWithTheSameBitsOnAnyNumberOfThreads) {
   EXPECT_GT(alone.scene.fluid.counters().medium_changes, 60);
   EXPECT_GT(alone.scene.fluid.counters().rows, 0);
   for (const int threads : {2, 3}) {
-    Threads runner(threads);
-    Layers other(&runner);
+    Layers other(onThreads(threads));
     other.scene.step(kWorldStep, 150);
     EXPECT_TRUE(alone.bits() == other.bits()) << threads;
   }

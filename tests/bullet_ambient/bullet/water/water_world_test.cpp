@@ -31,7 +31,7 @@ FluidRegion seaAt(double level) {
 
 /// A world with water, and boxes of one shape in it.
 struct WaterWorld {
-  explicit WaterWorld(const FluidRegion& water, TaskRunner* runner = nullptr) {
+  explicit WaterWorld(const FluidRegion& water, const TaskRunner& runner = nullptr) {
     scene.world.getDispatchInfo().m_deterministicOverlappingPairs = true;
     scene.world.setGravity({0, 0, bt(-kGravity)});
     scene.fluid.setTaskRunner(runner);
@@ -157,7 +157,7 @@ TEST(WaterWorld, APendulumThatDipsInGainsNoEnergy) {
 
 // A pile of boxes that fall into water onto each other.
 struct FloatingPile : WaterWorld {
-  explicit FloatingPile(TaskRunner* runner = nullptr) : WaterWorld(seaAt(0), runner) {
+  explicit FloatingPile(const TaskRunner& runner = nullptr) : WaterWorld(seaAt(0), runner) {
     for (int i = 0; i < 24; ++i) {
       RigidState start = tumbling(0.3 + 0.25 * i);
       start.position.x() = 0.5 * (i % 3);
@@ -172,8 +172,7 @@ TEST(WaterWorld, EndsWithTheSameBitsOnAnyNumberOfThreads) {
   alone.scene.step(1.0 / 60, 150);
   EXPECT_GT(alone.scene.fluid.counters().rows, 100);
   EXPECT_EQ(alone.scene.fluid.counters().rejected, 0);
-  Threads runner(3);
-  FloatingPile other(&runner);
+  FloatingPile other(onThreads(3));
   other.scene.step(1.0 / 60, 150);
   EXPECT_TRUE(alone.bits() == other.bits());
 }
