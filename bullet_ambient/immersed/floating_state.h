@@ -36,10 +36,6 @@ NearSurface nearSurface(const AmbientBody& ambient, const MotionView& now, const
                         const RegionSample& sample, const Vector3& point_W,
                         double duration) noexcept;
 
-/// Decides which holds of a body that first meets a surface are full. Allocates nothing. @pre it
-/// has holds
-void meetHolds(AmbientBody& ambient, const MotionView& now, const NearSurface& near) noexcept;
-
 /// Fills AmbientBody::floating if the surface matters to the body; where sides of its pool cut
 /// it and it is not dry, it does at any depth. Allocates nothing.
 SurfaceSide enterSurface(AmbientBody& ambient, const NearSurface& near, const RegionSample& sample,
@@ -52,6 +48,18 @@ SurfaceSide enterSurface(AmbientBody& ambient, const NearSurface& near, const Re
 void standAt(AmbientBody* const* bodies, const RigidState* states, int count,
              double rounding) noexcept;
 
+/// Plane of the surface when the step begins, in B at a pose. @pre the body is at a surface
+SurfacePlane planeAt(const AmbientBody& ambient, const RigidState& state) noexcept;
+/// Twist in B relative to the water.
+Vector6 twistInWater(const AmbientBody& ambient, const RigidState& state) noexcept;
+/// Sets the plane of the stand, in B; the stand stays valid if it is the same.
+void moveStandTo(const SurfacePlane& plane_B, FloatingState& floating) noexcept;
+/// Computes the stands of up to kFlightsTogether bodies at their planes, side by side, where they
+/// are not valid. Allocates nothing.
+void completeStandsOf(AmbientBody* const* bodies, int count) noexcept;
+/// Model of a body with the inertia, displacement and loads of a stand.
+BodyModel modelAtStand(const SurfaceModel& at, const SurfaceStand& stand);
+
 /// Returns the model of the body at its present pose: AmbientBody::model(), or at a water surface
 /// the model for the present waterline.
 BodyModel modelNow(const AmbientBody& ambient, const MotionView& now);
@@ -59,16 +67,6 @@ BodyModel modelNow(const AmbientBody& ambient, const MotionView& now);
 /// Finds the stand of one body at its present pose. Allocates nothing. @pre the body is at a
 /// surface
 const SurfaceStand& standNow(AmbientBody& ambient, const MotionView& now) noexcept;
-
-/// Kinetic energy of the water in the holds that swings on its own, beside x.K x / 2 [J].
-double sloshingEnergyNow(const AmbientBody& ambient, const MotionView& now);
-
-/// Lets water pass through the openings of a body at a surface at the start of a step of `duration`
-/// [s]. Water that comes in was at rest in the water around: sets VesselState::change_B, which the
-/// motion of the step adds. Counts, and keeps the body from rest while water flows. Allocates
-/// nothing.
-/// @pre it has holds, and a surface is near
-void exchangeWater(AmbientBody& ambient, const MotionView& now, double duration) noexcept;
 
 /// Model of a body for a step in which rows or joints move it: at a water surface with the inertia,
 /// displacement and loads of its stand. Allocates nothing.

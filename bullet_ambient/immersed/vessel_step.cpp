@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "bullet_ambient/immersed/flow_along.h"
+#include "bullet_ambient/motion/surface/hold_exchange.h"
 
 namespace ambient {
 namespace {
@@ -110,6 +112,139 @@ void saySunk(AmbientBody& ambient, Complaints& complaints) noexcept {
   const double most = model.excess_density * (vessel.shape->volume - water);
   vessel.has_sunk = model.above.mass - model.above.displaced_mass > most;
   if (vessel.has_sunk) complaints.saySunk(*ambient.def, filled);
+}
+
+void meetHolds(AmbientBody& ambient, const MotionView& now, const NearSurface& near) noexcept {
+  if (near.media < 0 || std::exchange(ambient.vessel->is_known, true)) return;
+  if (!ambient.def->holds.are_open) return;
+  const SurfaceModel& model = ambient.models->surfaces[static_cast<std::size_t>(near.media)].model;
+  const SurfacePlane plane_B = seenFrom(near.plane_W, now.rotation(), now.state.position);
+  fillCoveredHolds(*model.holds, &ambient.vessel->changes, seenFrom(plane_B, model.fluid_frame),
+                   ambient.vessel->holds.data());
+}
+
+namespace {
+
+// Returns a body with water in its holds at its stand.
+WaterAt waterAt(const AmbientBody& ambient, const Matrix3& to_world, const Vector3& position_W) {
+  return {*ambient.surface(), ambient.stand(), to_world, position_W};
+}
+
+// Lets water that has not sloshed yet begin, and finds its energy.
+void beginSloshing(AmbientBody& ambient, const Matrix3& to_world, const Vector6& x) {
+  VesselState& vessel = *ambient.vessel;
+  vessel.sloshing_energy = 0;
+  if (!ambient.stand().inside_F) return;
+  Sloshing* const states = vessel.sloshing.now.data();
+  const SloshingAt at = waterAt(ambient, to_world, {0, 0, 0}).sloshing();
+  joinVessel(at, x, states);
+  vessel.sloshing_energy = energyOfSloshing(at, states).sum();
+}
+
+// Takes the sloshing to the water that is there after some has passed. `energy`: of all that moves,
+// before it [J].
+void mixWater(AmbientBody& ambient, const Matrix3& to_world, const Vector6& x, double energy) {
+  VesselState& vessel = *ambient.vessel;
+  vessel.sloshing_energy = 0;
+  Sloshing* const states = vessel.sloshing.now.data();
+  if (!ambient.stand().inside_F) {
+    std::fill(states, states + vessel.holds.size(), Sloshing{});
+    return;
+  }
+  const SloshingAt at = waterAt(ambient, to_world, {0, 0, 0}).sloshing();
+  mixSloshing(vessel.holds.data(), vessel.sloshing.later.data(), at, x, states);
+  meetModes(at, energy, states);
+  vessel.sloshing_energy = energyOfSloshing(at, states).sum();
+}
+
+// True if the water in a vessel sloshes so little that the vessel may sleep.
+bool isNearlyLevel(const AmbientBody& ambient) {
+  constexpr double kLittle = 1e-6;  // of the water's weight times the size of the vessel
+  double volume = 0;
+  for (const HoldState& hold : ambient.vessel->holds) volume += hold.volume;
+  const SurfaceModel& model = *ambient.surface();
+  const double weight = model.excess_density * volume * ambient.stand().plane.gravity;
+  return ambient.vessel->sloshing_energy <= kLittle * weight * model.radius;
+}
+
+}  // namespace
+
+void exchangeWater(AmbientBody& ambient, const MotionView& now, double duration) noexcept {
+  constexpr double kStill = 1e-9;  // of a hold
+  VesselState& vessel = *ambient.vessel;
+  const SurfaceModel& model = *ambient.surface();
+  const SurfaceStand& stand = standNow(ambient, now);
+  const Vector6 x = twistInWater(ambient, now.state);
+  const Matrix3 R = now.rotation();
+  beginSloshing(ambient, R, x);
+  const double twice_before = x.dot(stand.inertia.full() * x) + 2 * vessel.sloshing_energy;
+  vessel.sloshing.later = vessel.sloshing.modes;  // before water passes
+  const HoldSettings& settings = ambient.def->holds;
+  const Passage passage{settings.are_open, duration, settings.atmosphere, &vessel.changes,
+                        vessel.has_waves ? &vessel.rises : nullptr};
+  const Matrix6 come =
+      exchangeWater(*model.holds, stand.immersion_F.plane, passage, vessel.holds.data());
+  vessel.change_B.setZero();
+  bool has_changed = false;
+  for (std::size_t i = 0; i < vessel.holds.size(); ++i) {
+    HoldState& hold = vessel.holds[i];
+    has_changed = has_changed || hold.change != 0;
+    (hold.inflow > 0 ? hold.flooded : hold.drained) += std::abs(hold.inflow);
+    if (std::abs(hold.change) > kStill * vessel.shape->holds[i].volume) ambient.may_rest = false;
+  }
+  if (has_changed) {
+    ambient.floating->is_valid = false;
+    AmbientBody* const body = &ambient;
+    completeStandsOf(&body, 1);
+    mixWater(ambient, R, x, twice_before / 2);
+    const Matrix6 come_B = model.excess_density * model.fluid_frame.inertiaToB(come);
+    const Vector6 end = x - stand.inverse.full() * (come_B * x);
+    const double most = std::max(0.0, twice_before - 2 * vessel.sloshing_energy);
+    vessel.change_B = scaledWithin(end, end.dot(stand.inertia.full() * end), most).twist - x;
+  }
+  if (!isNearlyLevel(ambient)) ambient.may_rest = false;
+}
+
+double sloshingEnergyNow(const AmbientBody& ambient, const MotionView& now) {
+  if (!ambient.vessel || !ambient.surface()) return 0;
+  std::vector<Sloshing> states = ambient.vessel->sloshing.now;
+  std::vector<HoldModes> modes(states.size());
+  WaterInside inside;
+  const SurfacePlace place = placeAt(*ambient.surface(), planeAt(ambient, now.state),
+                                     {waterOf(ambient), &inside, modes.data()});
+  if (!place.inside_F) return 0;
+  const WaterAt at{*ambient.surface(), place, now.rotation(), now.centre()};
+  joinVessel(at.sloshing(), twistInWater(ambient, now.state), states.data());
+  return energyOfSloshing(at.sloshing(), states.data()).kinetic;
+}
+
+Vector6 sloshForRows(AmbientBody& ambient, const RigidState& now, double duration,
+                     const Vector6& x) noexcept {
+  VesselState& vessel = *ambient.vessel;
+  VesselSloshing& sloshing = vessel.sloshing;
+  const WaterAt at = waterAt(ambient, now.orientation.toRotationMatrix(), now.position);
+  sloshing.moved = sloshing.now;
+  joinVessel(at.sloshing(), x, sloshing.moved.data());
+  const Vector6 end =
+      exchangeSloshing(at.sloshing(), ambient.stand().inverse.full(),
+                       ambient.def->holds.sloshing_damping, duration, x, sloshing.moved.data());
+  vessel.before_rows = WaterLeft(at, sloshing.moved.data());
+  return end;
+}
+
+Vector6 arriveWithWater(AmbientBody& ambient, const Matrix3& to_world, const Vector3& position_W,
+                        Axes axes, const Vector6& x, SymmetricMatrix& inertia) noexcept {
+  VesselState& vessel = *ambient.vessel;
+  Sloshing* const states = vessel.sloshing.moved.data();
+  const WaterAt at = waterAt(ambient, to_world, position_W);
+  Vector6 end = x;
+  if (axes == Axes::kLocked)
+    meetModes(at.sloshing(), vessel.before_rows.energy, states);
+  else
+    end = shiftWater(vessel.before_rows, at, x, inertia, states);
+  std::swap(vessel.sloshing.now, vessel.sloshing.moved);
+  vessel.sloshing_energy = energyOfSloshing(at.sloshing(), vessel.sloshing.now.data()).sum();
+  return end;
 }
 
 }  // namespace ambient

@@ -2,6 +2,7 @@
 
 #include "bullet_ambient/immersed/ambient_body.h"
 #include "bullet_ambient/immersed/complaints.h"
+#include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/immersed/fluid_regions.h"
 
 namespace ambient {
@@ -23,6 +24,30 @@ const HoldAround* holdAround(const AmbientBody& ambient, const FluidRegions& reg
 /// there move with the vessel; a dry hold has its level far below.
 void takeHold(const HoldAround& around, const AmbientBody& ambient, const MotionView& now,
               RegionSample& sample) noexcept;
+
+/// Decides which holds of a body that first meets a surface are full. Allocates nothing. @pre it
+/// has holds
+void meetHolds(AmbientBody& ambient, const MotionView& now, const NearSurface& near) noexcept;
+
+/// Kinetic energy of the water in the holds that swings on its own, beside x.K x / 2 [J].
+double sloshingEnergyNow(const AmbientBody& ambient, const MotionView& now);
+
+/// Lets water pass through the openings of a body at a surface at the start of a step of `duration`
+/// [s]. Water that comes in was at rest in the water around: sets VesselState::change_B, which the
+/// motion of the step adds. Counts, and keeps the body from rest while water flows. Allocates
+/// nothing.
+/// @pre it has holds, and a surface is near
+void exchangeWater(AmbientBody& ambient, const MotionView& now, double duration) noexcept;
+
+/// Lets the water in the holds slosh over a step in which rows move the body, whose twist in B
+/// would be x. Returns the twist after that. @pre standNow(); water is inside
+Vector6 sloshForRows(AmbientBody& ambient, const RigidState& now, double duration,
+                     const Vector6& x) noexcept;
+/// Lets that water come to the present stand of the body, after it has moved by rows to a pose B to
+/// W with the twist x. `position_W`: relative to the water where the step began. Returns the twist
+/// after that, and the inertia of what stands still in B.
+Vector6 arriveWithWater(AmbientBody& ambient, const Matrix3& to_world, const Vector3& position_W,
+                        Axes axes, const Vector6& x, SymmetricMatrix& inertia) noexcept;
 
 /// Says once of a vessel that water has come into one of its holds until that was full, and that
 /// the body is then too heavy to float. Apart from that allocates nothing. @pre exchangeWater() has

@@ -46,11 +46,6 @@ void addTriangle(const Vector3 (&corners)[3], const SurfacePlane& plane, WetSurf
       wetShareOf({plane.depth(corners[0]), plane.depth(corners[1]), plane.depth(corners[2])});
 }
 
-Vector3 cornerOf(const Surface& surface, std::int32_t vertex) {
-  const double* v = surface.vertices.data() + 3 * static_cast<std::size_t>(vertex);
-  return {v[0], v[1], v[2]};
-}
-
 WetSurface wetSurfaceOf(const FluidBody& shape, const Immersion& immersion) {
   const SurfacePlane& plane = immersion.plane;
   const double radius = shape.sphere_radius;
@@ -61,9 +56,9 @@ WetSurface wetSurfaceOf(const FluidBody& shape, const Immersion& immersion) {
   WetSurface wet;
   double all = 0;
   for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
-    const Vector3 corners[3] = {cornerOf(shape.surface, triangles[i]),
-                                cornerOf(shape.surface, triangles[i + 1]),
-                                cornerOf(shape.surface, triangles[i + 2])};
+    const Vector3 corners[3] = {vertexOf(shape.surface, triangles[i]),
+                                vertexOf(shape.surface, triangles[i + 1]),
+                                vertexOf(shape.surface, triangles[i + 2])};
     all += (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm() / 2;
     addTriangle(corners, plane, wet);
   }
@@ -164,31 +159,6 @@ double lowestCorner(const VesselState& vessel, std::size_t hold, const Vector3& 
     ++number;
   }
   return lowest;
-}
-
-/// Lines in which a plane cuts a closed surface, see HoldWater::outline; in F.
-std::vector<Vector3> cutAt(const Vector3& point, const Vector3& normal, const Surface& surface) {
-  std::vector<Vector3> lines;
-  for (std::size_t i = 0; i + 2 < surface.triangles.size(); i += 3) {
-    Vector3 corners[3];
-    double heights[3];
-    for (std::size_t k = 0; k < 3; ++k) {
-      corners[k] = cornerOf(surface, surface.triangles[i + k]);
-      heights[k] = normal.dot(corners[k] - point);
-    }
-    const auto crossing = [&](bool goes_down) {
-      int from = 0;
-      while ((heights[from] > 0) != goes_down || (heights[(from + 1) % 3] > 0) == goes_down) ++from;
-      const int to = (from + 1) % 3;
-      const double share = heights[from] / (heights[from] - heights[to]);
-      return Vector3(corners[from] + share * (corners[to] - corners[from]));
-    };
-    const auto above = std::count_if(heights, heights + 3, [](double h) { return h > 0; });
-    if (above == 0 || above == 3) continue;
-    lines.push_back(crossing(true));
-    lines.push_back(crossing(false));
-  }
-  return lines;
 }
 
 /// Returns the normal of the surface as the water sloshes: its slope along a mode is omega^2 q / g.

@@ -16,9 +16,8 @@ namespace {
 /// Whether a point is in a closed surface, by the solid angle under which it is seen [Van Oosterom,
 /// Strackee].
 bool isInside(const Surface& surface, const Vector3& point) {
-  const auto corner = [&](std::int32_t vertex) {
-    const double* const place = &surface.vertices[3 * static_cast<std::size_t>(vertex)];
-    return Vector3(Vector3(place[0], place[1], place[2]) - point);
+  const auto corner = [&](std::int32_t vertex) -> Vector3 {
+    return vertexOf(surface, vertex) - point;
   };
   double angle = 0;
   for (std::size_t i = 0; i < surface.triangles.size(); i += 3) {

@@ -87,9 +87,8 @@ void drawHolds(const AmbientBody& ambient, const MotionView& now, const Arrows& 
   if (!ambient.vessel) return;
   const FrameOffset& frame = ambient.def->fluid_frame;
   for (const Hold& hold : ambient.vessel->shape->holds) {
-    const auto corner = [&](std::int32_t vertex) {
-      const double* v = hold.surface.vertices.data() + 3 * static_cast<std::size_t>(vertex);
-      return Vector3(frame.rotation * Vector3(v[0], v[1], v[2]) + frame.translation);
+    const auto corner = [&](std::int32_t vertex) -> Vector3 {
+      return frame.rotation * vertexOf(hold.surface, vertex) + frame.translation;
     };
     const std::vector<std::int32_t>& triangles = hold.surface.triangles;
     for (std::size_t i = 0; i < triangles.size(); ++i) {

@@ -9,6 +9,7 @@
 #include "bullet_ambient/base/plain_text.h"
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "bullet_ambient/fluid_body/octahedral_lattice.h"
+#include "bullet_ambient/fluid_body/packed/packed_shape.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 
 namespace ambient {
@@ -191,8 +192,7 @@ void checkSurface(const Surface& surface, const Checker& check) {
 /// Volume inside triangles, by tetrahedra from a point [m^3].
 double volumeInside(const Surface& surface, const Vector3& from) {
   const auto corner = [&](std::size_t i) -> Vector3 {
-    const double* place = &surface.vertices[3 * static_cast<std::size_t>(surface.triangles[i])];
-    return Vector3(place[0], place[1], place[2]) - from;
+    return vertexOf(surface, surface.triangles[i]) - from;
   };
   double volume = 0;
   for (std::size_t i = 0; i < surface.triangles.size(); i += 3)

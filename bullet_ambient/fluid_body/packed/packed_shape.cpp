@@ -148,12 +148,9 @@ using Triangle = std::array<Vector3, 3>;
 
 std::vector<Triangle> trianglesOf(const Surface& surface, const std::vector<std::int32_t>& hull) {
   std::vector<Triangle> triangles;
-  const auto corner = [&surface](std::int32_t vertex) {
-    const double* place = &surface.vertices[3 * static_cast<std::size_t>(vertex)];
-    return Vector3(place[0], place[1], place[2]);
-  };
   for (std::size_t i = 0; i < hull.size(); i += 3)
-    triangles.push_back({corner(hull[i]), corner(hull[i + 1]), corner(hull[i + 2])});
+    triangles.push_back({vertexOf(surface, hull[i]), vertexOf(surface, hull[i + 1]),
+                         vertexOf(surface, hull[i + 2])});
   return triangles;
 }
 

@@ -9,6 +9,11 @@
 
 namespace ambient {
 
+/// Returns a vertex of a surface, in its frame [m].
+inline Vector3 vertexOf(const Surface& surface, std::int32_t vertex) {
+  return Vector3(&surface.vertices[3 * static_cast<std::size_t>(vertex)]);
+}
+
 /// Faces of a shape for loads in single precision: 49 bytes per face, in frame F. Units are powers
 /// of two: shapes whose sizes differ by a power of two have the same bits. Faces with similar
 /// normal and place share a block. A block is skipped if the flow is detached from all its faces.

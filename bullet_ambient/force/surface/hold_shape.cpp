@@ -4,6 +4,10 @@
 #include <cmath>
 
 #include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/base/elementary.h"
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/fluid_body/box_turning.h"
+#include "bullet_ambient/spatial/inertia.h"
 
 namespace ambient {
 
@@ -46,6 +50,129 @@ WetVolume withWaterInside(WetVolume wet, const SurfacePlane& plane, const HoldFi
   wet.moment -= water.moment;
   wet.depth_integral += (fill.height - plane.height) * water.volume - water.depth_integral;
   return wet;
+}
+
+namespace {
+
+double tanhOf(double x) {
+  const double part = portable::expm1(-2 * x);
+  return -part / (2 + part);
+}
+
+/// Level of the water in a hold: its principal axes and the box with its moments.
+struct Level {
+  Level(const Waterplane& section, const Vector3& normal) {
+    const Vector3 least = normal.cwiseAbs();
+    int thin = 0;
+    least.minCoeff(&thin);
+    const Vector3 e = normal.cross(Vector3::Unit(thin)).normalized(), f = normal.cross(e);
+    const Vector3 along = section.spread * e;
+    const double xx = e.dot(along), xy = f.dot(along), yy = f.dot(section.spread * f);
+    const double half = (xx - yy) / 2, size = std::sqrt(half * half + xy * xy);
+    // From the row of the matrix that does not cancel.
+    const double x = half > 0 ? half + size : std::abs(xy);
+    const double y = half > 0 ? xy : std::copysign(size - half, xy);
+    axes[0] = size > 0 ? Vector3((x * e + y * f).normalized()) : e;
+    axes[1] = normal.cross(axes[0]);
+    for (int i = 0; i < 2; ++i) {
+      moments[i] = std::max(0.0, axes[i].dot(section.spread * axes[i]));
+      constexpr double kSliver = 1e-12;  // of the area
+      squares[i] = std::max(12 * moments[i] / section.area, kSliver * section.area);
+    }
+  }
+
+  Vector3 axes[2];
+  double moments[2];  ///< of the area along the axes [m^4]
+  double squares[2];  ///< of the sides of the box [m^2]
+};
+
+/// Inertia of water of a depth below a level that resists turning as in a closed box, per unit
+/// mass.
+Matrix3 turningBelow(const Level& level, const Vector3& normal, double depth) {
+  const double square = depth * depth;
+  const Vector3 &e = level.axes[0], &f = level.axes[1];
+  return boxTurning(level.squares[1], square) * e * e.transpose() +
+         boxTurning(level.squares[0], square) * f * f.transpose() +
+         boxTurning(level.squares[0], level.squares[1]) * normal * normal.transpose();
+}
+
+}  // namespace
+
+HoldModes modesOf(const HoldShape& shape, const HoldFill& fill,
+                  const SurfacePlane& plane_F) noexcept {
+  HoldModes found;
+  const WetVolume& water = fill.water;
+  const double volume = water.volume, area = water.waterplane.area;
+  if (!(volume > 0)) return found;
+  const Vector3& normal = plane_F.normal;
+  const double share = volume / shape.capacity(), root = portable::cbrt(share);
+  found.turning = share * root * root * shape.turningInertia();
+  if (!(area > 0) || !(plane_F.gravity > 0)) return found;
+  const Vector3 centre = water.moment / volume;
+  const double mean = volume / area;
+  const double depth = std::min(mean, 2 * (fill.height - normal.dot(centre)));
+  if (!(depth > 0)) return found;
+  const Level level(water.waterplane, normal);
+  // Where the hold narrows above the water, it turns as the full one.
+  const double open = depth / mean;
+  found.turning = open * volume * turningBelow(level, normal, depth) + (1 - open) * found.turning;
+  const double size = portable::cbrt(volume + area * std::sqrt(area));
+  for (int i = 0; i < 2; ++i) {
+    constexpr double kSliver = 1e-6;
+    if (level.moments[i] < kSliver * area * size * size) continue;
+    SloshMode& mode = found.modes[i];
+    const double length = std::sqrt(level.squares[i]), k = kPi / length;
+    const double per_gravity = k * tanhOf(k * depth);
+    mode.axis = level.axes[i];
+    mode.square = plane_F.gravity * per_gravity;
+    mode.volume = per_gravity * level.moments[i];
+    // The rest of the water keeps a positive inertia.
+    constexpr double kMost = 0.9;
+    const double turning = level.axes[1 - i].dot(found.turning * level.axes[1 - i]);
+    const double most =
+        std::sqrt(kMost * turning * (volume - mode.volume) / (mode.volume * volume));
+    const double rise = std::clamp(depth / 2 - 2 / k * tanhOf(k * depth / 2), -most, most);
+    mode.bob = centre + rise * normal;
+    mode.pivot = mode.bob + normal / per_gravity;
+    const double head = std::min(mean, (shape.capacity() - volume) / area);
+    mode.farthest = 2 * head / (length * per_gravity);
+  }
+  return found;
+}
+
+Matrix6 carriedInertia(const WetVolume& water, const HoldModes& modes) noexcept {
+  if (!(water.volume > 0)) return Matrix6::Zero();
+  Matrix6 inertia =
+      shiftOrigin(rigidBodyInertia(water.volume, modes.turning), -water.moment / water.volume);
+  for (const SloshMode& mode : modes.modes) {
+    const Vector6 n = stack(mode.bob.cross(mode.axis), mode.axis);
+    inertia -= mode.volume * n * n.transpose();
+  }
+  return inertia;
+}
+
+std::vector<Vector3> cutAt(const Vector3& point, const Vector3& normal, const Surface& surface) {
+  std::vector<Vector3> lines;
+  for (std::size_t i = 0; i + 2 < surface.triangles.size(); i += 3) {
+    Vector3 corners[3];
+    double heights[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      corners[k] = vertexOf(surface, surface.triangles[i + k]);
+      heights[k] = normal.dot(corners[k] - point);
+    }
+    const auto crossing = [&](bool goes_down) {
+      int from = 0;
+      while ((heights[from] > 0) != goes_down || (heights[(from + 1) % 3] > 0) == goes_down) ++from;
+      const int to = (from + 1) % 3;
+      const double share = heights[from] / (heights[from] - heights[to]);
+      return Vector3(corners[from] + share * (corners[to] - corners[from]));
+    };
+    const auto above = std::count_if(heights, heights + 3, [](double h) { return h > 0; });
+    if (above == 0 || above == 3) continue;
+    lines.push_back(crossing(true));
+    lines.push_back(crossing(false));
+  }
+  return lines;
 }
 
 }  // namespace ambient

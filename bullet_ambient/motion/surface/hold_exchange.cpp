@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/motion/surface/sealed_holds.h"
 
 namespace ambient {
 namespace {

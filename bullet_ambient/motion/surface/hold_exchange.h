@@ -13,4 +13,23 @@ namespace ambient {
 Matrix6 exchangeWater(const HoldShapes& holds, const SurfacePlane& plane_F, const Passage& passage,
                       HoldState* states) noexcept;
 
+/// Adds water to a hold [m^3]; its level is then not known.
+void addWater(double volume, HoldState& state) noexcept;
+
+/// Finds the holds whose air water shuts off from that outside, and which of them have the same
+/// air: HoldState::is_sealed, air and air_group. Air that has more pressure than water at an
+/// opening bubbles out, docs/theory.md eq. (143) to (145). Cost where no hold is sealed: the
+/// corners of the openings, and the levels that the flow needs anyway.
+void sealHolds(const HoldShapes& holds, const SurfacePlane& plane_F, const Passage& passage,
+               HoldState* states) noexcept;
+
+/// Gives the holds of a group one pressure after water has moved between them. -1: does nothing.
+void shareAir(const HoldShapes& holds, int group, HoldState* states) noexcept;
+
+/// Lets water pass through an opening that has other air on its two sides, for the duration of a
+/// passage, eq. (147). Cost: some clips of the holds, 1 to 20 us.
+void exchangeSealed(const HoldShapes& holds, const HoldShapes::Opening& opening,
+                    const SurfacePlane& plane_F, const Passage& passage,
+                    HoldState* states) noexcept;
+
 }  // namespace ambient

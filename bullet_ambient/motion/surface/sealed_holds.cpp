@@ -1,11 +1,10 @@
-#include "bullet_ambient/motion/surface/sealed_holds.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/force/surface/falling_root.h"
+#include "bullet_ambient/motion/surface/hold_exchange.h"
 
 namespace ambient {
 namespace {

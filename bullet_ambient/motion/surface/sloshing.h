@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "bullet_ambient/force/surface/hold_modes.h"
+#include "bullet_ambient/force/surface/hold_shape.h"
 
 namespace ambient {
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "bullet_ambient/motion/flight/flight.h"
-#include "bullet_ambient/motion/surface/body_waves.h"
 #include "bullet_ambient/motion/surface/surface_stand.h"
 
 namespace ambient {

@@ -1,5 +1,3 @@
-#include "bullet_ambient/force/surface/hold_modes.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <vector>
 
 #include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/force/surface/hold_shape.h"
 #include "bullet_ambient/spatial/rotation.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "tests/support/bodies/geodesic.h"

@@ -1,5 +1,3 @@
-#include "bullet_ambient/motion/surface/body_waves.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,6 +5,7 @@
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/motion/surface/stand_lanes.h"
+#include "bullet_ambient/motion/surface/surface_stand.h"
 #include "tests/support/bodies/random_bodies.h"
 #include "tests/support/matrices.h"
 
