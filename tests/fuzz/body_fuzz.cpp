@@ -174,9 +174,13 @@ void FuzzScene::push() {
   const btVector3 impulse = strength * vector(1), place = vector(0.2);
   switch (below(5)) {
     case 0:
-      return applyAmbientImpulse(fluid_, body, impulse, place);
+      if (const auto in = fluid_.find(body))
+        return in->applyImpulse(Wrench::ofForceAt(toVector3(impulse), toVector3(place)));
+      return body.applyImpulse(impulse, place);
     case 1:
-      return applyAmbientTorqueImpulse(fluid_, body, btScalar(0.1) * impulse);
+      if (const auto in = fluid_.find(body))
+        return in->applyImpulse({0.1 * toVector3(impulse), Vector3::Zero()});
+      return body.applyTorqueImpulse(btScalar(0.1) * impulse);
     case 2:
       return body.applyForce(10 * impulse, place);
     case 3:
@@ -188,7 +192,7 @@ void FuzzScene::push() {
   // Bullet's own answer of a body with locked axes is not symmetric, and may be negative.
   const bool is_in_fluid = fuzz->is_attached && fluid_.find(body)->medium().density > 0;
   if (is_in_fluid && strength > 0 &&
-      !(inverseEffectiveMass(fluid_, body, place, n) > btScalar(-1e-3))) {
+      !(n.dot(inverseEffectiveMass(fluid_, body, place) * n) > btScalar(-1e-3))) {
     throw std::logic_error("an effective mass is negative");
   }
 }

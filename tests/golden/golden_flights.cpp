@@ -1,7 +1,7 @@
 // Bodies without contacts: loads, integrators, forces from outside.
 
+#include "bullet_ambient/bullet/core/conversions.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
-#include "bullet_ambient/impulse.h"
 #include "demos/integrators/integrators.h"
 #include "tests/golden/golden_world.h"
 #include "tests/support/bodies/ellipsoid_body.h"
@@ -147,7 +147,10 @@ GoldenRecord flyPushed() {
     world.body(0).applyForce({bt(3), bt(-step), 5}, {bt(0.1), 0, bt(0.2)});
     world.body(1).applyTorque({bt(0.1 * step), 0, bt(-0.3)});
     if (step % 30 == 7)
-      applyAmbientImpulse(world.fluid(), world.body(2), {bt(0.1), bt(0.3), 0}, {0, 0, bt(0.1)});
+      world.fluid()
+          .find(world.body(2))
+          ->applyImpulse(Wrench::ofForceAt(toVector3(btVector3(bt(0.1), bt(0.3), 0)),
+                                           toVector3(btVector3(0, 0, bt(0.1)))));
     if (step == 50) world.body(0).setMassProps(bt(20), {bt(0.2), bt(0.3), bt(0.4)});
   });
 }

@@ -106,12 +106,6 @@ void applyImpulseToLink(const AmbientTrees& trees, const AmbientTree& tree, int 
 
 namespace {
 
-// The body if a fluid answers to impulses, else null.
-AmbientBody* findInFluid(const Fluid& fluid, const btRigidBody& body) {
-  AmbientBody* ambient = membersOf(fluid).find(&body);
-  return ambient && ambient->isInFluid() && !body.isStaticOrKinematicObject() ? ambient : nullptr;
-}
-
 // Stock: each axis scaled by its factor, as applyImpulse() has it.
 btMatrix3x3 dryInverseMass(const btRigidBody& body, const btVector3& r) {
   btMatrix3x3 result;
@@ -128,25 +122,11 @@ btMatrix3x3 dryInverseMass(const btRigidBody& body, const btVector3& r) {
 
 }  // namespace
 
-void applyAmbientImpulse(Fluid& fluid, btRigidBody& body, const btVector3& impulse,
-                         const btVector3& relative_position) {
-  AmbientBody* ambient = findInFluid(fluid, body);
-  if (!ambient) return body.applyImpulse(impulse, relative_position);
-  applyImpulseToBody(*ambient, Wrench::ofForceAt(toVector3(impulse), toVector3(relative_position)));
-  body.activate();
-}
-
-void applyAmbientTorqueImpulse(Fluid& fluid, btRigidBody& body, const btVector3& torque_impulse) {
-  AmbientBody* ambient = findInFluid(fluid, body);
-  if (!ambient) return body.applyTorqueImpulse(torque_impulse);
-  applyImpulseToBody(*ambient, {toVector3(torque_impulse), Vector3::Zero()});
-  body.activate();
-}
-
 btMatrix3x3 inverseEffectiveMass(const Fluid& fluid, const btRigidBody& body,
                                  const btVector3& relative_position) {
-  AmbientBody* ambient = findInFluid(fluid, body);
-  if (!ambient) return dryInverseMass(body, relative_position);
+  AmbientBody* ambient = membersOf(fluid).find(&body);
+  if (!ambient || !ambient->isInFluid() || body.isStaticOrKinematicObject())
+    return dryInverseMass(body, relative_position);
   const Matrix6 response = inverseInertia(*ambient);
   const Matrix3 r = crossMatrix(toVector3(relative_position));
   // J^T K^-1 J with the wrench J f = (r x f, f) of an impulse f.
@@ -154,11 +134,6 @@ btMatrix3x3 inverseEffectiveMass(const Fluid& fluid, const btRigidBody& body,
                    r * response.topRightCorner<3, 3>() - r * response.topLeftCorner<3, 3>() * r;
   result = 0.5 * (result + result.transpose()).eval();
   return toBulletMatrix(result);
-}
-
-btScalar inverseEffectiveMass(const Fluid& fluid, const btRigidBody& body,
-                              const btVector3& relative_position, const btVector3& direction) {
-  return direction.dot(inverseEffectiveMass(fluid, body, relative_position) * direction);
 }
 
 Eigen::MatrixXd ambientMassMatrix(const Fluid& fluid, const btMultiBody& multi_body) {

@@ -41,6 +41,10 @@ struct FreeCoupledBody {
     K_W = turn * K * turn.transpose();
     point = arbitrary.vector();
   }
+  /// Applies an impulse at the point.
+  void push(const Vector3& impulse) {
+    scene.of(*body).applyImpulse(Wrench::ofForceAt(impulse, point));
+  }
   Vector6 velocity() const {
     return stack(toVector3(body->getAngularVelocity()), toVector3(body->getLinearVelocity()));
   }
@@ -59,8 +63,7 @@ TEST(AmbientImpulse, ChangesTheMomentumOfBodyAndFluidByTheImpulse) {
     FreeCoupledBody coupled(arbitrary);
     const Vector3 impulse = arbitrary.vector();
     const Vector6 before = coupled.velocity();
-    applyAmbientImpulse(coupled.scene.fluid, *coupled.body, toBullet(impulse),
-                        toBullet(coupled.point));
+    coupled.push(impulse);
     const Vector6 wrench = stack(coupled.point.cross(impulse), impulse);
     const Vector6 expected = before + solve(coupled.K_W, wrench);
     EXPECT_LT((coupled.velocity() - expected).norm(),
@@ -77,7 +80,7 @@ TEST(AmbientImpulse, ATorqueImpulseIsAnsweredByTheWholeTensor) {
     FreeCoupledBody coupled(arbitrary);
     const Vector3 torque = arbitrary.vector();
     const Vector6 before = coupled.velocity();
-    applyAmbientTorqueImpulse(coupled.scene.fluid, *coupled.body, toBullet(torque));
+    coupled.scene.of(*coupled.body).applyImpulse({torque, Vector3::Zero()});
     const Vector6 wrench = stack(torque, Vector3::Zero());
     const Vector6 expected = before + solve(coupled.K_W, wrench);
     EXPECT_LT((coupled.velocity() - expected).norm(),
@@ -95,8 +98,7 @@ TEST(AmbientImpulse, LockedAxesStayAndTheOthersAnswerWithTheirPartOfK) {
     free << 0, 1, 0, 1, 0, 1;
     const Vector3 impulse = arbitrary.vector();
     const Vector6 before = coupled.velocity();
-    applyAmbientImpulse(coupled.scene.fluid, *coupled.body, toBullet(impulse),
-                        toBullet(coupled.point));
+    coupled.push(impulse);
     const Vector6 change = coupled.velocity() - before;
     const Vector6 expected =
         lockedResponse(coupled.K_W, free, stack(coupled.point.cross(impulse), impulse));
@@ -116,14 +118,12 @@ TEST(InverseEffectiveMass, IsTheChangeOfThePointsVelocityPerImpulse) {
     const btVector3 impulse = toBullet(arbitrary.vector());
     const btMatrix3x3 inverse_mass = inverseEffectiveMass(fluid, *coupled.body, point);
     const btVector3 before = coupled.body->getVelocityInLocalPoint(point);
-    applyAmbientImpulse(fluid, *coupled.body, impulse, point);
+    coupled.push(toVector3(impulse));
     const btVector3 change = coupled.body->getVelocityInLocalPoint(point) - before;
     const double scale = static_cast<double>(change.length() + before.length());
     EXPECT_LT(static_cast<double>((inverse_mass * impulse - change).length()),
               20 * kImpulseTolerance * scale);
     EXPECT_EQ(inverse_mass[0][1], inverse_mass[1][0]);
-    const btVector3 n = impulse.normalized();
-    EXPECT_EQ(inverseEffectiveMass(fluid, *coupled.body, point, n), n.dot(inverse_mass * n));
   }
 }
 
@@ -133,24 +133,21 @@ TEST(AmbientImpulse, WithoutAFluidIsThatOfStockBullet) {
     FreeCoupledBody coupled(arbitrary);
     Fluid& fluid = coupled.scene.fluid;
     btRigidBody& body = *coupled.body;
-    if (i % 2) {
-      fluid.find(body)->remove();
-    } else {
-      fluid.find(body)->setMedium(Medium{});
-    }
+    fluid.find(body)->setMedium(Medium{});
     btRigidBody stock(body);
     const btVector3 point = toBullet(coupled.point);
     const btVector3 impulse = toBullet(arbitrary.vector());
-    stock.applyImpulse(impulse, point);
-    stock.applyTorqueImpulse(impulse);
-    applyAmbientImpulse(fluid, body, impulse, point);
-    applyAmbientTorqueImpulse(fluid, body, impulse);
+    const Wrench wrench = Wrench::ofForceAt(toVector3(impulse), coupled.point);
+    stock.applyCentralImpulse(impulse);
+    stock.applyTorqueImpulse(toBullet(wrench.torque));
+    fluid.find(body)->applyImpulse(wrench);
     EXPECT_TRUE(body.getLinearVelocity() == stock.getLinearVelocity());
     EXPECT_TRUE(body.getAngularVelocity() == stock.getAngularVelocity());
     const btVector3 n = impulse.normalized();
     const btScalar expected =
         stock.computeImpulseDenominator(stock.getCenterOfMassPosition() + point, n);
-    EXPECT_NEAR(inverseEffectiveMass(fluid, body, point, n), expected,
+    if (i % 2) fluid.find(body)->remove();
+    EXPECT_NEAR(n.dot(inverseEffectiveMass(fluid, body, point) * n), expected,
                 10 * kImpulseTolerance * static_cast<double>(expected));
   }
 }
@@ -159,7 +156,7 @@ TEST(AmbientImpulse, WakesABodyInAFluid) {
   Arbitrary arbitrary(6);
   FreeCoupledBody coupled(arbitrary);
   coupled.body->forceActivationState(ISLAND_SLEEPING);
-  applyAmbientImpulse(coupled.scene.fluid, *coupled.body, btVector3(1, 0, 0), btVector3(0, 0, 0));
+  coupled.push({1, 0, 0});
   EXPECT_TRUE(coupled.body->isActive());
 }
 
@@ -173,7 +170,7 @@ TEST(AmbientImpulse, SeesNewMassProperties) {
 }
 
 // An ordinary ball hits a resting ambient body off its centre. The solver's velocity change must
-// equal applyAmbientImpulse() with these impulses.
+// equal applyImpulse() with these impulses.
 TEST(AmbientImpulse, IsThatOfAContact) {
   for (const double friction : {0.0, 0.7}) {
     Arbitrary arbitrary(8);
@@ -216,8 +213,8 @@ TEST(AmbientImpulse, IsThatOfAContact) {
         sign * (contact.m_normalWorldOnB * contact.m_appliedImpulse +
                 contact.m_lateralFrictionDir1 * contact.m_appliedImpulseLateral1 +
                 contact.m_lateralFrictionDir2 * contact.m_appliedImpulseLateral2);
-    applyAmbientImpulse(scene.fluid, struck, impulse,
-                        is_second ? contact.m_positionWorldOnB : contact.m_positionWorldOnA);
+    const btVector3& at = is_second ? contact.m_positionWorldOnB : contact.m_positionWorldOnA;
+    scene.of(struck).applyImpulse(Wrench::ofForceAt(toVector3(impulse), toVector3(at)));
     EXPECT_LT((struck.getLinearVelocity() - body.getLinearVelocity()).length(),
               10 * kImpulseTolerance * static_cast<double>(body.getLinearVelocity().length()));
     EXPECT_LT((struck.getAngularVelocity() - body.getAngularVelocity()).length(),
