@@ -8,8 +8,7 @@
 #include "bullet_ambient/motion/lanes/motion_lanes.h"
 #include "bullet_ambient/motion/lanes/spatial_lanes.h"
 
-// Compiled once per instruction set; AMBIENT_KERNEL() adds its name to that of the kernel. Each
-// struct is one kernel of FlightKernel; act() computes the lanes from `at` on.
+// Compiled once per instruction set; AMBIENT_KERNEL() adds its name to that of the kernel.
 
 namespace ambient {
 
@@ -120,109 +119,95 @@ inline Spatials beyondEven(const RowLanes& push, int at, const Pairs& kick) {
           withoutRounding(excess.linear, even.linear)};
 }
 
+// Replaces the kick of bodies that the fluid settles in the step, and its momentum, by those of
+// eq. (124), which have the turn in them.
+template <class Matrices>
+void settleInStep(RowLanes& bodies, int at, const Pairs& x, const Spatials& wrench, Spatials& kick,
+                  Spatials& push, Turnings& turning) {
+  const Matrices inertia(bodies.inertia, at), inverse(bodies.inverse_inertia, at);
+  const Spatials of_turn = turningWrench(inertia, x);
+  const Mask settles = settledOf<Matrices>(bodies, at, x, of_turn);
+  store(bodies.settling + at, settles ? load(bodies.settling + at) : Lanes{});
+  const Lanes duration = load(bodies.kick_time + at);
+  const Spatials load_B = load6(bodies.load_B, at);
+  const Spatials met = wrench + of_turn;
+  const Pairs settled = withResistance<Matrices>(bodies, at, [&](const auto& terms) {
+    return settledKick<Lanes>(x, {inverse * load_B, load_B}, met, terms, duration);
+  });
+  kick = select(settles, settled.twist - x.twist, kick);
+  push = select(settles, duration * met, push);
+  turning.change = select(settles, noWrench<Lanes>().twist, turning.change);
+  turning.extent = settles ? Lanes{} : turning.extent;
+}
+
 /// Implements FlightKernel::push for the lanes from `at` on.
-struct PushStep {
-  // Replaces the kick of bodies that the fluid settles in the step, and its momentum, by those of
-  // eq. (124), which have the turn in them.
-  template <class Matrices>
-  static void meet(RowLanes& bodies, int at, const Pairs& x, const Spatials& wrench, Spatials& kick,
-                   Spatials& push, Turnings& turning) {
-    const Matrices inertia(bodies.inertia, at), inverse(bodies.inverse_inertia, at);
-    const Spatials of_turn = turningWrench(inertia, x);
-    const Mask settles = settledOf<Matrices>(bodies, at, x, of_turn);
-    store(bodies.settling + at, settles ? load(bodies.settling + at) : Lanes{});
-    const Lanes duration = load(bodies.kick_time + at);
+template <class Matrices>
+void push(RowLanes& bodies, int at, const Mask&) {
+  const Matrices inertia(bodies.inertia, at), inverse(bodies.inverse_inertia, at);
+  const Orientations q = orientationOf(bodies, at);
+  const Lanes duration = load(bodies.kick_time + at);
+  const Spatials x = load6(bodies.twist_B, at);
+  const Pairs motion{x, inertia * x};
+
+  const Spatials wrench = externalWrench(bodies, at, q);
+  Spatials kick = duration * (inverse * wrench);
+  if (bodies.has_loads) {
+    // Equal to dt K^-1 F to first order, but never reverses the motion, for any dt.
     const Spatials load_B = load6(bodies.load_B, at);
-    const Spatials met = wrench + of_turn;
-    const Pairs settled = withResistance<Matrices>(bodies, at, [&](const auto& terms) {
-      return settledKick<Lanes>(x, {inverse * load_B, load_B}, met, terms, duration);
-    });
-    kick = select(settles, settled.twist - x.twist, kick);
-    push = select(settles, duration * met, push);
-    turning.change = select(settles, noWrench<Lanes>().twist, turning.change);
-    turning.extent = settles ? Lanes{} : turning.extent;
-  }
-
-  template <class Matrices>
-  static void act(RowLanes& bodies, int at, const Mask&) {
-    const Matrices inertia(bodies.inertia, at), inverse(bodies.inverse_inertia, at);
-    const Orientations q = orientationOf(bodies, at);
-    const Lanes duration = load(bodies.kick_time + at);
-    const Spatials x = load6(bodies.twist_B, at);
-    const Pairs motion{x, inertia * x};
-
-    const Spatials wrench = externalWrench(bodies, at, q);
-    Spatials kick = duration * (inverse * wrench);
-    if (bodies.has_loads) {
-      // Equal to dt K^-1 F to first order, but never reverses the motion, for any dt.
-      const Spatials load_B = load6(bodies.load_B, at);
-      const Pairs response{inverse * load_B, load_B};
-      const Pairs moved = whereViscous(
-          bodies, at, true, [&] { return passiveKick(motion, motion, response, duration); },
-          [&] {
-            return withResistance<Matrices>(bodies, at, [&](const auto& terms) {
-              return viscousKick<Lanes>(motion, motion, response, noWrench<Lanes>(), terms,
-                                        duration);
-            });
+    const Pairs response{inverse * load_B, load_B};
+    const Pairs moved = whereViscous(
+        bodies, at, true, [&] { return passiveKick(motion, motion, response, duration); },
+        [&] {
+          return withResistance<Matrices>(bodies, at, [&](const auto& terms) {
+            return viscousKick<Lanes>(motion, motion, response, noWrench<Lanes>(), terms, duration);
           });
-      kick = kick + (moved.twist - x);
-    }
-    Turnings turning = computeTurnings(inertia, inverse, motion, duration);
-    Spatials push = inertia * kick;
-    if (anyOf(load(bodies.settling + at) > Lanes{}))
-      meet<Matrices>(bodies, at, motion, wrench, kick, push, turning);
-    const Lanes zero = Lanes{}, rest = 1 - turning.extent;
-    const Lanes share = rest < zero ? zero : (rest > all(0.5) ? all(0.5) : rest);
-    const Spatials turning_W = toWorld(q, share * turning.change);
-    Spatials change_W = turning_W + toWorld(q, kick);
-    change_W.linear = change_W.linear + duration * load(bodies.acceleration_W, at);
-    store6(bodies.change_W, at, change_W);
-    store6(bodies.turning_W, at, turning_W);
-    store6(bodies.isotropic_excess_W, at, toWorld(q, beyondEven(bodies, at, {kick, push})));
-    store(bodies.extent + at, turning.extent);
+        });
+    kick = kick + (moved.twist - x);
   }
-};
+  Turnings turning = computeTurnings(inertia, inverse, motion, duration);
+  Spatials push = inertia * kick;
+  if (anyOf(load(bodies.settling + at) > Lanes{}))
+    settleInStep<Matrices>(bodies, at, motion, wrench, kick, push, turning);
+  const Lanes zero = Lanes{}, rest = 1 - turning.extent;
+  const Lanes share = rest < zero ? zero : (rest > all(0.5) ? all(0.5) : rest);
+  const Spatials turning_W = toWorld(q, share * turning.change);
+  Spatials change_W = turning_W + toWorld(q, kick);
+  change_W.linear = change_W.linear + duration * load(bodies.acceleration_W, at);
+  store6(bodies.change_W, at, change_W);
+  store6(bodies.turning_W, at, turning_W);
+  store6(bodies.isotropic_excess_W, at, toWorld(q, beyondEven(bodies, at, {kick, push})));
+  store(bodies.extent + at, turning.extent);
+}
 
 /// Implements FlightKernel::keep for the lanes from `at` on.
-struct KeepStep {
-  template <class Matrices>
-  static void act(RowLanes& bodies, int at, const Mask&) {
-    const Matrices inertia(bodies.inertia, at), inverse(bodies.inverse_inertia, at);
-    const Orientations q = orientationOf(bodies, at);
-    const Spatials x = toBody(q, load6(bodies.velocity_W, at));
-    const Spatials share = toBody(q, load6(bodies.turning_W, at));
-    const Spatials by_rows = toBody(q, load6(bodies.by_rows_W, at));
-    const Spatials kept = x - share;
-    const Pairs kept_pair{kept, inertia * kept};
-    store6(bodies.momentum_W, at, toWorld(q, kept_pair.momentum));
-    const Lanes duration = load(bodies.kick_time + at);
-    store(bodies.moved_extent + at,
-          computeTurnings(inertia, inverse, {x, inertia * x}, duration).extent);
-    const Lanes on_share = 2 * dot(share, inertia * by_rows);
-    const Lanes taken = on_share < Lanes{} ? on_share : Lanes{};
-    store(bodies.twice_energy + at, inner(kept_pair, kept_pair) + taken);
-  }
-};
+template <class Matrices>
+void keep(RowLanes& bodies, int at, const Mask&) {
+  const Matrices inertia(bodies.inertia, at), inverse(bodies.inverse_inertia, at);
+  const Orientations q = orientationOf(bodies, at);
+  const Spatials x = toBody(q, load6(bodies.velocity_W, at));
+  const Spatials share = toBody(q, load6(bodies.turning_W, at));
+  const Spatials by_rows = toBody(q, load6(bodies.by_rows_W, at));
+  const Spatials kept = x - share;
+  const Pairs kept_pair{kept, inertia * kept};
+  store6(bodies.momentum_W, at, toWorld(q, kept_pair.momentum));
+  const Lanes duration = load(bodies.kick_time + at);
+  store(bodies.moved_extent + at,
+        computeTurnings(inertia, inverse, {x, inertia * x}, duration).extent);
+  const Lanes on_share = 2 * dot(share, inertia * by_rows);
+  const Lanes taken = on_share < Lanes{} ? on_share : Lanes{};
+  store(bodies.twice_energy + at, inner(kept_pair, kept_pair) + taken);
+}
 
 /// Implements FlightKernel::carry for the lanes from `at` on.
-struct CarryStep {
-  template <class Matrices>
-  static void act(RowLanes& bodies, int at, const Mask&) {
-    const Orientations q = orientationOf(bodies, at);
-    Spatials m = load6(bodies.momentum_W, at);
-    m.angular = m.angular - cross(load(bodies.way_W, at), m.linear);
-    const Spatials m_B = toBody(q, m);
-    store6(bodies.momentum_B, at, m_B);
-    store6(bodies.twist_B, at, Matrices(bodies.inverse_inertia, at) * m_B);
-  }
-};
-
-struct FlowStep {
-  template <class Matrices>
-  static void act(FlightLanes& bodies, int at, const Mask& active) {
-    flow<Matrices>(bodies, at, active);
-  }
-};
+template <class Matrices>
+void carry(RowLanes& bodies, int at, const Mask&) {
+  const Orientations q = orientationOf(bodies, at);
+  Spatials m = load6(bodies.momentum_W, at);
+  m.angular = m.angular - cross(load(bodies.way_W, at), m.linear);
+  const Spatials m_B = toBody(q, m);
+  store6(bodies.momentum_B, at, m_B);
+  store6(bodies.twist_B, at, Matrices(bodies.inverse_inertia, at) * m_B);
+}
 
 inline Pairs motionOf(const FlightLanes& bodies, int at) {
   return {load6(bodies.twist_B, at), load6(bodies.momentum_B, at)};
@@ -233,48 +218,42 @@ inline void setMotion(FlightLanes& bodies, int at, const Mask& active, const Pai
   store6(bodies.momentum_B, at, now.momentum);
 }
 
-struct GravityStep {
-  template <class Matrices>
-  static void act(FlightLanes& bodies, int at, const Mask& active) {
-    const Matrices inverse(bodies.inverse_inertia, at);
-    const Orientations q = orientationOf(bodies, at);
-    Spatials wrench = externalWrench(bodies, at, q);
-    if (bodies.has_resistance) {
-      if (anyOf(load(bodies.settling + at) > Lanes{})) {
-        const Pairs x = motionOf(bodies, at);
-        const Spatials turning = turningWrench(Matrices(bodies.inertia, at), x);
-        wrench = select(settledOf<Matrices>(bodies, at, x, turning), wrench + turning, wrench);
-      }
+template <class Matrices>
+void applyGravity(FlightLanes& bodies, int at, const Mask& active) {
+  const Matrices inverse(bodies.inverse_inertia, at);
+  const Orientations q = orientationOf(bodies, at);
+  Spatials wrench = externalWrench(bodies, at, q);
+  if (bodies.has_resistance) {
+    if (anyOf(load(bodies.settling + at) > Lanes{})) {
+      const Pairs x = motionOf(bodies, at);
+      const Spatials turning = turningWrench(Matrices(bodies.inertia, at), x);
+      wrench = select(settledOf<Matrices>(bodies, at, x, turning), wrench + turning, wrench);
     }
-    const Pairs fall = 0.5 * load(bodies.kick_time + at) * Pairs{inverse * wrench, wrench};
-    store6(bodies.fall_twist, at, fall.twist);
-    store6(bodies.fall_momentum, at, fall.momentum);
-    // Bodies with a resistance fall in sample() and kick().
-    const Mask falls = bodies.has_resistance ? active & ~viscousOf(bodies, at) : active;
-    setMotion(bodies, at, falls, motionOf(bodies, at) + fall);
-    if (!bodies.has_loads) return;
-    store6(bodies.guess_B, at, toBody(q, load6(bodies.load_W, at)));
   }
-};
+  const Pairs fall = 0.5 * load(bodies.kick_time + at) * Pairs{inverse * wrench, wrench};
+  store6(bodies.fall_twist, at, fall.twist);
+  store6(bodies.fall_momentum, at, fall.momentum);
+  // Bodies with a resistance fall in sample() and kick().
+  const Mask falls = bodies.has_resistance ? active & ~viscousOf(bodies, at) : active;
+  setMotion(bodies, at, falls, motionOf(bodies, at) + fall);
+  if (!bodies.has_loads) return;
+  store6(bodies.guess_B, at, toBody(q, load6(bodies.load_W, at)));
+}
 
-struct SampleStep {
-  template <class Matrices>
-  static void act(FlightLanes& bodies, int at, const Mask&) {
-    sampleLoad<Matrices>(bodies, at, motionOf(bodies, at), 0.5 * load(bodies.kick_time + at), true);
-  }
-};
+template <class Matrices>
+void sample(FlightLanes& bodies, int at, const Mask&) {
+  sampleLoad<Matrices>(bodies, at, motionOf(bodies, at), 0.5 * load(bodies.kick_time + at), true);
+}
 
-struct KickStep {
-  template <class Matrices>
-  static void act(FlightLanes& bodies, int at, const Mask& active) {
-    Pairs x = motionOf(bodies, at);
-    if (bodies.has_loads)
-      x = underLoad<Matrices>(bodies, at, active, x, load(bodies.kick_time + at), true);
-    Pairs fallen = x + Pairs{load6(bodies.fall_twist, at), load6(bodies.fall_momentum, at)};
-    if (bodies.has_resistance) fallen = select(viscousOf(bodies, at), x, fallen);
-    setMotion(bodies, at, active, fallen);
-  }
-};
+template <class Matrices>
+void kick(FlightLanes& bodies, int at, const Mask& active) {
+  Pairs x = motionOf(bodies, at);
+  if (bodies.has_loads)
+    x = underLoad<Matrices>(bodies, at, active, x, load(bodies.kick_time + at), true);
+  Pairs fallen = x + Pairs{load6(bodies.fall_twist, at), load6(bodies.fall_momentum, at)};
+  if (bodies.has_resistance) fallen = select(viscousOf(bodies, at), x, fallen);
+  setMotion(bodies, at, active, fallen);
+}
 
 // Twice the kinetic energy, the potential energy of forces that are constant over the step, eq.
 // (25a), and what of it the way since the start has added [J].
@@ -290,61 +269,56 @@ inline Energies energies(const FlightLanes& bodies, int at) {
   return {inner(x, x), risen - dot(buoyancy, arm), risen};
 }
 
-struct MeasureStep {
-  template <class>
-  static void act(FlightLanes& bodies, int at, const Mask&) {
-    const Energies now = energies(bodies, at);
-    store(bodies.energy + at, 0.5 * now.kinetic2 + now.potential);
-  }
-};
+void measureEnergy(FlightLanes& bodies, int at, const Mask&) {
+  const Energies now = energies(bodies, at);
+  store(bodies.energy + at, 0.5 * now.kinetic2 + now.potential);
+}
 
-struct BoundStep {
-  template <class>
-  static void act(FlightLanes& bodies, int at, const Mask& active) {
-    const Lanes zero = Lanes{};
-    const Vectors torque = load(bodies.torque_W, at);
-    const Energies now = energies(bodies, at);
-    const Lanes left = load(bodies.energy + at) - now.potential;
-    const Lanes allowed = larger(2 * left, zero);
-    const Mask gains = active & (now.kinetic2 > allowed) & (dot(torque, torque) == zero);
-    if (!anyOf(gains)) return;
-    const Mask rises = gains & (left < zero) & (now.risen > zero);
-    const Lanes back = rises ? zero - larger(left, zero - now.risen) : zero;
-    const Lanes kept = zero + 1 - back / (rises ? now.risen : zero + 1);
-    store(bodies.way_W, at, kept * load(bodies.way_W, at));
-    const Lanes removed = gains ? 0.5 * (now.kinetic2 - allowed) + back : zero;
-    store(bodies.energy_removed + at, load(bodies.energy_removed + at) + removed);
-    setMotion(bodies, at, gains, scaleWithin(now.kinetic2, allowed) * motionOf(bodies, at));
-  }
-};
+void withinEnergy(FlightLanes& bodies, int at, const Mask& active) {
+  const Lanes zero = Lanes{};
+  const Vectors torque = load(bodies.torque_W, at);
+  const Energies now = energies(bodies, at);
+  const Lanes left = load(bodies.energy + at) - now.potential;
+  const Lanes allowed = larger(2 * left, zero);
+  const Mask gains = active & (now.kinetic2 > allowed) & (dot(torque, torque) == zero);
+  if (!anyOf(gains)) return;
+  const Mask rises = gains & (left < zero) & (now.risen > zero);
+  const Lanes back = rises ? zero - larger(left, zero - now.risen) : zero;
+  const Lanes kept = zero + 1 - back / (rises ? now.risen : zero + 1);
+  store(bodies.way_W, at, kept * load(bodies.way_W, at));
+  const Lanes removed = gains ? 0.5 * (now.kinetic2 - allowed) + back : zero;
+  store(bodies.energy_removed + at, load(bodies.energy_removed + at) + removed);
+  setMotion(bodies, at, gains, scaleWithin(now.kinetic2, allowed) * motionOf(bodies, at));
+}
 
-// Runs a step for all registers with an active body, with diagonal matrices if all bodies have
+// Runs a step for all registers with an active body, that for diagonal matrices if all bodies have
 // them.
-template <class Step, class AnyLanes>
+template <auto kDiagonal, auto kFull, class AnyLanes>
 void forAll(AnyLanes& bodies) noexcept {
   for (int at = 0; at < kFlightLanes; at += kWidth) {
     const Mask active = load(bodies.active + at) > Lanes{};
     if (!anyOf(active)) continue;
     if (bodies.has_diagonal_inertia) {
-      Step::template act<DiagonalMatrices>(bodies, at, active);
+      kDiagonal(bodies, at, active);
     } else {
-      Step::template act<FullMatrices>(bodies, at, active);
+      kFull(bodies, at, active);
     }
   }
 }
 
 }  // namespace
 
-const FlightKernel AMBIENT_KERNEL(kFlightKernel){depart,
-                                                 arrive,
-                                                 forAll<FlowStep>,
-                                                 forAll<GravityStep>,
-                                                 forAll<SampleStep>,
-                                                 forAll<KickStep>,
-                                                 forAll<MeasureStep>,
-                                                 forAll<BoundStep>,
-                                                 forAll<PushStep>,
-                                                 forAll<KeepStep>,
-                                                 forAll<CarryStep>};
+const FlightKernel AMBIENT_KERNEL(kFlightKernel){
+    depart,
+    arrive,
+    forAll<flow<DiagonalMatrices>, flow<FullMatrices>>,
+    forAll<applyGravity<DiagonalMatrices>, applyGravity<FullMatrices>>,
+    forAll<sample<DiagonalMatrices>, sample<FullMatrices>>,
+    forAll<kick<DiagonalMatrices>, kick<FullMatrices>>,
+    forAll<measureEnergy, measureEnergy>,
+    forAll<withinEnergy, withinEnergy>,
+    forAll<push<DiagonalMatrices>, push<FullMatrices>>,
+    forAll<keep<DiagonalMatrices>, keep<FullMatrices>>,
+    forAll<carry<DiagonalMatrices>, carry<FullMatrices>>};
 
 }  // namespace ambient
