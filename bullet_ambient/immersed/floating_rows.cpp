@@ -146,30 +146,23 @@ Fall fallOf(const AmbientBody& ambient, const SurfacePlane& plane) {
   return fall;
 }
 
-/// A pose B to W, relative to the water where the step began, and the time since then [s].
-struct Arrival {
-  Matrix3 to_world;
-  Vector3 position_W;
-  double duration;
-};
-
-// Returns the twist after the passage from `before` to the present stand of the body.
+// Returns the twist after the passage from `before` to the present stand of the body, at a pose B
+// to W, over a time [s].
 BoundedTwist passedFrom(const Departure& before, AmbientBody& ambient, Axes axes,
-                        const Arrival& arrival, const Vector6& x) {
+                        const FrameOffset& pose, double duration, const Vector6& x) {
   const SurfaceModel& model = *ambient.surface();
   const SurfaceStand& after = ambient.stand();
   SurfacePlace place = before.place;
   const auto withWater = [&](const Vector6& twist) {
     if (!after.inside_F) return twist;
-    return arriveWithWater(ambient, arrival.to_world, arrival.position_W, axes, twist,
-                           place.inertia);
+    return arriveWithWater(ambient, pose.rotation, pose.translation - wayOfWater(ambient, duration),
+                           axes, twist, place.inertia);
   };
   if (axes == Axes::kLocked) {
     withWater(x);
     return scaledWithin(x, x.dot(after.inertia.full() * x), x.dot(before.place.inertia.full() * x));
   }
   const Matrix6 inverse = after.inverse.full();
-  const double duration = arrival.duration;
   const BoundedTwist moved = withinPotential(before.fall, fallOf(ambient), inverse, duration,
                                              ambient.floating->twist_before_rows, x);
   BoundedTwist end = passSurface({model, place, after, duration}, withWater(moved.twist));
@@ -203,9 +196,7 @@ void passWithRows(AmbientBody* const* bodies, const FrameOffset* poses, int coun
   for (int i = 0; i < count; ++i) {
     AmbientBody& ambient = *bodies[i];
     ambient.floating->plane_W = movedPlane(ambient, duration);
-    const Arrival arrival{poses[i].rotation, poses[i].translation - wayOfWater(ambient, duration),
-                          duration};
-    twists[i] = passedFrom(*departures[i], ambient, axes, arrival, twists[i].twist);
+    twists[i] = passedFrom(*departures[i], ambient, axes, poses[i], duration, twists[i].twist);
   }
 }
 
