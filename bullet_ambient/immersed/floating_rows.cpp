@@ -72,7 +72,7 @@ Vector6 kickByWavesAndWind(AmbientBody& ambient, const RigidState& now, double d
   end.head<3>() = x.head<3>() + model.withoutStill(end.head<3>() - x.head<3>());
   if (model.loads_above.loads) {
     const Vector3 wind_W = ambient.medium.velocity - ambient.floating->velocity_above;
-    end = takeWind({model, stand, R.transpose() * wind_W, duration}, end);
+    end = takeWind(model, stand, R.transpose() * wind_W, duration, end);
     countLoads(ambient, 1);
   }
   if (stand.inside_F) end = sloshForRows(ambient, now, duration, end);
@@ -165,7 +165,7 @@ BoundedTwist passedFrom(const Departure& before, AmbientBody& ambient, Axes axes
   const Matrix6 inverse = after.inverse.full();
   const BoundedTwist moved = withinPotential(before.fall, fallOf(ambient), inverse, duration,
                                              ambient.floating->twist_before_rows, x);
-  BoundedTwist end = passSurface({model, place, after, duration}, withWater(moved.twist));
+  BoundedTwist end = passSurface(model, place, after, duration, withWater(moved.twist));
   end.energy_removed += moved.energy_removed;
   return end;
 }

@@ -147,17 +147,17 @@ MeanDepths meanDepths(const Immersion& before, const Immersion& after) noexcept 
   return {mean(before.draught(), after.draught()), mean(before.cover(), after.cover())};
 }
 
-BoundedTwist passSurface(const SurfaceMove& move, const Vector6& x) noexcept {
-  const SurfaceStand& after = move.after;
+BoundedTwist passSurface(const SurfaceModel& model, const SurfacePlace& before,
+                         const SurfaceStand& after, double duration, const Vector6& x) noexcept {
   const Immersion& at = after.immersion_F;
-  const SurfacePlace& wet = at.isDry() ? move.before : after;
-  const Wrench gradient = gradientAt(move.model, wet, Twist::fromVector(x));
-  const MeanDepths depths = meanDepths(move.before.immersion_F, at);
-  AMBIENT_ASSERT(move.duration > 0 && !(after.plane.gravity < 0) && isUnit(after.plane.normal));
+  const SurfacePlace& wet = at.isDry() ? before : after;
+  const Wrench gradient = gradientAt(model, wet, Twist::fromVector(x));
+  const MeanDepths depths = meanDepths(before.immersion_F, at);
+  AMBIENT_ASSERT(duration > 0 && !(after.plane.gravity < 0) && isUnit(after.plane.normal));
   const PassedOf<double> passed =
-      passSurface({move.before.inertia, after.inertia, after.inverse, plain(gradient.vector()),
-                   plain(after.plane.normal), plain(centreOfBuoyancy(move.model, after)),
-                   depths.draught, depths.cover, after.plane.gravity, move.duration},
+      passSurface({before.inertia, after.inertia, after.inverse, plain(gradient.vector()),
+                   plain(after.plane.normal), plain(centreOfBuoyancy(model, after)), depths.draught,
+                   depths.cover, after.plane.gravity, duration},
                   plain(x));
   return {asEigen(passed.twist), passed.energy_removed};
 }
@@ -196,15 +196,15 @@ Wrench loadAbove(const SurfaceModel& model, const SurfacePlace& place, const Twi
   return above.frame.toB(above.loads->wetLoad(above.frame.toF(x), dry));
 }
 
-Vector6 takeWind(const WindKick& kick, const Vector6& x) noexcept {
-  const SurfaceStand& stand = kick.stand;
-  const Vector6 shift = stack(Vector3::Zero(), kick.wind);
+Vector6 takeWind(const SurfaceModel& model, const SurfaceStand& stand, const Vector3& wind,
+                 double duration, const Vector6& x) noexcept {
+  const Vector6 shift = stack(Vector3::Zero(), wind);
   const Vector6 seen = x + shift;
-  AMBIENT_ASSERT(kick.duration >= 0);
-  const Vector6 load = loadAbove(kick.model, stand, Twist::fromVector(seen)).vector();
+  AMBIENT_ASSERT(duration >= 0);
+  const Vector6 load = loadAbove(model, stand, Twist::fromVector(seen)).vector();
   const PairsOf<double> motion = plain(DualPair{seen, stand.inertia.full() * seen});
   const PairsOf<double> response = plain(DualPair{stand.inverse.full() * load, load});
-  return asEigen(passiveKick(motion, motion, response, kick.duration).twist) - shift;
+  return asEigen(passiveKick(motion, motion, response, duration).twist) - shift;
 }
 
 Vector6 exchangeWaves(const FloatingModes& modes, const Matrix3& to_world,

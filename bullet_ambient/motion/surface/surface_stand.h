@@ -121,17 +121,11 @@ struct MeanDepths {
 };
 MeanDepths meanDepths(const Immersion& before, const Immersion& after) noexcept;
 
-/// Input of passSurface(): a body that has moved between two poses near the surface.
-struct SurfaceMove {
-  const SurfaceModel& model;
-  const SurfacePlace& before;
-  const SurfaceStand& after;
-  double duration;
-};
-/// Computes x_1 of docs/theory.md eq. (66) to (68). x: twist in B that the body would have at the
-/// second pose with the inertia K_0 of the first. F_K is that of the second pose, or of the first
-/// if the body has left the water.
-BoundedTwist passSurface(const SurfaceMove& move, const Vector6& x) noexcept;
+/// Computes x_1 of docs/theory.md eq. (66) to (68) of a body that has moved between two poses near
+/// the surface. x: twist in B that it would have at the second pose with the inertia K_0 of the
+/// first. F_K is that of the second pose, or of the first if the body has left the water.
+BoundedTwist passSurface(const SurfaceModel& model, const SurfacePlace& before,
+                         const SurfaceStand& after, double duration, const Vector6& x) noexcept;
 
 /// Factor on the loads below a surface, and flow along the body: what loadBelow() needs besides the
 /// twist.
@@ -148,17 +142,12 @@ Wrench frictionBelow(const SurfaceModel& model, const SurfacePlace& place, const
 /// Load of the fluid above.
 Wrench loadAbove(const SurfaceModel& model, const SurfacePlace& place, const Twist& x) noexcept;
 
-/// Input of takeWind(): the fluid above blows on the dry part of a body.
-struct WindKick {
-  const SurfaceModel& model;  ///< @pre it has loads_above.loads
-  const SurfaceStand& stand;
-  Vector3 wind;     ///< velocity of the water minus that of the fluid above, in B [m/s]
-  double duration;  ///< [s]
-};
-
-/// Computes the twist after the wind has acted for the duration, by docs/theory.md eq. (23) in the
-/// frame of the fluid above. Twists in B, relative to the water. Cost: one evaluation of the loads.
-Vector6 takeWind(const WindKick& kick, const Vector6& x) noexcept;
+/// Computes the twist after the fluid above has acted on the dry part of a body for a duration [s],
+/// by docs/theory.md eq. (23) in the frame of that fluid. Twists in B, relative to the water;
+/// `wind`: velocity of the water minus that of the fluid above, in B [m/s]. Cost: one evaluation of
+/// the loads. @pre the model has loads_above.loads
+Vector6 takeWind(const SurfaceModel& model, const SurfaceStand& stand, const Vector3& wind,
+                 double duration, const Vector6& x) noexcept;
 
 /// Lets the waves that a body has made and the body act on each other for `duration` [s]. First
 /// converts `waves` to the present modes, which never adds energy; eq. (72). Then integrates eq.
