@@ -48,8 +48,7 @@ void followWake(AmbientBody& ambient, const Twist& twist_W, double duration) noe
   if (by_wake > 0 && ambient.wake) {
     const Twist motion{twist_W.angular, twist_W.linear - ambient.medium.velocity};
     const FluidBody& shape = *ambient.def->fluid_body;
-    const double developed =
-        developWake({motion, shape.area, shape.volume, duration}, *ambient.wake);
+    const double developed = developWake(motion, shape.area, shape.volume, duration, *ambient.wake);
     ambient.load_share = 1 - by_wake + by_wake * developed;
   }
 }

@@ -383,7 +383,7 @@ void findPushes(AmbientBody& ambient, const MotionView& now, double duration) no
   }
   const SurfaceModel* surface = ambient.surface();
   flow.at_rest_B =
-      surface ? loadBelow(*surface, standNow(ambient, now), {}, {ambient.load_share, &flow}).wrench
+      surface ? loadBelow(*surface, standNow(ambient, now), {}, ambient.load_share, &flow).wrench
               : computeSurfaceLoad(ambient.model(), {}, ambient.load_share, &flow).wrench;
   countLoads(ambient, 1);
 }

@@ -194,7 +194,7 @@ class MiddleWrenches {
         model, seenFrom(plane_W, to_world_, step_.middle.position), {waterOf(ambient_), &inside});
     setBuoyancy(step_.has_flown ? frozenAt(model, stand) : step_.model);
     if (model.loads_below.loads)
-      setLoads(wholeLoad(loadBelow(model, stand, seen_, {s.load_share, s.flow}),
+      setLoads(wholeLoad(loadBelow(model, stand, seen_, s.load_share, s.flow),
                          model.loads_below.resistance.get(), seen_),
                frictionAlong([&](const Twist& x) { return frictionBelow(model, stand, x); }));
     found_.waves = waveWrench(stand.modes, to_world_, reading_.waves, ambient_.floating->waves);

@@ -196,14 +196,15 @@ struct Side {
 // One friction row, its impulse, and the one that it asks for without a limit.
 class FrictionRow {
  public:
-  FrictionRow(const Row& row, const FrictionPair& pair)
+  FrictionRow(const Row& row, btMultiBodyJacobianData& data,
+              btAlignedObjectArray<btSolverBody>& solver_bodies)
       : row_(row),
-        data_(pair.data),
+        data_(data),
         sides_{{row.m_multiBodyA, row.m_jacAindex, row.m_deltaVelAindex,
-                bodyOf(row.m_multiBodyA, row.m_solverBodyIdA, pair), row.m_relpos1CrossNormal,
+                bodyAt(rigidBodyA(row), solver_bodies), row.m_relpos1CrossNormal,
                 row.m_contactNormal1, row.m_angularComponentA},
                {row.m_multiBodyB, row.m_jacBindex, row.m_deltaVelBindex,
-                bodyOf(row.m_multiBodyB, row.m_solverBodyIdB, pair), row.m_relpos2CrossNormal,
+                bodyAt(rigidBodyB(row), solver_bodies), row.m_relpos2CrossNormal,
                 row.m_contactNormal2, row.m_angularComponentB}} {
     wanted = row.m_appliedImpulse + row.m_rhs - row.m_appliedImpulse * row.m_cfm -
              (changeAlong(sides_[0]) + changeAlong(sides_[1])) * row.m_jacDiagABInv;
@@ -222,8 +223,8 @@ class FrictionRow {
   }
 
  private:
-  static btSolverBody* bodyOf(const btMultiBody* multibody, int id, const FrictionPair& pair) {
-    return multibody || id < 0 ? nullptr : &pair.solver_bodies[id];
+  static btSolverBody* bodyAt(int id, btAlignedObjectArray<btSolverBody>& bodies) {
+    return id < 0 ? nullptr : &bodies[id];
   }
 
   btScalar changeAlong(const Side& side) const {
@@ -257,11 +258,12 @@ class FrictionRow {
 
 }  // namespace
 
-btScalar solveFrictionPair(const FrictionPair& pair) noexcept {
-  FrictionRow a(pair.first, pair), b(pair.second, pair);
+btScalar solveFrictionPair(const Row& first, const Row& second, btMultiBodyJacobianData& data,
+                           btAlignedObjectArray<btSolverBody>& solver_bodies) noexcept {
+  FrictionRow a(first, data, solver_bodies), b(second, data, solver_bodies);
   btScalar most_a = SIMD_INFINITY, most_b = SIMD_INFINITY;
-  const btScalar limit_a = std::abs(pair.first.m_upperLimit);
-  const btScalar limit_b = std::abs(pair.second.m_upperLimit);
+  const btScalar limit_a = std::abs(first.m_upperLimit);
+  const btScalar limit_b = std::abs(second.m_upperLimit);
   const bool is_within = a.wanted * a.wanted + b.wanted * b.wanted < limit_a * limit_b;
   const btScalar largest = std::max(std::abs(a.wanted), std::abs(b.wanted));
   if (!is_within && largest > 0) {

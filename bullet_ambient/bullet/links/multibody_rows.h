@@ -29,18 +29,12 @@ void forEachJoinedBody(const btMultiBodyConstraintArray& joints, const Visit& vi
       if (id >= 0) visit(id);
 }
 
-/// The two friction rows of a contact of a multibody, and what their solution reads and writes.
-struct FrictionPair {
-  const btMultiBodySolverConstraint& first;
-  const btMultiBodySolverConstraint& second;
-  btMultiBodyJacobianData& data;
-  btAlignedObjectArray<btSolverBody>& solver_bodies;
-};
-
-/// Solves two friction rows together, their impulse within the circle of their limits, like
-/// btMultiBodyConstraintSolver::resolveConeFrictionConstraintRows(), but without the C library's
-/// arc tangent, sine and cosine. Returns the sum of the velocities along the rows that the impulses
-/// change [m/s].
-btScalar solveFrictionPair(const FrictionPair& pair) noexcept;
+/// Solves the two friction rows of a contact of a multibody together, their impulse within the
+/// circle of their limits, like btMultiBodyConstraintSolver::resolveConeFrictionConstraintRows(),
+/// but without the C library's arc tangent, sine and cosine. Returns the sum of the velocities
+/// along the rows that the impulses change [m/s].
+btScalar solveFrictionPair(const btMultiBodySolverConstraint& first,
+                           const btMultiBodySolverConstraint& second, btMultiBodyJacobianData& data,
+                           btAlignedObjectArray<btSolverBody>& solver_bodies) noexcept;
 
 AMBIENT_END

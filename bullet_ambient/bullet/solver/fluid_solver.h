@@ -250,9 +250,8 @@ class FluidSolver : public Base {
           if (body) body->setPosUpdated(false);
       }
       const btScalar residual =
-          group_.touchesMember(a)
-              ? solveFrictionPair({a, b, this->m_data, this->m_tmpSolverBodyPool})
-              : this->resolveConeFrictionConstraintRows(a, b);
+          group_.touchesMember(a) ? solveFrictionPair(a, b, this->m_data, this->m_tmpSolverBodyPool)
+                                  : this->resolveConeFrictionConstraintRows(a, b);
       largest = btMax(largest, residual * residual);
     }
     return largest;

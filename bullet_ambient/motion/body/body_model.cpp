@@ -264,16 +264,16 @@ double product(const Twist& a, const Twist& b, double area) {
 
 }  // namespace
 
-double developWake(const WakeStep& step, Wake& wake) noexcept {
-  AMBIENT_ASSERT(step.duration >= 0 && step.area >= 0 && step.volume >= 0);
-  const Twist& x = step.velocity_W;
+double developWake(const Twist& x, double area, double volume, double duration,
+                   Wake& wake) noexcept {
+  AMBIENT_ASSERT(duration >= 0 && area >= 0 && volume >= 0);
   if (!wake.has_begun) wake = {x, true};
-  const double square = product(x, x, step.area);
-  const double way = step.area > 0 ? kWay * 6 * step.volume / step.area : 0;
+  const double square = product(x, x, area);
+  const double way = area > 0 ? kWay * 6 * volume / area : 0;
   if (!(square > 0) || !(way > 0)) return 1;
   const double share =
-      std::clamp(product(wake.velocity_W, x, step.area) / (kDeveloped * square), 0.0, 1.0);
-  const double kept = portable::exp(-std::sqrt(square) * step.duration / way);
+      std::clamp(product(wake.velocity_W, x, area) / (kDeveloped * square), 0.0, 1.0);
+  const double kept = portable::exp(-std::sqrt(square) * duration / way);
   Twist& w = wake.velocity_W;
   w = {x.angular + kept * (w.angular - x.angular), x.linear + kept * (w.linear - x.linear)};
   return share * share;

@@ -230,16 +230,14 @@ struct Wake {
   bool has_begun = false;  ///< false: it is the motion itself when the body is first met
 };
 
-/// A motion over one step as the wake sees it.
-struct WakeStep {
-  Twist velocity_W;   ///< of the body, relative to the ambient flow
-  double area = 0;    ///< of its surface [m^2]
-  double volume = 0;  ///< [m^3]
-  double duration = 0;
-};
-
-/// Returns the share in [0, 1] of a developed wake that the motion has at the start of the step,
-/// eq. (51c), and lets the wake follow it over the step. 1 in steady motion; 0 at a reversal.
-double developWake(const WakeStep& step, Wake& wake) noexcept;
+/// Returns the share in [0, 1] of a developed wake that a motion has at the start of a step, eq.
+/// (51c), and lets the wake follow it over the step. 1 in steady motion; 0 at a reversal.
+/// @param velocity_W of the body, relative to the ambient flow
+/// @param area of its surface [m^2]
+/// @param volume [m^3]
+/// @param duration of the step [s]
+/// @param wake changes
+double developWake(const Twist& velocity_W, double area, double volume, double duration,
+                   Wake& wake) noexcept;
 
 }  // namespace ambient

@@ -331,7 +331,7 @@ class SurfaceFlights {
   Wrench loadAt(int i, const Twist& x) {
     Progress& p = progress_[i];
     const Surroundings& s = p.flight->task.surroundings;
-    const SurfaceLoad load = loadBelow(p.model(), *p.place, x, {s.load_share, s.flow});
+    const SurfaceLoad load = loadBelow(p.model(), *p.place, x, s.load_share, s.flow);
     setGrowth(i, load.growth);
     ++p.count.load_evaluations;
     p.count.guarded += load.guarded;

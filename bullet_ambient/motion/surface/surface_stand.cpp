@@ -163,21 +163,20 @@ BoundedTwist passSurface(const SurfaceModel& model, const SurfacePlace& before,
 }
 
 SurfaceLoad loadBelow(const SurfaceModel& model, const SurfacePlace& place, const Twist& x,
-                      const LoadTerms& terms) noexcept {
+                      double load_share, const FlowAlongBody* flow) noexcept {
   const double wet = wetShare(place.immersion_F, model.shape->volume);
   const PartLoads& below = model.loads_below;
   AMBIENT_ASSERT(below.loads);
   const WetPart part{seenFrom(place.plane, below.frame), wet};
-  return loadAlong(terms.flow, x, below.resistance.get(),
-                   [&](const Twist& at_station) -> SurfaceLoad {
-                     const SplitLoad split = below.loads->split(below.frame.toF(at_station), &part);
-                     const Wrench wrench = terms.share * below.frame.toB(split.wrench);
-                     SurfaceLoad load{wrench};
-                     if (below.loads->needsGuard())
-                       load = removePositivePower(wrench, at_station, place.inertia.full());
-                     load.growth = split.growth;
-                     return load;
-                   });
+  return loadAlong(flow, x, below.resistance.get(), [&](const Twist& at_station) -> SurfaceLoad {
+    const SplitLoad split = below.loads->split(below.frame.toF(at_station), &part);
+    const Wrench wrench = load_share * below.frame.toB(split.wrench);
+    SurfaceLoad load{wrench};
+    if (below.loads->needsGuard())
+      load = removePositivePower(wrench, at_station, place.inertia.full());
+    load.growth = split.growth;
+    return load;
+  });
 }
 
 Wrench frictionBelow(const SurfaceModel& model, const SurfacePlace& place,

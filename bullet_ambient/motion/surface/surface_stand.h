@@ -127,16 +127,10 @@ MeanDepths meanDepths(const Immersion& before, const Immersion& after) noexcept;
 BoundedTwist passSurface(const SurfaceModel& model, const SurfacePlace& before,
                          const SurfaceStand& after, double duration, const Vector6& x) noexcept;
 
-/// Factor on the loads below a surface, and flow along the body: what loadBelow() needs besides the
-/// twist.
-struct LoadTerms {
-  double share = 1;
-  const FlowAlongBody* flow = nullptr;
-};
 /// Load on the part of a body in the fluid below, in B, for a twist in B relative to that fluid; as
 /// computeSurfaceLoad().
 SurfaceLoad loadBelow(const SurfaceModel& model, const SurfacePlace& place, const Twist& x,
-                      const LoadTerms& terms) noexcept;
+                      double load_share, const FlowAlongBody* flow) noexcept;
 /// Part of loadBelow() that is friction, at one station and in full.
 Wrench frictionBelow(const SurfaceModel& model, const SurfacePlace& place, const Twist& x) noexcept;
 /// Load of the fluid above.

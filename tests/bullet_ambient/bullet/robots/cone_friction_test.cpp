@@ -49,9 +49,7 @@ class FrictionTask : public btMultiBodyConstraintSolver {
   }
 
   btScalar solveAsBullet() { return resolveConeFrictionConstraintRows(rows[0], rows[1]); }
-  btScalar solveAsWe() {
-    return solveFrictionPair({rows[0], rows[1], m_data, m_tmpSolverBodyPool});
-  }
+  btScalar solveAsWe() { return solveFrictionPair(rows[0], rows[1], m_data, m_tmpSolverBodyPool); }
 
   // Impulses, and the velocity changes of both bodies.
   Eigen::VectorXd result() {
