@@ -16,44 +16,6 @@
 
 AMBIENT_BEGIN
 
-/// Solver of a fluid that replaces a plain one of a world, and continues its random numbers.
-class FittedSolver {
- public:
-  /// Makes the solver; does not change the world.
-  /// @throws std::invalid_argument, in one sentence that names makeSolver(), if the world has
-  /// another solver than Bullet's plain ones.
-  FittedSolver(btDiscreteDynamicsWorld& world, const std::shared_ptr<AmbientBodies>& members,
-               SolverOwner owner);
-  /// Deletes the solver unless somebody else has.
-  ~FittedSolver();
-  FittedSolver(const FittedSolver&) = delete;
-  FittedSolver& operator=(const FittedSolver&) = delete;
-
-  /// Gives the solver to the world.
-  void install(btDiscreteDynamicsWorld& world);
-  /// Gives the world its own solver back. A solver that somebody has given the world meanwhile
-  /// stays.
-  void giveBack(btDiscreteDynamicsWorld& world);
-  /// True if the world solves with this solver. Cost: a comparison of addresses.
-  bool isIn(btDiscreteDynamicsWorld& world) const;
-
- private:
-  struct DeleteIfAlive {
-    std::weak_ptr<const void> life;
-    void operator()(btConstraintSolver* solver) const;
-  };
-  using MadeSolver = std::unique_ptr<btConstraintSolver, DeleteIfAlive>;
-  template <class Made>
-  static MadeSolver hold(std::unique_ptr<Made> made);
-  static MadeSolver makeFor(btDiscreteDynamicsWorld& world,
-                            const std::shared_ptr<AmbientBodies>& members);
-
-  MadeSolver made_;
-  btConstraintSolver* given_;  // that of before, which may have been deleted
-  bool owns_given_ = false;    // the world had made it itself
-  SolverOwner owner_;
-};
-
 namespace {
 
 using Members = std::shared_ptr<AmbientBodies>;
@@ -108,64 +70,6 @@ void set(btDiscreteDynamicsWorld& world, btConstraintSolver* solver) {
   }
 }
 
-}  // namespace
-
-void FittedSolver::DeleteIfAlive::operator()(btConstraintSolver* solver) const {
-  if (!life.expired()) delete solver;
-}
-
-template <class Made>
-FittedSolver::MadeSolver FittedSolver::hold(std::unique_ptr<Made> made) {
-  const DeleteIfAlive deleter{made->life()};
-  return MadeSolver(made.release(), deleter);
-}
-
-FittedSolver::MadeSolver FittedSolver::makeFor(btDiscreteDynamicsWorld& world,
-                                               const Members& members) {
-  const btConstraintSolver* given = world.getConstraintSolver();
-  if (dynamic_cast<btMultiBodyDynamicsWorld*>(&world)) {
-    if (given && typeid(*given) == typeid(btMultiBodyMLCPConstraintSolver)) {
-      const auto& plain = static_cast<const btMultiBodyMLCPConstraintSolver&>(*given);
-      return hold(makeLike(plain, members, algorithmOf(plain)));
-    }
-    return hold(makeLike(requirePlain<btMultiBodyConstraintSolver>(given), members));
-  }
-  return hold(makeLike(requirePlain<btSequentialImpulseConstraintSolver>(given), members));
-}
-
-FittedSolver::FittedSolver(btDiscreteDynamicsWorld& world, const Members& members,
-                           SolverOwner owner)
-    : made_(makeFor(world, members)), given_(world.getConstraintSolver()), owner_(owner) {}
-
-void FittedSolver::install(btDiscreteDynamicsWorld& world) {
-  // Bullet would free the memory of a solver that it has made.
-  owns_given_ = std::exchange(world.*kOwnsSolver, false);
-  set(world, made_.get());
-}
-
-FittedSolver::~FittedSolver() {
-  if (owner_ == SolverOwner::kAsksWorld && made_.get_deleter().life.expired()) {
-    delete given_;
-    return;
-  }
-  if (!owns_given_) return;
-  given_->~btConstraintSolver();
-  btAlignedFree(given_);
-}
-
-void FittedSolver::giveBack(btDiscreteDynamicsWorld& world) {
-  if (!isIn(world)) return;
-  set(world, given_);
-  world.*kOwnsSolver = std::exchange(owns_given_, false);
-}
-
-// A solver that somebody else has deleted may have its address in use again.
-bool FittedSolver::isIn(btDiscreteDynamicsWorld& world) const {
-  return world.getConstraintSolver() == made_.get() && !made_.get_deleter().life.expired();
-}
-
-namespace {
-
 btDiscreteDynamicsWorld& requireKind(btDynamicsWorld& world) {
   if (world.getWorldType() == BT_DEFORMABLE_MULTIBODY_DYNAMICS_WORLD) {
     throw std::invalid_argument(
@@ -182,28 +86,68 @@ btDiscreteDynamicsWorld& requireKind(btDynamicsWorld& world) {
 
 }  // namespace
 
+void WorldConnection::DeleteIfAlive::operator()(btConstraintSolver* solver) const {
+  if (!life.expired()) delete solver;
+}
+
+WorldConnection::MadeSolver WorldConnection::makeFitting() const {
+  const auto hold = [](auto made) {
+    const DeleteIfAlive deleter{made->life()};
+    return MadeSolver(made.release(), deleter);
+  };
+  const btConstraintSolver* given = world_.getConstraintSolver();
+  if (!dynamic_cast<btMultiBodyDynamicsWorld*>(&world_))
+    return hold(makeLike(requirePlain<btSequentialImpulseConstraintSolver>(given), members_));
+  if (!given || typeid(*given) != typeid(btMultiBodyMLCPConstraintSolver))
+    return hold(makeLike(requirePlain<btMultiBodyConstraintSolver>(given), members_));
+  const auto& plain = static_cast<const btMultiBodyMLCPConstraintSolver&>(*given);
+  return hold(makeLike(plain, members_, algorithmOf(plain)));
+}
+
 WorldConnection::WorldConnection(btDynamicsWorld& world,
                                  const std::shared_ptr<AmbientBodies>& members,
                                  btActionInterface& action, SolverOwner owner)
-    : world_(requireKind(world)),
-      action_(action),
-      owner_(owner),
-      members_(members),
-      solver_(std::make_unique<FittedSolver>(world_, members, owner)) {
-  solver_->install(world_);
+    : world_(requireKind(world)), action_(action), owner_(owner), members_(members) {
+  install(makeFitting());
   world_.addAction(&action_);
 }
 
 WorldConnection::~WorldConnection() {
   world_.removeAction(&action_);
-  solver_->giveBack(world_);
+  if (isFitted()) {
+    set(world_, given_);
+    world_.*kOwnsSolver = std::exchange(owns_given_, false);
+  }
+  dropGiven();
 }
 
 void WorldConnection::refit() {
-  if (solver_->isIn(world_)) return;
-  auto fitting = std::make_unique<FittedSolver>(world_, members_, owner_);
-  solver_ = std::move(fitting);
-  solver_->install(world_);
+  if (isFitted()) return;
+  MadeSolver fitting = makeFitting();
+  dropGiven();
+  install(std::move(fitting));
+}
+
+void WorldConnection::install(MadeSolver solver) {
+  made_ = std::move(solver);
+  given_ = world_.getConstraintSolver();
+  // Bullet would free the memory of a solver that it has made.
+  owns_given_ = std::exchange(world_.*kOwnsSolver, false);
+  set(world_, made_.get());
+}
+
+void WorldConnection::dropGiven() {
+  if (owner_ == SolverOwner::kAsksWorld && made_.get_deleter().life.expired()) {
+    delete given_;
+  } else if (owns_given_) {
+    given_->~btConstraintSolver();
+    btAlignedFree(given_);
+  }
+}
+
+// A solver that somebody else has deleted may have its address in use again.
+bool WorldConnection::isFitted() const {
+  return world_.getConstraintSolver() == made_.get() && !made_.get_deleter().life.expired();
 }
 
 btMultiBodyDynamicsWorld& WorldConnection::multiBodyWorld(const char* who) const {

@@ -5,6 +5,7 @@
 #include "bullet_ambient/bullet/core/precision_check.h"
 
 class btActionInterface;
+class btConstraintSolver;
 class btDiscreteDynamicsWorld;
 class btDynamicsWorld;
 class btMultiBodyDynamicsWorld;
@@ -22,16 +23,16 @@ enum class SolverOwner {
   kAsksWorld,
 };
 
-class FittedSolver;
-
-/// Gives a world a fitting solver and an action, and takes both back on destruction, before the
-/// world's.
+/// Gives a world a solver of the fluid in place of its plain one, whose random numbers it
+/// continues, and an action; takes both back on destruction, before the world's.
 class WorldConnection {
  public:
-  /// @throws std::invalid_argument with one sentence that begins with "Fluid: "; the world is then
-  /// as it was.
+  /// @throws std::invalid_argument with one sentence that begins with "Fluid: ", and that names
+  /// makeSolver() if the world has another solver than Bullet's plain ones; the world is then as it
+  /// was.
   WorldConnection(btDynamicsWorld& world, const std::shared_ptr<AmbientBodies>& members,
                   btActionInterface& action, SolverOwner owner);
+  /// Gives the world its own solver back; one that somebody has given it meanwhile stays.
   ~WorldConnection();
   WorldConnection(const WorldConnection&) = delete;
   WorldConnection& operator=(const WorldConnection&) = delete;
@@ -46,11 +47,25 @@ class WorldConnection {
   btMultiBodyDynamicsWorld& multiBodyWorld(const char* who) const;
 
  private:
+  // Somebody else may delete the solver that was made.
+  struct DeleteIfAlive {
+    std::weak_ptr<const void> life;
+    void operator()(btConstraintSolver* solver) const;
+  };
+  using MadeSolver = std::unique_ptr<btConstraintSolver, DeleteIfAlive>;
+
+  MadeSolver makeFitting() const;
+  void install(MadeSolver solver);
+  void dropGiven();
+  bool isFitted() const;
+
   btDiscreteDynamicsWorld& world_;
   btActionInterface& action_;
   SolverOwner owner_;
   const std::shared_ptr<AmbientBodies> members_;
-  std::unique_ptr<FittedSolver> solver_;
+  MadeSolver made_;
+  btConstraintSolver* given_ = nullptr;  // that of before, which may have been deleted
+  bool owns_given_ = false;              // the world had made it itself
 };
 
 AMBIENT_END
