@@ -109,7 +109,7 @@ struct SealedAir {
   double inlet = std::numeric_limits<double>::infinity();
 
   /// Returns the product after water has come into the hold, whose level is then at a height.
-  /// @param taken by the water; negative: given [m^3]
+  /// `taken` by the water; negative: given [m^3].
   double productAfter(double taken, double level, const Outside& outside) const noexcept;
   /// Returns its pressure then, less that of the atmosphere, over rho g [m].
   double headAfter(double taken, double level, const Outside& outside) const noexcept;
