@@ -188,6 +188,10 @@ void Bounces::visit(const ContactRows& rows, const Visit& visit) noexcept {
 }
 
 void Bounces::find(const ContactRows& rows, const btContactSolverInfo& info) noexcept {
+  // Grows only where Bullet's pools have grown.
+  const int most =
+      rows.contacts.capacity() + (rows.multibodies ? rows.multibodies->contacts.capacity() : 0);
+  bounces_.reserve(static_cast<std::size_t>(most));
   findIn(rows.contacts, rows, info);
   if (rows.multibodies) findIn(rows.multibodies->contacts, rows, info);
 }
