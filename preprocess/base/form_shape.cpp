@@ -44,23 +44,24 @@ std::vector<EdgeSide> edgeSidesOf(const SurfaceTriangles& mesh) {
   return sides;
 }
 
-/// True of the border of a sheet, and of a convex edge sharper than 50 degrees; `sides`: the
-/// `count` sides of an edge. A border of a body that is no sheet is a joint to one of its wings.
+/// True of a border, and of a convex edge sharper than 50 degrees; `sides`: the `count` sides of an
+/// edge.
 bool isSharp(const SurfaceTriangles& mesh, const EdgeSide* sides, std::size_t count) {
   constexpr double kSharpCosine = 0.64278761;  // cos 50 degrees
-  if (count != 2) return count == 1 && mesh.isSheet();
+  if (count != 2) return count == 1;
   const Vector3& normal = mesh.normal(sides[0].triangle);
   const Vector3 across = mesh.place(sides[1].corner) - mesh.place(sides[0].low);
   return across.dot(normal) < 0 && normal.dot(mesh.normal(sides[1].triangle)) < kSharpCosine;
 }
 
-/// E of eq. (45c).
-double edgeShare(const FluidBody& body, const SurfaceTriangles& mesh) {
+/// E of eq. (45c). `borders_count`: false of a part, whose borders are joints.
+double edgeShare(const FluidBody& body, const SurfaceTriangles& mesh, bool borders_count) {
   if (mesh.size() == 0 || mesh.isSheet()) return 1;
   double length = 0;
   const std::vector<EdgeSide> sides = edgeSidesOf(mesh);
   for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
     while (end < sides.size() && sides[end].isOfEdgeOf(sides[begin])) ++end;
+    if (end - begin == 1 && !borders_count) continue;
     if (isSharp(mesh, &sides[begin], end - begin))
       length += (mesh.place(sides[begin].low) - mesh.place(sides[begin].high)).norm();
   }
@@ -126,7 +127,7 @@ bool setPlane(const SurfaceMoments& moments, FormShape& shape) {
 
 }  // namespace
 
-FormShape formShapeOf(const FluidBody& body) {
+FormShape formShapeOf(const FluidBody& body, bool borders_count) {
   FormShape shape;
   shape.centre = body.centre_of_volume;
   const SymmetricEigen<3> mass = symmetricEigen<3>(body.added_mass.bottomRightCorner<3, 3>());
@@ -138,7 +139,7 @@ FormShape formShapeOf(const FluidBody& body) {
   const double aside = 1.5 * (1 - symmetricEigen<3>(moments.normals).values[2]);
   shape.wing =
       square(positivePart(1 - square(body.volume / largest))) * positivePart(1 - square(aside));
-  shape.edges = edgeShare(body, mesh);
+  shape.edges = edgeShare(body, mesh, borders_count);
   const double smooth = positivePart(1 - 2 * shape.edges);
   const double slender = positivePart(mass.values[1] - mass.values[0]) / mass.values[1];
   if (mass.values[1] > 0)

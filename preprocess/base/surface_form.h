@@ -21,10 +21,11 @@ double sharpnessOf(double curvature, double radius);
 /// long. `corners` of its outline, one after the other [m].
 double sharpnessOfSide(const std::vector<Vector3>& corners);
 
-/// Computes the numbers of a shape. A body without added mass or faces is a block. Cost O(F log F),
-/// 1 us per face.
+/// Computes the numbers of a shape. A body without added mass or faces is a block. `borders_count`:
+/// borders are edges; false of the rest of a body with wings, whose borders are joints. Cost O(F
+/// log F), 1 us per face.
 /// @throws std::invalid_argument as computeSharpness().
-FormShape formShapeOf(const FluidBody& body);
+FormShape formShapeOf(const FluidBody& body, bool borders_count = true);
 
 /// Returns the part of a body whose triangles have a label: 0 of the rest, or the number of a wing.
 /// Area and centre of volume are its own, of the rest those of the body; what hangs on a volume is

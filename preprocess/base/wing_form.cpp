@@ -67,7 +67,7 @@ void makeWingForm(FluidBody& body) {
   rest.volume = parts.front().volume;
   rest.area = parts.front().area;
   rest.centre_of_volume = parts.front().centre;
-  form.rest = formShapeOf(rest);
+  form.rest = formShapeOf(rest, false);
   form.wing_shares.clear();
   for (std::size_t i = 0; i < body.wings.size(); ++i)
     form.wing_shares.push_back(shareOf(body.wings[i], parts[i + 1], facesOfPart(form, i + 1)));
