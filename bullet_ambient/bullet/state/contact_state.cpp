@@ -101,17 +101,46 @@ bool isDue(const btBroadphasePair& pair, const btCollisionWorld& world) {
   return Intersect(a.leaf->volume, b.leaf->volume);
 }
 
-// The saved ones in their order, then those that the broadphase would not find again.
-void restorePairs(const std::vector<PairState>& pairs, const Objects& objects,
-                  btCollisionWorld& world) {
+btDbvtProxy* proxyOf(const btCollisionObject* object) {
+  return static_cast<btDbvtProxy*>(const_cast<btBroadphaseProxy*>(object->getBroadphaseHandle()));
+}
+
+// Returns the broadphase if it has the boxes of a state; null: it finds pairs anew.
+btDbvtBroadphase* broadphaseFor(const WorldState& state, btCollisionWorld& world) {
+  const bool fits = state.boxes.size() == static_cast<std::size_t>(world.getNumCollisionObjects());
+  return fits ? dynamic_cast<btDbvtBroadphase*>(world.getBroadphase()) : nullptr;
+}
+
+void restoreBoxes(const WorldState& state, const Objects& objects, btCollisionWorld& world) {
+  btDbvtBroadphase* const broadphase = broadphaseFor(state, world);
+  if (!broadphase) return;
+  for (std::size_t i = 0; i < state.boxes.size(); ++i) {
+    const BoxState& box = state.boxes[i];
+    btDbvtProxy* const proxy = proxyOf(objects[static_cast<int>(i)]);
+    if (!proxy) continue;
+    proxy->m_aabbMin = box.smallest;
+    proxy->m_aabbMax = box.largest;
+    btDbvtVolume volume = btDbvtVolume::FromMM(box.leaf_smallest, box.leaf_largest);
+    const bool is_fixed = proxy->stage == btDbvtBroadphase::STAGECOUNT;
+    broadphase->m_sets[is_fixed ? 1 : 0].update(proxy->leaf, volume);
+  }
+  broadphase->m_cid = state.next_pair;
+  broadphase->m_newpairs = state.new_pairs;
+  broadphase->m_needcleanup = state.looks_at_pairs;
+}
+
+// The saved ones in their order. Without saved boxes then those that the broadphase would not find
+// again.
+void restorePairs(const WorldState& state, const Objects& objects, btCollisionWorld& world) {
+  const bool has_boxes = broadphaseFor(state, world) != nullptr;
   btOverlappingPairCache& cache = *world.getPairCache();
   std::vector<btBroadphasePair> found;
   for (int i = cache.getNumOverlappingPairs() - 1; i >= 0; --i) {
     const btBroadphasePair pair = cache.getOverlappingPairArrayPtr()[i];
-    if (isDue(pair, world)) found.push_back(pair);
+    if (!has_boxes && isDue(pair, world)) found.push_back(pair);
     cache.removeOverlappingPair(pair.m_pProxy0, pair.m_pProxy1, world.getDispatcher());
   }
-  for (const PairState& pair : pairs) {
+  for (const PairState& pair : state.pairs) {
     btCollisionObject* a = objects[pair.object_a];
     btCollisionObject* b = objects[pair.object_b];
     if (a && b && a != b) {
@@ -325,23 +354,37 @@ std::vector<ContactState> saveContacts(btCollisionWorld& world) {
   return contacts;
 }
 
-void restoreContacts(const std::vector<PairState>& pairs, const std::vector<ContactState>& contacts,
-                     btCollisionWorld& world) {
+void saveBoxes(btCollisionWorld& world, WorldState& state) {
+  const auto* const broadphase = dynamic_cast<const btDbvtBroadphase*>(world.getBroadphase());
+  if (!broadphase) return;
+  for (const btCollisionObject* object : objectsOf(world)) {
+    BoxState& box = state.boxes.emplace_back();
+    if (const btDbvtProxy* const proxy = proxyOf(object))
+      box = {proxy->m_aabbMin, proxy->m_aabbMax, proxy->leaf->volume.Mins(),
+             proxy->leaf->volume.Maxs()};
+  }
+  state.next_pair = broadphase->m_cid;
+  state.new_pairs = broadphase->m_newpairs;
+  state.looks_at_pairs = broadphase->m_needcleanup;
+}
+
+void restoreContacts(const WorldState& state, btCollisionWorld& world) {
   updateBoxes(world);
   world.computeOverlappingPairs();
-  restorePairs(pairs, Objects(world), world);
+  restorePairs(state, Objects(world), world);
   wakeAll(world);
-  PlacesByName places = PlaceMaker(world).placesFor(contacts);
+  PlacesByName places = PlaceMaker(world).placesFor(state.contacts);
   for (const auto& [name, manifold] : places) manifold->clearManifold();
   btPersistentManifold** array = world.getDispatcher()->getInternalManifoldPointer();
   int restored = 0;
-  for (const ContactState& contact : contacts) {
+  for (const ContactState& contact : state.contacts) {
     const auto found = places.find(nameOf(contact));
     if (found == places.end()) continue;
     fill(*found->second, contact.points);
     swapManifolds(restored++, found->second->m_index1a, array);
     places.erase(found);
   }
+  restoreBoxes(state, Objects(world), world);
 }
 
 AMBIENT_END

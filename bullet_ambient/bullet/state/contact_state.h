@@ -40,11 +40,13 @@ std::vector<PairState> savePairs(btCollisionWorld& world);
 /// Saves the contact points in Bullet's order.
 std::vector<ContactState> saveContacts(btCollisionWorld& world);
 
-/// Restores pairs and contact points, both in the saved order: adds the saved pairs to the
-/// overlapping ones, runs the world's collision detection to make manifolds, and fills in the saved
-/// points. All other manifolds become empty. Leaves dynamic bodies awake. @pre the bodies have
-/// their saved poses
-void restoreContacts(const std::vector<PairState>& pairs, const std::vector<ContactState>& contacts,
-                     btCollisionWorld& world);
+/// Saves the bounding boxes in a btDbvtBroadphase, and where it looks for pairs that are apart.
+void saveBoxes(btCollisionWorld& world, WorldState& state);
+
+/// Restores pairs, contact points and boxes, the former two in the saved order: adds the saved
+/// pairs to the overlapping ones, runs the world's collision detection to make manifolds, and fills
+/// in the saved points. All other manifolds become empty. Leaves dynamic bodies awake. @pre the
+/// bodies have their saved poses
+void restoreContacts(const WorldState& state, btCollisionWorld& world);
 
 AMBIENT_END

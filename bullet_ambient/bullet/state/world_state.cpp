@@ -113,6 +113,7 @@ WorldState saveState(const btDynamicsWorld& world, const AmbientBodies& members)
     state.multi_body_joints.push_back(saveJoint(*joint));
   state.pairs = savePairs(source);
   state.contacts = saveContacts(source);
+  saveBoxes(source, state);
   for (int i = 0; i < source.getNumConstraints(); ++i)
     state.joints.push_back(fromBullet<JointState>(*source.getConstraint(i)));
   state.time = members.regions.time;
@@ -141,7 +142,7 @@ void restoreState(const WorldState& state, btDynamicsWorld& world, AmbientBodies
   restoreMultiBodies(state, std::move(links), world, members);
   members.regions.time = state.time;
   restoreJoints(state, world);
-  restoreContacts(state.pairs, state.contacts, world);
+  restoreContacts(state, world);
   for (std::size_t i = 0; i < bodies.size(); ++i) restoreSleep(state.bodies[i], *bodies[i]);
   const std::vector<btMultiBody*> multi_bodies = multiBodiesOf(world);
   for (std::size_t i = 0; i < multi_bodies.size(); ++i)

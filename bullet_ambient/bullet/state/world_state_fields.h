@@ -429,6 +429,12 @@ void fields(V& v, PairState& s) {
 }
 
 template <class V>
+void fields(V& v, BoxState& s) {
+  each(v, finite("has a bounding box that is not finite"), s.smallest, s.largest, s.leaf_smallest,
+       s.leaf_largest);
+}
+
+template <class V>
 void fields(V& v, ContactState& s) {
   fields(v, s.pair);
   v(s.part, kAny);
@@ -457,6 +463,9 @@ void fields(V& v, WorldState& s) {
   v.list(s.multi_bodies, numbered("has a multibody, number "));
   v.list(s.pairs, kNoName);
   v.list(s.contacts, kNoName);
+  v.list(s.boxes, kNoName);
+  each(v, notNegative("has pairs whose number is negative"), s.next_pair, s.new_pairs);
+  v(s.looks_at_pairs, kAny);
   v.list(s.joints, kNoName);
   v.list(s.multi_body_joints, kNoName);
   v(s.random_seed, kAny);

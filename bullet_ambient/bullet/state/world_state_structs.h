@@ -107,6 +107,12 @@ struct PairState {
   int object_a = 0, object_b = 0;
 };
 
+/// Bounding boxes of an object in a btDbvtBroadphase, which decide on when pairs come and go.
+struct BoxState {
+  btVector3 smallest{0, 0, 0}, largest{0, 0, 0};            ///< that of the last step
+  btVector3 leaf_smallest{0, 0, 0}, leaf_largest{0, 0, 0};  ///< with the margin of the tree
+};
+
 /// The contact points that Bullet keeps between two objects from step to step.
 struct ContactState {
   PairState pair;
@@ -130,6 +136,9 @@ struct WorldState {
   std::vector<MultiBodyState> multi_bodies;
   std::vector<PairState> pairs;  // both in Bullet's order
   std::vector<ContactState> contacts;
+  std::vector<BoxState> boxes;       // numbered as in PairState; none: another broadphase
+  int next_pair = 0, new_pairs = 1;  ///< of btDbvtBroadphase: which pairs it looks at next
+  bool looks_at_pairs = true;
   std::vector<JointState> joints;
   std::vector<MultiBodyJointState> multi_body_joints;
   double time = 0;                ///< Fluid::time() [s]

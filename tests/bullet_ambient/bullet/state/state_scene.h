@@ -24,6 +24,8 @@ inline std::string motionBytes(const Fluid& fluid) {
   WorldState state = fluid.save();
   state.pairs.clear();
   state.contacts.clear();
+  state.boxes.clear();
+  state.next_pair = state.new_pairs = 0;
   return encodeState(state);
 }
 

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "bullet_ambient/bullet/state/world_state_structs.h"
 #include "bullet_ambient/force/loads/face_loads.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "demos/scene/scene.h"
@@ -129,28 +131,44 @@ inline double weightIn(const Scene& scene, const PreparedBody& body) {
   return (body.mass - scene.medium.density * body.fluid_body->volume) * -scene.gravity.z();
 }
 
+/// Overlapping pairs in Bullet's order, from which the order of its rows follows.
+inline std::vector<std::pair<int, int>> pairsOf(const Simulation& simulation) {
+  std::vector<std::pair<int, int>> pairs;
+  for (const auto& pair : simulation.state().world.pairs)
+    pairs.emplace_back(pair.object_a, pair.object_b);
+  return pairs;
+}
+
 /// Expects that a simulation and one that has got its saved state go on alike, bit for bit; again
-/// and again after 17 more steps.
-inline void expectSavedStatesGoOn(const Scene& scene, int rounds = 1) {
+/// and again after 17 more steps. Where Bullet finds several pairs in one step their order is that
+/// of its tree, which is not saved: from there on nothing is expected until the next time. At least
+/// `share` of all steps are compared.
+inline void expectSavedStatesGoOn(const Scene& scene, int rounds = 1, double share = 1) {
+  constexpr int kSteps = 30;
   const std::vector<PreparedBody> bodies = prepare(scene);
   Simulation simulation(scene, bodies), other(scene, bodies);
+  int compared = 0;
   for (int round = 0; round < rounds; ++round) {
     for (int i = 0; i < 17; ++i) simulation.step();
     const std::size_t pushed = bodies.size() - 1;
     simulation.applyForce(pushed, Vector3(0, 1e-3, 0), simulation.sample()[pushed].position);
     other.restoreState(simulation.saveState());
     EXPECT_EQ(other.time(), simulation.time());
-    for (int i = 0; i < 30; ++i) {
+    for (int i = 0; i < kSteps; ++i) {
+      const bool is_in_order = pairsOf(other) == pairsOf(simulation);
       simulation.step();
       other.step();
-    }
-    const std::vector<MotionSample> there = other.sample(), here = simulation.sample();
-    for (std::size_t body = 0; body < bodies.size(); ++body) {
-      EXPECT_EQ(there[body].position, here[body].position) << scene.name << ", " << round;
-      EXPECT_EQ(there[body].twist.vector(), here[body].twist.vector())
-          << scene.name << ", " << round;
+      if (!is_in_order) continue;
+      ++compared;
+      const std::vector<MotionSample> there = other.sample(), here = simulation.sample();
+      for (std::size_t body = 0; body < bodies.size(); ++body) {
+        EXPECT_EQ(there[body].position, here[body].position) << scene.name << ", " << round;
+        EXPECT_EQ(there[body].twist.vector(), here[body].twist.vector())
+            << scene.name << ", " << round;
+      }
     }
   }
+  EXPECT_GE(compared, share * rounds * kSteps);
 }
 
 }  // namespace ambient
