@@ -189,7 +189,8 @@ TEST(Gusts, AreDrawnInTheOrderOfTheAxes) {
 
 // A twist added at the start to any link is one of the root link.
 TEST(Variations, OfTheTwistOfALinkMoveTheWholeRobot) {
-  const Scene scene = readNamedScene("three_link_swimmer");
+  Scene scene = readNamedScene("three_link_swimmer");
+  scene.robots[0].angular_velocity = {0, 0, 1};
   const auto twistOfRoot = [&](const std::string& link) {
     BatchSettings settings = reading({{"twist_world", scene.bodies[0].name}});
     settings.threads = 1;
@@ -244,9 +245,10 @@ TEST(WorldBatch, RefusesWhatASceneCannotDo) {
   settings.actions = {{"wrench", "floor"}};
   EXPECT_NE(refusal(sceneFrom(boxOnFloor())).find("\"floor\", which is static"), std::string::npos);
   settings.actions = {};
-  Scene rov = readNamedScene("rov_station");
+  json pushed = boxOnFloor();
+  pushed["thrusters"] = json::array({{{"on", "box"}, {"curve", {{0, 0}, {1, 10}}}, {"lag", 0.1}}});
   settings.variations = {{"lag", "", {-1}, {1}}};
-  EXPECT_EQ(refusal(rov), "variation \"lag\": is -1; must be >= 0");
+  EXPECT_EQ(refusal(sceneFrom(pushed)), "variation \"lag\": is -1; must be >= 0");
   settings.variations = {};
   Scene swimmer = readNamedScene("three_link_swimmer");
   settings.actions = {{"motor_position"}};
