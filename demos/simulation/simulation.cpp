@@ -230,9 +230,9 @@ void Simulation::setRegions(const Scene& scene) {
   if (regions.size() != regions_.size())
     raiseInputError(scene.file.string(), "it has ", regions.size(),
                     " waters and regions, the world ", regions_.size(), "; must be as many");
+  for (std::size_t i = 0; i < regions.size(); ++i) fluid_.setRegion(regions_[i], regions[i]);
   thrusters_.setRegions(regions);
   fluids_ = std::move(regions);
-  for (std::size_t i = 0; i < fluids_.size(); ++i) fluid_.setRegion(regions_[i], fluids_[i]);
 }
 
 btMultiBody& Simulation::multiBodyOf(const WorldBody& link) const {
@@ -387,11 +387,13 @@ void Simulation::restoreState(std::string_view bytes) {
   std::copy_n(bytes.data() + sizeof steps, head - sizeof steps,
               reinterpret_cast<char*>(thrusts.data()));
   if (steps < 0) throw std::runtime_error(source + ": is damaged: its steps are below 0");
+  for (const double thrust : thrusts)
+    if (!std::isfinite(thrust)) throw std::runtime_error(source + ": a thrust is not finite");
   const auto lookup = [this](const std::string& name) { return findFluidBody(name); };
   WorldState state = decodeState(bytes.substr(head), source, lookup);
   setFunctions(state, own_law_, own_flight_);
-  thrusters_.setThrusts(thrusts);
   fluid_.restore(state);
+  thrusters_.setThrusts(thrusts);
   steps_ = steps;
 }
 

@@ -142,8 +142,9 @@ class Simulation {
   /// @throws std::runtime_error or std::invalid_argument, one sentence, if the bytes are damaged or
   /// of another scene; the simulation then stays as it was.
   void restoreState(std::string_view bytes);
-  /// The same in memory, in microseconds; without the exceptions for bytes.
+  /// Copies all that changes from step to step, in memory, in microseconds.
   SimulationState state() const { return {steps_, thrusters_.thrusts(), fluid_.save()}; }
+  /// Goes on from there, as restoreState(). @pre a state of this scene
   void restore(const SimulationState& state);
 
   /// All reports of the library, a sentence a line; empty: none.

@@ -28,7 +28,7 @@ class Thrusters {
 
   /// Thrusts at the end of the last step [N], without what dry discs lose.
   const std::vector<double>& thrusts() const { return thrusts_; }
-  /// @throws std::runtime_error if one is not finite. @pre one for each thruster
+  /// @pre finite, one for each thruster
   void setThrusts(const std::vector<double>& thrusts);
   /// Multiplies the thrusts that a thruster is asked for, and its lag; both 1 at first.
   void setFactors(std::size_t index, double thrust, double lag);

@@ -36,6 +36,12 @@ void requireFinite(const std::string& key, double value, bool is_fine, const cha
   if (!std::isfinite(value) || !is_fine) raiseInputError(key, "is ", value, "; must be ", limit);
 }
 
+/// Whether it varies one body; else all of the world.
+bool isOfBody(VariationKind kind) {
+  return kind <= VariationKind::kLoads ||
+         (kind >= VariationKind::kPosition && kind <= VariationKind::kTwist);
+}
+
 /// Repeats a single number for all of a field.
 std::vector<double> boundsOf(const std::string& key, std::vector<double> bounds, int size) {
   if (bounds.size() == 1) bounds.resize(static_cast<std::size_t>(size), bounds[0]);
@@ -53,8 +59,8 @@ BatchPlan::BatchPlan(const Scene& from, const BatchSettings& with) : scene(from)
   requireFinite("most_steps", static_cast<double>(settings.most_steps), settings.most_steps >= 0,
                 ">= 0");
   if (const auto& gust = settings.gust) {
-    requireFinite("gust.intensity", gust->intensity.minCoeff(), gust->intensity.minCoeff() >= 0,
-                  ">= 0");
+    for (const double sigma : gust->intensity)
+      requireFinite("gust.intensity", sigma, sigma >= 0, ">= 0");
     requireFinite("gust.time", gust->time, gust->time > 0, "> 0");
   }
   SceneBodyCache cache(settings.fluid_bodies, scene.threads);
@@ -123,14 +129,32 @@ std::vector<int> BatchPlan::rowsOf(const std::string& key, std::vector<int> rows
   return rows;
 }
 
+void BatchPlan::requireMotors(const std::string& key, const std::vector<int>& rows) const {
+  for (const int row : rows) {
+    const BatchJoint& joint = joints[static_cast<std::size_t>(row)];
+    if (scene.robots[joint.robot].motors.count(joint.name) == 0)
+      raiseInputError(key, "drives the joint \"", joint.name,
+                      "\", which has no motor in the scene");
+  }
+}
+
+void BatchPlan::requireMoving(const std::string& key, std::size_t body) const {
+  if (!(scene.bodies[body].mass > 0))
+    raiseInputError(key, "names the body \"", scene.bodies[body].name, "\", which is static");
+}
+
 void BatchPlan::addAction(const ActionDef& def) {
   const std::string key = "actions[" + std::to_string(actions.size()) + "]";
   const ActionKind kind = kindOf(key, kActionNames, def.kind);
   requireFinite(key + ".scale", def.scale, true, "finite");
   std::vector<int> rows = rowsOf(key, def.rows, sizeOf(kind));
   const int size = static_cast<int>(rows.size());
-  actions.push_back({kind, bodyOf(key, def.body), std::move(rows), def.scale,
-                     fieldOf(def.kind, def.body, action_size, size)});
+  const std::size_t body = bodyOf(key, def.body);
+  if (kind == ActionKind::kMotorPosition || kind == ActionKind::kMotorVelocity)
+    requireMotors(key, rows);
+  if (kind == ActionKind::kWrench || kind == ActionKind::kWrenchWorld) requireMoving(key, body);
+  actions.push_back(
+      {kind, body, std::move(rows), def.scale, fieldOf(def.kind, def.body, action_size, size)});
 }
 
 void BatchPlan::addVariation(const VariationDef& def) {
@@ -140,8 +164,13 @@ void BatchPlan::addVariation(const VariationDef& def) {
   if (size == 0) raiseInputError(key, "has no numbers: the scene has no thrusters or joints");
   if (kind == VariationKind::kGust && !settings.gust)
     raiseInputError(key, "is a factor on gusts, and there are none");
+  const std::size_t body = bodyOf(key, def.body);
+  if (kind <= VariationKind::kInertia) requireMoving(key, body);
+  for (const VariationField& other : variations)
+    if (other.kind == kind && (other.body == body || !isOfBody(kind)))
+      raiseInputError(key, "is given twice");
   VariationField v{kind,
-                   bodyOf(key, def.body),
+                   body,
                    boundsOf(key, def.lowest, size),
                    boundsOf(key, def.highest, size),
                    def.is_logarithmic,
@@ -151,6 +180,7 @@ void BatchPlan::addVariation(const VariationDef& def) {
     if (!(v.lowest[i] <= v.highest[i]))
       raiseInputError(key, "is from ", v.lowest[i], " to ", v.highest[i], "; must not fall");
     requireFinite(key, v.lowest[i], v.lowest[i] > 0 || !(is_factor || v.is_logarithmic), "> 0");
+    requireFinite(key, v.lowest[i], v.lowest[i] >= 0 || kind != VariationKind::kLag, ">= 0");
     if (!v.is_logarithmic) continue;
     v.lowest[i] = portable::log(v.lowest[i]);
     v.highest[i] = portable::log(v.highest[i]);
@@ -165,6 +195,8 @@ void BatchPlan::addObservation(const ObservationDef& def) {
   requireFinite(key + ".noise", def.noise, def.noise >= 0, ">= 0");
   requireFinite(key + ".bias", def.bias, def.bias >= 0, ">= 0");
   requireFinite(key + ".place", def.place.norm(), true, "finite");
+  if (kind->size == kPerParameter && parameter_size == 0)
+    raiseInputError(key, "has no numbers: nothing varies");
   std::vector<int> rows = rowsOf(key, def.rows, sizeOf(kind->size));
   const int size = static_cast<int>(rows.size());
   const std::size_t body = bodyOf(key, def.body);

@@ -50,7 +50,7 @@ struct VariationField {
   BatchField field;
 };
 
-/// What can be observed; observations.cpp has all.
+/// Quantity that can be observed; observations.cpp has all.
 struct ObservationKind {
   const char* name;
   int size;  ///< a count or a FieldSize
@@ -88,6 +88,8 @@ struct BatchPlan {
   int sizeOf(ActionKind kind) const;
   int sizeOf(VariationKind kind) const;
   std::vector<int> rowsOf(const std::string& key, std::vector<int> rows, int size);
+  void requireMotors(const std::string& key, const std::vector<int>& rows) const;
+  void requireMoving(const std::string& key, std::size_t body) const;
   void addAction(const ActionDef& def);
   void addVariation(const VariationDef& def);
   void addObservation(const ObservationDef& def);

@@ -12,7 +12,7 @@
 
 namespace ambient {
 
-/// What a column of the actions does; sizes by bodies, thrusters T and joints J of the scene.
+/// Effect of a column of the actions; sizes by bodies, thrusters T and joints J of the scene.
 enum class ActionKind {
   kThrusters,      ///< T commands, clipped to -1 to 1
   kWrench,         ///< torque about the centre of mass [N m], force [N]; axes of the body's shape
@@ -29,7 +29,7 @@ constexpr std::array<std::pair<ActionKind, const char*>, 6> kActionNames{
      {ActionKind::kMotorPosition, "motor_position"},
      {ActionKind::kMotorVelocity, "motor_velocity"}}};
 
-/// What varies from episode to episode; in the order in which it is applied.
+/// Quantity that varies from episode to episode; in the order in which it is applied.
 enum class VariationKind {
   kMass,           ///< factor on mass and moments of inertia
   kInertia,        ///< factor on moments of inertia
@@ -80,7 +80,7 @@ struct ObservationDef {
   double bias = 0;                  ///< standard deviation of what an episode adds to all readings
 };
 
-/// What each episode draws, evenly between two bounds; of one number for all, or one for each.
+/// Bounds between which each episode draws evenly; of one number for all, or one for each.
 struct VariationDef {
   std::string kind;
   std::string body = {};

@@ -37,9 +37,6 @@ BatchWorld::BatchWorld(const BatchPlan& plan, std::uint64_t seed, const BatchRow
   FlowField field;
   if (flow_) field = [flow = flow_.get()](const Vector3&, double) { return flow->now; };
   simulation_ = std::make_unique<Simulation>(plan.scene, plan.bodies, false, std::move(field));
-  for (const ObservationField& observation : plan.observations)
-    if (observation.read == findObservation("fluid_wrench")->read)
-      simulation_->readWrench(observation.body, true);
 }
 
 RandomNumbers BatchWorld::numbers(RandomStream stream) const {
@@ -94,23 +91,24 @@ void BatchWorld::placeBody(std::size_t body) {
     return Twist{x.angular + vectorAt(twist), x.linear + vectorAt(twist + 3)};
   };
   const bool is_placed = position || heading || attitude;
-  const MotionSample start = simulation_->sample(body);
   const auto& link = plan_.scene.bodies[body].link;
   if (!link) {
+    const MotionSample start = simulation_->sample(body);
     if (is_placed)
       simulation_->setPose(body, start.position + way, before * start.orientation * after);
     if (twist) simulation_->setTwist(body, faster(start.twist));
     return;
   }
-  Robot& robot = simulation_->changedRobot(link->robot).robot();
+  SceneRobot& changed = simulation_->changedRobot(link->robot);
+  const Twist base = changed.sample(0).twist;
+  Robot& robot = changed.robot();
   if (is_placed) {
     RigidPose pose = robot.linkPose(-1) * robot.model().links.front().joint.origin.inverse();
     pose.linear() = Matrix3(before * Quaternion(Matrix3(pose.linear())) * after);
     pose.translation() += way;
     robot.setPose(pose);
   }
-  if (twist)
-    robot.setTwist(faster(plan_.scene.robots[link->robot].fixed_base ? Twist{} : start.twist));
+  if (twist) robot.setTwist(faster(plan_.scene.robots[link->robot].fixed_base ? Twist{} : base));
 }
 
 void BatchWorld::setFlowAndThrusters() {
@@ -151,7 +149,7 @@ void BatchWorld::drawGust() {
   if (!flow_ || !plan_.settings.gust) return;
   const GustDef& def = *plan_.settings.gust;
   RandomNumbers random = numbers(RandomStream::kGust);
-  const Vector3 noise(random.normal(), random.normal(), random.normal());
+  const Vector3 noise{random.normal(), random.normal(), random.normal()};
   const Vector3 sigma = gust_factor_ * def.intensity;
   flow_->gust_before = flow_->gust;
   if (steps_ == 0) {
@@ -171,6 +169,7 @@ void BatchWorld::reset(const SimulationState& start, bool draws) {
   try {
     simulation_->restore(start);
     apply();
+    readWrenches();
   } catch (const std::exception& error) {
     fail(error.what());
   }
@@ -191,8 +190,7 @@ void BatchWorld::setMotors(const ActionField& field) {
   for (std::size_t i = 0; i < field.rows.size(); ++i) {
     const BatchJoint& joint = plan_.joints[static_cast<std::size_t>(field.rows[i])];
     const auto& motors = plan_.scene.robots[joint.robot].motors;
-    const auto found = motors.find(joint.name);
-    JointDrive drive = found == motors.end() ? JointDrive{} : found->second;
+    JointDrive drive = motors.at(joint.name);
     drive.amplitude = 0;
     const double asked = field.scale * rows_.action[field.field.offset + static_cast<int>(i)];
     drive.velocity.reset();
@@ -258,6 +256,7 @@ void BatchWorld::step() {
       simulation_->stepUnchecked();
       if (auto sentence = simulation_->fault()) fail(std::move(*sentence));
     }
+    if (flow_) flow_->at(1, plan_.envStep());
   } catch (const std::exception& error) {
     fail(error.what());
   }
@@ -266,6 +265,12 @@ void BatchWorld::step() {
 
 bool BatchWorld::isTruncated() const {
   return plan_.settings.most_steps > 0 && steps_ >= plan_.settings.most_steps;
+}
+
+void BatchWorld::readWrenches() {
+  for (const ObservationField& observation : plan_.observations)
+    if (observation.read == findObservation("fluid_wrench")->read)
+      for (const bool is_read : {false, true}) simulation_->readWrench(observation.body, is_read);
 }
 
 void BatchWorld::observe() {
@@ -307,7 +312,7 @@ void BatchWorld::addNoise() {
 
 void BatchWorld::fail(std::string sentence) { fault_ = std::move(sentence); }
 
-/// What bytes of a state begin with.
+/// First bytes of a state.
 struct BatchWorld::Head {
   char magic[8] = {'A', 'M', 'B', 'B', 'A', 'T', 'C', 'H'};
   std::uint64_t version = 1, seed = 0, episodes = 0;
@@ -342,8 +347,13 @@ void BatchWorld::restoreState(std::string_view bytes) {
   std::memcpy(&head, bytes.data(), sizeof head);
   if (head.version != 1 || head.steps < 0)
     throw std::runtime_error("saved state: is of another version, or damaged");
-  simulation_->restoreState(bytes.substr(size));
   const char* from = bytes.data() + sizeof head;
+  std::vector<double> numbers((parameters + twists) / sizeof(double));
+  std::copy_n(from, parameters + twists, reinterpret_cast<char*>(numbers.data()));
+  numbers.insert(numbers.end(), std::begin(head.gust), std::end(head.gust));
+  if (!std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); }))
+    throw std::runtime_error("saved state: is damaged: a number is not finite");
+  simulation_->restoreState(bytes.substr(size));
   std::copy_n(from, parameters, reinterpret_cast<char*>(rows_.parameters));
   std::copy_n(from + parameters, twists, reinterpret_cast<char*>(before_.data()));
   seed_ = head.seed;
@@ -356,6 +366,7 @@ void BatchWorld::restoreState(std::string_view bytes) {
     flow_->gust = vectorAt(head.gust + 3);
     flow_->at(1, plan_.envStep());
   }
+  readWrenches();
   observe();
 }
 

@@ -69,6 +69,8 @@ class BatchWorld {
   void setMotors(const ActionField& field);
   void push(const ActionField& field);
   void act(bool is_first);
+  /// Reads wrenches of the fluid anew, in the present state.
+  void readWrenches();
   void observe();
   void addNoise();
   void fail(std::string sentence);

@@ -100,7 +100,7 @@ class VectorEnv(_Base):  # type: ignore[misc]
         raise NotImplementedError(f"{type(self).__name__} has no reward(batch)")
 
     def ended(self, batch: WorldBatch) -> npt.ArrayLike:
-        """Returns which worlds have come to an end (N,), besides those of BatchSettings::most_steps; default: none."""
+        """Returns which worlds have come to an end (N,), besides those that `most_steps` truncates; default: none."""
         return np.zeros(self.num_envs, bool)
 
     def info(self, batch: WorldBatch) -> dict[str, npt.NDArray[Any]]:

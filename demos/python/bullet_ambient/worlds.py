@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import operator
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Union
+from typing import Any, SupportsIndex, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -63,6 +64,13 @@ def act(kind: str, body: str = "", *, rows: Sequence[int] = (), scale: float = 1
     return {"kind": kind, "body": body, "rows": list(rows), "scale": scale}
 
 
+def _seed(value: SupportsIndex) -> int:
+    seed = operator.index(value)
+    if not 0 <= seed < 2**64:
+        raise ValueError(f"seed is {seed}; must be from 0 to 2^64 - 1")
+    return seed
+
+
 def _variation(name: str, bounds: Sequence[Any]) -> dict[str, Any]:
     kind, _, body = name.partition(":")
     is_logarithmic = len(bounds) == 3 and bounds[2] == "log"
@@ -116,7 +124,7 @@ class WorldBatch(_core._WorldBatch):
         gust: Gust | None = None,
         cache: _Path | None = None,
     ) -> None:
-        settings: dict[str, Any] = {"worlds": worlds, "substeps": substeps, "most_steps": most_steps, "seed": seed}
+        settings: dict[str, Any] = {"worlds": worlds, "substeps": substeps, "most_steps": most_steps, "seed": _seed(seed)}
         settings.update(threads=threads, cache=cache)
         settings["actions"] = [act(of) if isinstance(of, str) else of for of in actions]
         settings["observations"] = [observe(of) if isinstance(of, str) else of for of in observations]
@@ -155,5 +163,6 @@ class WorldBatch(_core._WorldBatch):
         seed : s: world i gets s + i and begins its first episode; or one for each; None: the next episode is drawn
         draws : False: takes `parameters` as they are
         """
-        seeds = [seed + i for i in range(self.worlds)] if isinstance(seed, int) else seed
-        self._reset(mask, seeds, draws)
+        if isinstance(seed, (int, np.integer)):
+            seed = range(int(seed), int(seed) + self.worlds)
+        self._reset(mask, None if seed is None else [_seed(of) for of in seed], draws)

@@ -30,7 +30,7 @@ double chordAt(const SurfaceSample& sample, const TriangleTree& tree) {
   return chord;
 }
 
-Vector3d pointIn(const TriangleMesh& mesh, int triangle, RandomNumbers& random) {
+Vector3d pointIn(const TriangleMesh& mesh, int triangle, SampleNumbers& random) {
   double u = random.next(), v = random.next();
   if (u + v > 1) {
     u = 1 - u;
@@ -48,7 +48,7 @@ SurfaceSamples sampleSurface(const TriangleMesh& mesh, const TriangleTree& tree,
   for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t)
     areas.push_back(area += mesh.twiceArea(t).norm() / 2);
   const double size = mesh.extents().maxCoeff();
-  RandomNumbers random(1);
+  SampleNumbers random(1);
   SurfaceSamples samples;
   samples.spacing = std::sqrt(area / count);
   for (int i = 0; i < count; ++i) {

@@ -28,9 +28,9 @@ struct SurfaceSamples {
 SurfaceSamples sampleSurface(const TriangleMesh& mesh, const TriangleTree& tree, int count);
 
 /// Random numbers, the same on every machine.
-class RandomNumbers {
+class SampleNumbers {
  public:
-  explicit RandomNumbers(std::uint64_t seed) : state_(seed) {}
+  explicit SampleNumbers(std::uint64_t seed) : state_(seed) {}
   /// Returns the next one, in [0, 1).
   double next() {
     state_ += 0x9e3779b97f4a7c15u;  // splitmix64

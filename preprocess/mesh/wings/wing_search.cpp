@@ -228,7 +228,7 @@ class WingSearch {
   /// k-means, from places far from each other.
   std::vector<Chosen> clustered(const Chosen& piece, const std::vector<Vector2d>& places, int arms,
                                 int start) const {
-    RandomNumbers random(static_cast<std::uint64_t>(start) + 17);
+    SampleNumbers random(static_cast<std::uint64_t>(start) + 17);
     std::vector<Vector2d> centres;
     const auto nearestSquare = [&](const Vector2d& place) {
       double least = std::numeric_limits<double>::infinity();

@@ -175,11 +175,21 @@ class WorldBatchTest(unittest.TestCase):
         batch.step()
         np.testing.assert_array_equal(batch.observations[1], expected)
 
+    def test_seeds_of_numpy(self):
+        batch, other = ba.WorldBatch(SCENE, 2, **MORE), ba.WorldBatch(SCENE, 2, seed=np.int64(3), **MORE)
+        for seed in (3, np.int64(3), np.array([3, 4])):
+            batch.reset(seed=seed)
+            np.testing.assert_array_equal(batch.parameters, other.parameters)
+            batch.reset()
+
     def test_refusals(self):
         batch = ba.WorldBatch(SCENE, 2, **MORE)
         for call, error, words in (
             (lambda: batch.step(np.ones(3, bool)), ValueError, r"reset has shape \(3,\); must be \(2,\)"),
             (lambda: batch.reset(seed=[1]), ValueError, "1 seeds; must be one for each world, 2"),
+            (lambda: batch.reset(seed=-1), ValueError, r"^seed is -1; must be from 0 to 2\^64 - 1$"),
+            (lambda: batch.reset(seed=[1, -2]), ValueError, r"^seed is -2; must be"),
+            (lambda: ba.WorldBatch(SCENE, seed=-1), ValueError, r"^seed is -1; must be"),
             (lambda: batch.run(np.zeros((2, 3, 1))), ValueError, r"must be \(2, steps, 2\)"),
             (lambda: batch.state(2), IndexError, "no world 2; there are 0 to 1"),
             (lambda: batch.restore(0, b""), ValueError, "is not one of a world of this batch"),

@@ -10,7 +10,7 @@
 #include "tests/demos/simulation/scenes/run_scene.h"
 #include "tests/support/refusal_of.h"
 
-// What the sensors of worlds read, and what varies.
+// Readings of the sensors of worlds, and what varies.
 namespace ambient {
 namespace {
 
@@ -165,16 +165,40 @@ TEST(Gusts, HaveTheirVarianceAndMemory) {
   for (int n = 0; n <= kSteps; ++n) {
     if (n > 0) batch.step();
     for (int i = 0; i < kWorlds; ++i) {
-      // The gust at the start of the last substep, which is the one of the step before.
       const double gust = batch.observations()[9 * i + 2];
-      if (n > 1) product += gust * before[static_cast<std::size_t>(i)];
+      if (n > 0) product += gust * before[static_cast<std::size_t>(i)];
       if (n > 0) square += gust * gust;
       before[static_cast<std::size_t>(i)] = gust;
     }
   }
   const double kept = std::exp(-0.01 / 0.03), independent = kWorlds * kSteps * (1 - kept);
   EXPECT_NEAR(square / (kWorlds * kSteps), 4, 4 * 4 * std::sqrt(2 / independent));
-  EXPECT_NEAR(product / square * kSteps / (kSteps - 1), kept, 4 / std::sqrt(independent));
+  EXPECT_NEAR(product / square, kept, 4 / std::sqrt(independent));
+}
+
+// The first gust of an episode is drawn axis by axis.
+TEST(Gusts, AreDrawnInTheOrderOfTheAxes) {
+  json scene = ballScene();
+  scene["bodies"][0]["linear_velocity"] = {0, 0, 0};
+  BatchSettings settings = reading({{"flow"}});
+  settings.seed = 5;
+  settings.gust = GustDef{{1, 1, 1}, 1};
+  RandomNumbers random({5, RandomStream::kGust, 1, 0});
+  for (const double seen : read(scene, settings, 0)) EXPECT_EQ(seen, random.normal());
+}
+
+// A twist added at the start to any link is one of the root link.
+TEST(Variations, OfTheTwistOfALinkMoveTheWholeRobot) {
+  Scene scene = readNamedScene("three_link_swimmer");
+  scene.robots[0].angular_velocity = {0, 0, 1};
+  const auto twistOfRoot = [&](const std::string& link) {
+    BatchSettings settings = reading({{"twist_world", scene.bodies[0].name}});
+    settings.threads = 1;
+    settings.variations = {{"twist", link, {0, 0, 0, 1, 2, 3}, {0, 0, 0, 1, 2, 3}}};
+    WorldBatch batch(scene, settings);
+    return std::vector<double>(batch.observations(), batch.observations() + 6);
+  };
+  EXPECT_EQ(twistOfRoot(scene.bodies[2].name), twistOfRoot(scene.bodies[0].name));
 }
 
 TEST(WorldBatch, RefusesInOneLine) {
@@ -196,9 +220,45 @@ TEST(WorldBatch, RefusesInOneLine) {
   EXPECT_NE(refusal(settings).find("is 0; must be > 0"), std::string::npos);
   settings.variations = {{"position", "", {0, 0}, {1, 1}}};
   EXPECT_NE(refusal(settings).find("has bounds of 2 numbers; must be 1 or 3"), std::string::npos);
+  settings.variations = {{"mass", "", {1}, {1}}, {"mass", "ball", {2}, {2}}};
+  EXPECT_EQ(refusal(settings), "variation \"mass\": is given twice");
   settings.variations = {};
+  EXPECT_EQ(refusal(reading({{"parameters"}})), "observations[0]: has no numbers: nothing varies");
+  settings.gust = GustDef{{1, std::nan(""), 1}, 1};
+  EXPECT_EQ(refusal(settings), "gust.intensity: is nan; must be >= 0");
+  settings.gust.reset();
   settings.worlds = 0;
   EXPECT_NE(refusal(settings).find("worlds: is 0; must be >= 1"), std::string::npos);
+}
+
+TEST(WorldBatch, RefusesWhatASceneCannotDo) {
+  BatchSettings settings;
+  const auto refusal = [&](const Scene& scene) {
+    return test::refusalOf([&] { WorldBatch(scene, settings); });
+  };
+  for (const char* kind : {"mass", "inertia"}) {
+    settings.variations = {{kind, "floor", {1}, {1}}};
+    EXPECT_NE(refusal(sceneFrom(boxOnFloor())).find("\"floor\", which is static"),
+              std::string::npos);
+  }
+  settings.variations = {};
+  settings.actions = {{"wrench", "floor"}};
+  EXPECT_NE(refusal(sceneFrom(boxOnFloor())).find("\"floor\", which is static"), std::string::npos);
+  settings.actions = {};
+  json pushed = boxOnFloor();
+  pushed["thrusters"] = json::array({{{"on", "box"}, {"curve", {{0, 0}, {1, 10}}}, {"lag", 0.1}}});
+  settings.variations = {{"lag", "", {-1}, {1}}};
+  EXPECT_EQ(refusal(sceneFrom(pushed)), "variation \"lag\": is -1; must be >= 0");
+  settings.variations = {};
+  Scene swimmer = readNamedScene("three_link_swimmer");
+  settings.actions = {{"motor_position"}};
+  EXPECT_EQ(refusal(swimmer), "");
+  const std::string joint = swimmer.robots[0].model->links[2].joint.name;
+  swimmer.robots[0].motors.erase(joint);
+  EXPECT_EQ(refusal(swimmer),
+            "actions[0]: drives the joint \"" + joint + "\", which has no motor in the scene");
+  settings.actions[0].rows = {0};
+  EXPECT_EQ(refusal(swimmer), "");
 }
 
 }  // namespace

@@ -209,9 +209,48 @@ TEST(WorldBatch, GoesOnFromBytes) {
   play(batch, 4);
   play(other, 7, 5);
   for (int i = 0; i < 2; ++i) other.restore(i, batch.state(i));
+  for (int k = 0; k < 2 * batch.plan().observation_size; ++k)
+    EXPECT_EQ(other.observations()[k], batch.observations()[k]) << k;
   EXPECT_EQ(play(other, 6), play(batch, 6));
   EXPECT_THROW(other.restore(0, "nothing"), std::runtime_error);
   EXPECT_THROW(other.restore(0, batch.state(0).substr(0, 300)), std::runtime_error);
+}
+
+TEST(WorldBatch, ARefusedStateLeavesAWorldAsItWas) {
+  BatchSettings settings = wildSettings(1, 1);
+  WorldBatch batch(sceneFrom(vehicle()), settings);
+  play(batch, 4);
+  const std::string before = batch.state(0);
+  // Offsets of a gust and of the first parameter.
+  for (const std::size_t place : {40u, 88u}) {
+    std::string bytes = before;
+    const double bad = std::numeric_limits<double>::quiet_NaN();
+    bytes.replace(place, sizeof bad, reinterpret_cast<const char*>(&bad), sizeof bad);
+    EXPECT_THROW(batch.restore(0, bytes), std::runtime_error);
+    EXPECT_TRUE(batch.state(0) == before) << place;
+  }
+}
+
+// After a reset or a restore it is that of the present state, whatever the world did before.
+TEST(WorldBatch, TheWrenchOfTheFluidForgetsTheLastEpisode) {
+  BatchSettings settings = wildSettings(1, 1);
+  settings.most_steps = 0;
+  settings.observations = {{"fluid_wrench"}};
+  WorldBatch batch(sceneFrom(vehicle()), settings), fresh(sceneFrom(vehicle()), settings);
+  const auto seen = [](WorldBatch& of) {
+    return std::vector<double>(of.observations(), of.observations() + 6);
+  };
+  const std::vector<double> expected = seen(fresh);
+  EXPECT_NE(expected, std::vector<double>(6));
+  play(batch, 4);
+  EXPECT_NE(seen(batch), expected);
+  const std::uint64_t seed = settings.seed;
+  batch.reset(nullptr, &seed);
+  EXPECT_EQ(seen(batch), expected);
+  play(batch, 4);
+  batch.restore(0, fresh.state(0));
+  fresh.restore(0, fresh.state(0));
+  EXPECT_EQ(seen(batch), seen(fresh));
 }
 
 TEST(WorldBatch, AStepAllocatesNothing) {
@@ -308,6 +347,20 @@ TEST(Thrusters, OfDryDiscsGiveLess) {
     const double wet = std::min(1.0, std::max(0.0, 0.5 - above / 0.2));
     EXPECT_NEAR(simulation.sample(0).twist.linear.x(), wet * 10 * scene.time_step / 31, 1e-15);
   }
+}
+
+TEST(Thrusters, StayWhereAStateIsRefused) {
+  json more = vehicle();
+  more["bodies"].push_back({{"name", "floor"},
+                            {"mass", 0},
+                            {"shape", {{"type", "box"}, {"size", {4, 4, 1}}}},
+                            {"position", {0, 0, -9}}});
+  const Scene scene = sceneFrom(vehicle()), wider = sceneFrom(more);
+  Simulation one(scene, prepare(scene)), other(wider, prepare(wider));
+  other.thrusters().command(0, 1);
+  other.step();
+  EXPECT_ANY_THROW(one.restoreState(other.saveState()));
+  EXPECT_EQ(one.thrusters().thrusts(), (std::vector<double>{0, 0}));
 }
 
 TEST(Thrusters, AreInSavedStates) {
