@@ -74,7 +74,7 @@ class DemoTest(ProgramTest):
         self.assertIn('ball.json: unknown key "colour" in bodies[0], which has ', coloured)
         scene = self.scene()
         for change, message in (("medium.density=-1", "medium.density is -1"),
-                                ("bodies.0.weight=1", 'unknown key "weight" in bodies[0], which has angular_velocity, '),
+                                ("bodies.0.weight=1", 'unknown key "weight" in bodies[0], which has added_mass_factor, angular_velocity, '),
                                 ("bodies.0.linear_velocity=[1e200, 0, 0]", 'body "ball": its state is not finite at t = 0.01 s')):
             self.assertIn(message, self.refusal(scene, *out, "--quiet", "--set", change))
         self.assertIn("plate_8cm", self.refusal("no_such_scene"))

@@ -46,6 +46,10 @@ struct Member {
 
 constexpr int kAway = -2;  // AmbientBody::in_hold of what does not move in this world
 
+bool isOf(const btCollisionWorld& world, const AmbientTrees& trees) {
+  return !trees.empty() && trees.world() == &world;
+}
+
 /// Sets AmbientBody::in_hold of all members to -1 or kAway, and places links. Returns how many
 /// members there are.
 std::size_t findMembers(const btCollisionWorld& world, AmbientBodies& bodies) {
@@ -59,9 +63,8 @@ std::size_t findMembers(const btCollisionWorld& world, AmbientBodies& bodies) {
     AmbientBody* const ambient = bodies.find(objects[i]);
     if (ambient && !objects[i]->isStaticOrKinematicObject()) ambient->in_hold = -1;
   }
-  const AmbientTrees& trees = bodies.trees;
-  if (trees.empty() || trees.world() != &world) return count;
-  forEachTree(*trees.world(), trees, [](AmbientTree& tree) {
+  if (!isOf(world, bodies.trees)) return count;
+  forEachTree(*bodies.trees.world(), bodies.trees, [](AmbientTree& tree) {
     placeLinksNow(tree);
     for (const auto& link : tree.links)
       if (link->mass.mass > 0) link->ambient.in_hold = -1;
@@ -144,13 +147,29 @@ void enterHold(const Vessel& vessel, const Member& member, FluidRegions& regions
   }
 }
 
-/// Calls visit(const Member&, HoldAround&) for the bodies in a hold.
+/// Calls visit(const Member&, HoldAround&) for the bodies in a hold, in the order of the world:
+/// that of the members is another one after a state was restored, and so would be the bits of sums.
 template <class Visit>
-void forEachInHold(AmbientBodies& bodies, const Vessel& vessel, std::size_t hold,
-                   const Visit& visit) {
-  forEachMember(bodies, [&](const Member& member) {
+void forEachInHold(const btCollisionWorld& world, AmbientBodies& bodies, const Vessel& vessel,
+                   std::size_t hold, const Visit& visit) {
+  const auto visitIn = [&](const Member& member) {
     HoldAround* const around = aroundOf(member.ambient, bodies.regions);
     if (around && around->vessel == &vessel.ambient && around->hold == hold) visit(member, *around);
+  };
+  const btCollisionObjectArray& objects = world.getCollisionObjectArray();
+  for (int i = 0; i < objects.size(); ++i)
+    if (AmbientBody* const ambient = bodies.find(objects[i])) visitIn({*ambient});
+  if (!isOf(world, bodies.trees)) return;
+  forEachTree(*bodies.trees.world(), bodies.trees, [&](AmbientTree& tree) {
+    for (const auto& link : tree.links) visitIn({link->ambient, link.get()});
+  });
+}
+
+/// Whether any body is in a hold.
+bool hasAny(const FluidRegions& regions, const Vessel& vessel, std::size_t hold) {
+  const auto& all = regions.in_holds;
+  return std::any_of(all.begin(), all.end(), [&](const HoldAround& around) {
+    return around.vessel == &vessel.ambient && around.hold == hold;
   });
 }
 
@@ -170,15 +189,14 @@ Waterplane displacedBy(const Member& member, const Vessel& vessel, double height
 
 /// Finds the level in a hold with what floats there: V_hold(h) - sum of V_body(h) is the volume of
 /// its water, docs/theory.md eq. (155). Newton's method between brackets.
-void findLevel(AmbientBodies& bodies, const Vessel& vessel, std::size_t hold) {
+void findLevel(const btCollisionWorld& world, AmbientBodies& bodies, const Vessel& vessel,
+               std::size_t hold) {
   constexpr double kEmpty = 1e-12, kAccuracy = 1e-12;  // of the hold
   constexpr int kMostSteps = 60;
   HoldState& state = vessel.ambient.vessel->holds[hold];
   const HoldShape& shape = vessel.ambient.surface()->holds->shapes[hold];
   const Vector3& normal_F = vessel.normal_F;
-  bool is_any = false;
-  forEachInHold(bodies, vessel, hold, [&](const Member&, HoldAround&) { is_any = true; });
-  if (!is_any && state.displaced == 0) return;
+  if (!hasAny(bodies.regions, vessel, hold) && state.displaced == 0) return;
   double displaced = 0, height = 0;
   const bool is_dry = !(state.volume > kEmpty * shape.capacity());
   if (!is_dry) {
@@ -190,7 +208,7 @@ void findLevel(AmbientBodies& bodies, const Vessel& vessel, std::size_t hold) {
       const WetVolume full = computeWetVolume(shape.hull(), {normal_F, height, 0, 0});
       double area = full.waterplane.area;
       displaced = 0;
-      forEachInHold(bodies, vessel, hold, [&](const Member& member, HoldAround&) {
+      forEachInHold(world, bodies, vessel, hold, [&](const Member& member, HoldAround&) {
         area -= displacedBy(member, vessel, height, displaced).area;
       });
       const double error = full.volume - displaced - state.volume;
@@ -204,7 +222,7 @@ void findLevel(AmbientBodies& bodies, const Vessel& vessel, std::size_t hold) {
   if (displaced != state.displaced) vessel.ambient.floating->is_valid = false;
   state.displaced = displaced;
   const double height_W = height + vessel.normal_W.dot(vessel.origin_W);
-  forEachInHold(bodies, vessel, hold, [&](const Member& member, HoldAround& around) {
+  forEachInHold(world, bodies, vessel, hold, [&](const Member& member, HoldAround& around) {
     around.is_dry = is_dry;
     around.height = height_W;
     if (!is_dry && around.is_awake && !member.isAwake()) wake(member.ambient);
@@ -229,7 +247,7 @@ void findBodiesInHolds(btCollisionWorld& world, AmbientBodies& bodies) noexcept 
   });
   forEachVessel([&](const Vessel& vessel) {
     for (std::size_t i = 0; i < vessel.ambient.vessel->holds.size(); ++i)
-      findLevel(bodies, vessel, i);
+      findLevel(world, bodies, vessel, i);
   });
 }
 

@@ -314,6 +314,9 @@ WorldState filledState() {
   n(s.joints[0].is_enabled, s.joints[0].applied_impulse);
   s.multi_body_joints.resize(1);
   n(s.multi_body_joints[0].applied_impulses, s.time, s.random_seed);
+  BoxState& box = s.boxes.emplace_back();
+  n(box.smallest, box.largest, box.leaf_smallest, box.leaf_largest, s.next_pair, s.new_pairs,
+    s.looks_at_pairs);
   return s;
 }
 
