@@ -1,5 +1,3 @@
-#include "bullet_ambient/force/loads/surface_loads.h"
-
 #include <cmath>
 #include <sstream>
 #include <utility>
@@ -9,6 +7,9 @@
 #include "bullet_ambient/force/law/form_law.h"
 #include "bullet_ambient/force/loads/face_loads.h"
 #include "bullet_ambient/force/loads/form_loads.h"
+#include "bullet_ambient/force/loads/load_tables.h"
+#include "bullet_ambient/force/loads/surface_loads.h"
+#include "bullet_ambient/force/loads/wing_lift.h"
 
 namespace ambient {
 namespace {
