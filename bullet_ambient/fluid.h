@@ -58,7 +58,8 @@ class Immersed {
   void setFluidBody(std::shared_ptr<const FluidBody> fluid_body,
                     const std::optional<FrameOffset>& fluid_frame = std::nullopt) const;
 
-  /// Sets AttachDef::added_mass_factor and AttachDef::load_factor. The velocity of the body stays.
+  /// Sets AttachDef::added_mass_factor and AttachDef::load_factor. The velocity of the body stays;
+  /// the waves that it has made, sloshing and the last load are forgotten.
   /// Cost: new models, some microseconds; no loads.
   /// @throws std::invalid_argument if one is not positive and finite; then nothing has changed.
   void setFactors(double added_mass, double loads) const;

@@ -1,6 +1,6 @@
 #pragma once
 
-// What Immersed::applyImpulse() answers with, for vehicles and characters.
+// Answer of a body in a fluid to impulses, for vehicles and characters.
 
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 

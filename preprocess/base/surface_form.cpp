@@ -10,6 +10,7 @@
 #include "preprocess/base/surface_triangles.h"
 
 namespace ambient {
+
 std::vector<std::int32_t> fewTriangles(const Surface& surface, int count) {
   const SurfaceTriangles mesh(surface);
   std::vector<std::int32_t> few;

@@ -180,6 +180,7 @@ void takeFlow(const TriangleMesh& mesh, const BuildSettings& settings, FluidBody
 void takeWings(const TriangleMesh& mesh, const std::vector<int>& source_of,
                const BuildSettings& settings, FluidBody& body) {
   if (settings.wings.given.empty()) return;
+  if (settings.sphere_radius > 0) raiseInputError(sourceOf(settings), "a sphere has no wings");
   std::vector<std::uint8_t> labels;
   for (const int t : source_of)
     labels.push_back(settings.wings.labels[static_cast<std::size_t>(t)]);

@@ -150,6 +150,8 @@ BuiltBody readBody(const FluidBodyFile& shape, const ShapeBuildSettings& setting
   if (settings.waterline_subdivisions != 0)
     raiseInputError(name, "waterline subdivisions = ", settings.waterline_subdivisions,
                     ": a fluid body keeps the waterline table that it was built with");
+  if (settings.wings != "none")
+    raiseInputError(name, "wings = ", settings.wings, ": a fluid body keeps the wings that it has");
   return {readPrepared(shape.file), {}};
 }
 

@@ -7,6 +7,7 @@
 #include "bullet_ambient/fluid_body/fluid_body.h"
 #include "preprocess/builder/body_maker.h"
 #include "preprocess/builder/fluid_body_builder.h"
+#include "preprocess/collision_shape/shape_form.h"
 #include "preprocess/collision_shape/solids.h"
 #include "preprocess/shape/shapes.h"
 
@@ -38,31 +39,6 @@ struct CollisionShapeSettings {
   /// were turned round, children that could not be united. Default: standard error; null: nobody.
   BodyMaker::Report report = printReport;
 };
-
-/// Multiplies all lengths of a shape.
-PlacedShape scaled(PlacedShape part, double factor);
-
-/// Returns all numbers of the parts that act on the fluid, as bytes: equal for equal parts.
-std::string contentOf(std::vector<PlacedShape> parts);
-
-/// Checks that the largest size or coordinate of each part is 0, or kSmallestSize to kLargestSize.
-/// makeSolids() checks that sizes are positive.
-/// @throws std::runtime_error in one line that begins with the part's name.
-void requireUsualNumbers(const std::vector<PlacedShape>& parts);
-
-/// A collision shape, divided into form and size.
-struct ShapeForm {
-  std::string kind;                ///< as Bullet names it
-  std::vector<PlacedShape> parts;  ///< closed; their lengths over the size
-  double size = 1;                 ///< [m]
-};
-
-/// Divides all lengths of a shape by the largest one, which becomes its size. Rounds sizes and
-/// places to 20 binary digits, and points to 24, those of a float: so the rounding of scaled shapes
-/// does not make different forms.
-/// @throws std::runtime_error that begins with the part's name, if a number is not finite or all
-/// are zero.
-ShapeForm normalised(ShapeForm form);
 
 /// Makes the fluid body of a form at size 1, in the shape's frame.
 /// @throws std::runtime_error as makeFluidBody() of a collision shape.

@@ -1,6 +1,7 @@
 #include "bullet_ambient/bullet/connection/world_connection.h"
 
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
+#include <BulletDynamics/Dynamics/btDiscreteDynamicsWorldMt.h>
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 #include <BulletDynamics/Featherstone/btMultiBodyMLCPConstraintSolver.h>
@@ -25,6 +26,10 @@ struct OwnedSolver : btDiscreteDynamicsWorld {
   using btDiscreteDynamicsWorld::m_ownsConstraintSolver;
 };
 constexpr auto kOwnsSolver = &OwnedSolver::m_ownsConstraintSolver;
+struct LargeIslandSolver : btDiscreteDynamicsWorldMt {
+  using btDiscreteDynamicsWorldMt::m_constraintSolverMt;
+};
+constexpr auto kLargeIslandSolver = &LargeIslandSolver::m_constraintSolverMt;
 
 btMLCPSolverInterface* algorithmOf(const btMultiBodyMLCPConstraintSolver& solver);
 
@@ -77,6 +82,10 @@ btDiscreteDynamicsWorld& requireKind(btDynamicsWorld& world) {
         "ones in a way that cannot be rewritten; use btSoftRigidDynamicsWorld or "
         "btMultiBodyDynamicsWorld");
   }
+  const auto* threaded = dynamic_cast<btDiscreteDynamicsWorldMt*>(&world);
+  if (threaded && threaded->*kLargeIslandSolver)
+    refuse("the world has a solver of its own for large islands, in which no fluid would act",
+           "make the btDiscreteDynamicsWorldMt with null in its place");
   auto* discrete = dynamic_cast<btDiscreteDynamicsWorld*>(&world);
   if (discrete) return *discrete;
   throw std::invalid_argument(

@@ -99,7 +99,7 @@ struct RowBody {
   btVector3 velocity_change{0, 0, 0};  ///< [m/s]
   btVector3 spin_aside{0, 0, 0};       ///< k' - k of eq. (28b), added while Bullet sets up contacts
   btVector3 velocity_aside{0, 0, 0};   ///< [m/s]
-  btVector3 spin_by_load{0, 0, 0};     ///< part of spin_change by surface loads; 0: may not bounce
+  btVector3 spin_by_load{0, 0, 0};     ///< part of spin_change by surface loads; 0: no bounces
   btVector3 velocity_by_load{0, 0, 0};  ///< [m/s]
   bool is_held = false;  ///< true: has a joint, or a contact with a body that cannot move
   int rows = 0;          ///< number of rewritten rows

@@ -2,6 +2,7 @@
 // against, velocity basis, locked axes. Ends the solver's work on them: maps velocity changes by
 // rows back, lets bodies fly that no row has moved.
 
+#include <BulletCollision/CollisionDispatch/btManifoldResult.h>
 #include <BulletDynamics/ConstraintSolver/btContactSolverInfo.h>
 
 #include <optional>
@@ -116,6 +117,11 @@ void complete(AmbientBody& ambient, const Matrix6& inertia, const RigidState& st
   row.settled_inertia.reset();
 }
 
+// Returns true unless all contacts of a body have restitution 0; a callback may set any.
+bool mayBounce(const btRigidBody& body) {
+  return body.getRestitution() != 0 || gContactAddedCallback != nullptr;
+}
+
 // Returns the part of a body's velocity change by surface loads, in W. `row`: before complete().
 Twist changeByLoad(const btRigidBody& body, const FlightTask& task, const Quaternion& orientation,
                    const RowVelocity& row) {
@@ -217,7 +223,7 @@ void SolverGroup::prepareForRows(Member* const* members, int count,
                           ? computeLockedVelocity(taskOf(i), start, axisFactors(*ambient.body))
                           : rowVelocityOf(lanes, i, loads[i]);
     Twist by_load;
-    if (models[i]->loads && ambient.body->getRestitution() != 0)
+    if (models[i]->loads && mayBounce(*ambient.body))
       by_load = changeByLoad(*ambient.body, taskOf(i), start.orientation, row);
     complete(ambient, models[i]->inertia, start, time_step_, bodies_.complaints, row);
     // Those of FlightKernel::keep().

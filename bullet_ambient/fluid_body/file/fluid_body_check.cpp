@@ -251,6 +251,18 @@ void checkWing(const Wing& wing, double size, const Checker& check) {
     check.fail("body lift of a wing is ", wing.body_lift, ", but must be 1 to 2");
 }
 
+/// Checks that each face is a side of a triangle of the surface, whose part is its own.
+void checkWingedSurface(const FluidBody& body, const Checker& check) {
+  if (body.wings.empty()) return;
+  if (body.sphere_radius > 0) check.fail("a sphere has wings");
+  const std::size_t triangles = body.surface.triangles.size() / 3, faces = body.faces.size();
+  const bool fits =
+      faces == triangles || faces == 2 * triangles || (faces == 0 && body.omits_faces);
+  if (triangles == 0 || !fits)
+    check.fail("a body with wings has ", triangles, " triangles and ", faces,
+               " faces, but must have one or two faces a triangle");
+}
+
 void checkWings(const FluidBody& body, double size, const Checker& check) {
   const std::size_t wings = body.wings.size();
   if (wings > kMostWings) check.fail("there are ", wings, " wings, but at most ", kMostWings);
@@ -258,6 +270,7 @@ void checkWings(const FluidBody& body, double size, const Checker& check) {
   const auto labelled = [wings](std::size_t count) { return wings > 0 ? count : 0; };
   checkLabels(body.part_of_triangle, labelled(body.surface.triangles.size() / 3), wings,
               "triangles", check);
+  checkWingedSurface(body, check);
   if (body.form.faces.size() == 0 && body.form.part_of_face.empty()) return;
   checkLabels(body.form.part_of_face, labelled(body.form.faces.size()), wings,
               "faces of the form law", check);

@@ -96,7 +96,7 @@ class LoadTables {
   /// Returns ownDrag() of faces, of a body with wings of all its parts, along the columns of `axes`
   /// on frontal areas [m^2]. Cost: six sums over the faces.
   Vector3 ownDrag(const Faces& faces, const Matrix3& axes, const Vector3& frontal) const;
-  /// The same along the axes of the fluid body's separation, once.
+  /// Returns ownDrag() along the axes of the fluid body's separation, computed once.
   Vector3 ownDrag(const Faces& faces) const;
   /// Hull for hydrostatics. Cost: PackedHull().
   std::shared_ptr<const PackedHull> hull() const;

@@ -243,8 +243,8 @@ void LinkFlight::kickBy(double h, Coordinates& u) noexcept {
   dynamics_.appliedForces(forces_);
   dynamics_.setForces(false);
   dynamics_.setVelocity(u);
-  dynamics_.appliedForces(correction_);
-  forces_ -= correction_;
+  dynamics_.appliedForces(start_);
+  forces_ -= start_;
   kick_.kick(dynamics_, h, u, &forces_);
 }
 

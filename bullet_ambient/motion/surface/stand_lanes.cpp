@@ -23,15 +23,17 @@ void setWetVolume(StandLanes& lanes, int body, const WetVolume& wet) {
   setLane(lanes.moment, body, wet.moment);
 }
 
-/// Added mass along the normal per unit density, times c of docs/theory.md eq. (69) [m^3].
+/// Added mass along the normal per unit density, without its factor, times c of docs/theory.md
+/// eq. (69) [m^3].
 double heaveInertia(const SurfaceModel& model, const SurfacePlace& place) {
   if (!(model.excess_density > 0)) return 0;
   const Vector3& s = place.plane.normal;
   const Matrix3 fluid = place.inertia.bottomRight() - model.above.inertia.bottomRightCorner<3, 3>();
-  const double heave = model.heave_factor / model.excess_density * s.dot(fluid * s);
-  // The volume outside counts, and the factor is that of the added mass alone.
+  const double heave = model.heave_factor / model.added_density * s.dot(fluid * s);
+  // The volume outside counts, and the factors are those of the added mass alone.
   const double inside = place.inside_F ? -place.inside_F->below.volume : 0;
-  return std::max(0.0, inside > 0 ? heave + (1 - model.heave_factor) * inside : heave);
+  const double factors = model.heave_factor * (model.excess_density / model.added_density);
+  return std::max(0.0, inside > 0 ? heave + (1 - factors) * inside : heave);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 
 namespace ambient {
 
-/// What is known of a wing beside its numbers: where it leaves the body.
+/// Joint of a wing: where it leaves the body.
 struct WingJoint {
   double root_thickness = 0;  ///< of the wing at the joint [m]
   /// Thickness across the mean plane in the body, one root thickness beyond the joint, over that of

@@ -135,6 +135,12 @@ TEST_F(FluidDoor, RefusesWorldsThatCannotCarryAFluid) {
                                                 &bodies);
   expectNames(refusal(deformable), "btDeformableMultiBodyDynamicsWorld");
   expectNames(refusal(deformable), "btSoftRigidDynamicsWorld");
+  btConstraintSolverPoolMt pool(1);
+  btSequentialImpulseConstraintSolverMt for_large_islands;
+  btDiscreteDynamicsWorldMt threaded(&dispatcher, &broadphase, &pool, &for_large_islands,
+                                     &configuration);
+  threaded.setConstraintSolver(&sequential);
+  expectNames(refusal(threaded), "large islands");
 }
 
 TEST_F(FluidDoor, RefusesSolversThatAreNotPlainAndNamesMakeSolver) {

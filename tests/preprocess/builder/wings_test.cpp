@@ -274,9 +274,43 @@ TEST(Wings, AreTheSameInAFile) {
   EXPECT_EQ(read.wings[1].is_joined, body.wings[1].is_joined);
   const Twist x{{0, 3, 1}, {20, 1, 2}};
   EXPECT_EQ(loadsOn(read)->load(x).vector(), loadsOn(body)->load(x).vector());
-  FluidBody broken = body;
-  broken.part_of_triangle[0] = 9;
-  EXPECT_NE(test::refusalOf([&] { checkFluidBody(broken, "rocket"); }).find("9"),
+}
+
+TEST(Wings, ThatNoBodyHasAreRefused) {
+  const auto refusalAfter = [](const auto& change) {
+    FluidBody body = builtRocket();
+    change(body);
+    return test::refusalOf([&] { checkFluidBody(body, "rocket"); });
+  };
+  EXPECT_EQ(refusalAfter([](FluidBody&) {}), "");
+  EXPECT_NE(refusalAfter([](FluidBody& b) { b.part_of_triangle[0] = 9; }).find("9"),
+            std::string::npos);
+  EXPECT_NE(refusalAfter([](FluidBody& b) {
+              b.surface.triangles.clear();
+              b.part_of_triangle.clear();
+            }).find("a body with wings has 0 triangles"),
+            std::string::npos);
+  EXPECT_NE(refusalAfter([](FluidBody& b) { b.sphere_radius = 1; }).find("a sphere has wings"),
+            std::string::npos);
+  const TriangleMesh ball = makeEllipsoidMesh({1, 1, 1}, 200);
+  BuildSettings settings;
+  settings.sphere_radius = 1;
+  settings.wings.labels.assign(static_cast<std::size_t>(ball.triangleCount()), 1);
+  settings.wings.given.resize(1);
+  EXPECT_NE(test::refusalOf([&] { makeFluidBody(ball, settings); }).find("a sphere has no wings"),
+            std::string::npos);
+}
+
+TEST(Wings, AreNotSoughtInAFluidBody) {
+  const TemporaryFolder folder;
+  writeFluidBody(builtRocket(), folder / "rocket.ambient");
+  ShapeDescription shape;
+  shape.geometry = FluidBodyFile{folder / "rocket.ambient"};
+  ShapeBuildSettings settings;
+  settings.wings = "auto";
+  EXPECT_NE(test::refusalOf([&] {
+              buildShape(shape, settings);
+            }).find("a fluid body keeps the wings that it has"),
             std::string::npos);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "bullet_ambient/robot_dynamics.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
@@ -27,6 +28,12 @@ BodyDef bodyOf(double mass, double z, btCollisionShape& shape) {
   BodyDef def{mass, toVector3(moments), {}, &shape};
   def.start.position = {0, 0, z};
   return def;
+}
+
+FluidBody ballOf(double radius) {
+  FluidBody ball = facelessEllipsoid(Vector3::Constant(radius));
+  ball.sphere_radius = radius;
+  return ball;
 }
 
 // A world with a floor, whose bodies have a restitution.
@@ -116,7 +123,7 @@ TEST(Bounce, EndsWhenItDoesInStockBullet) {
       }
 }
 
-// What stands below a ball and is held has no weight to give away.
+// A box below a ball, held by the floor, has no weight to give away.
 TEST(Bounce, OnWhatIsHeldEndsToo) {
   btSphereShape ball{bt(kRadius)};
   btBoxShape box{{bt(0.5), bt(0.5), bt(kRadius)}};
@@ -165,6 +172,35 @@ TEST(Bounce, OfBodiesThatTurnNeverGainsEnergy) {
       }
 }
 
+bool bounceBy08(btManifoldPoint& point, const btCollisionObjectWrapper*, int, int,
+                const btCollisionObjectWrapper*, int, int) {
+  point.m_combinedRestitution = bt(0.8);
+  return true;
+}
+
+TEST(Bounce, ByACallbackIsThatByTheBody) {
+  btSphereShape ball{bt(kRadius)};
+  const auto rises = [&](double restitution) {
+    BouncingWorld scene(1);
+    btRigidBody& body =
+        scene.add(bodyOf(massOf(998), 0.3, ball), ballOf(kRadius), {998, 1, Vector3::Zero()});
+    body.setRestitution(bt(restitution));
+    body.setCollisionFlags(btCollisionObject::CF_CUSTOM_MATERIAL_CALLBACK);
+    std::vector<double> speeds;
+    for (int i = 0; i < 120; ++i) {
+      scene.step(1.0 / 60);
+      speeds.push_back(riseOf(body));
+    }
+    return speeds;
+  };
+  const std::vector<double> expected = rises(0.8);
+  EXPECT_GT(*std::max_element(expected.begin(), expected.end()), 0.5);
+  gContactAddedCallback = &bounceBy08;
+  const std::vector<double> speeds = rises(0);
+  gContactAddedCallback = nullptr;
+  EXPECT_EQ(speeds, expected);
+}
+
 // A multibody of up to two balls on a hinge.
 std::unique_ptr<btMultiBody> ballsOnAHinge(int links, double mass) {
   const btScalar inertia = bt(0.4 * mass * kRadius * kRadius);
@@ -183,14 +219,16 @@ std::unique_ptr<btMultiBody> ballsOnAHinge(int links, double mass) {
 
 // That multibody in a fluid above a floor, both with restitution 0.8.
 struct BouncingRobot {
-  BouncingRobot(int link_count, double density)
+  BouncingRobot(int link_count, double density, double viscosity = 0)
       : links(link_count), mass(massOf(density)), weight((mass - density * volume()) * kGravity) {
     scene.world.setGravity({0, 0, bt(-kGravity)});
     scene.world.getSolverInfo().m_restitutionVelocityThreshold = bt(0.2);
     scene.world.getSolverInfo().m_numIterations = 20;
-    for (int i = -1; i < links; ++i)
-      scene.fluid.add(
-          robot, i, {std::make_shared<FluidBody>(facelessEllipsoid(kBalls)), idealFluid(density)});
+    Medium medium = idealFluid(density);
+    medium.viscosity = viscosity;
+    const auto body =
+        std::make_shared<FluidBody>(viscosity > 0 ? ballOf(kRadius) : facelessEllipsoid(kBalls));
+    for (int i = -1; i < links; ++i) scene.fluid.add(robot, i, {body, medium});
     const btTransform place(btQuaternion::getIdentity(), {0, 0, -1});
     scene.addFixed(std::make_unique<btBoxShape>(btVector3(50, 50, 1)), place)
         .setRestitution(bt(0.8));
@@ -248,6 +286,15 @@ TEST(Bounce, OfLinksKeepsNoMoreEither) {
         BouncingRobot robot(links, density);
         expectToRest(robot, rate);
       }
+}
+
+TEST(Bounce, OfLinksInAViscousFluidKeepsNoMoreEither) {
+  for (const int links : {0, 1})
+    for (const double rate : {60.0, 240.0}) {
+      SCOPED_TRACE(testing::Message() << links << " " << rate);
+      BouncingRobot robot(links, 998, 20);
+      expectToRest(robot, rate);
+    }
 }
 
 }  // namespace

@@ -316,23 +316,43 @@ class ResistanceAlone : public SurfaceLoads {
   SplitLoad split(const Twist&, const WetPart*) const noexcept override { return {{}, kCreeping}; }
 };
 
-// Links that each sink at V by themselves sink at V together, at any step: stiff by 1e4 per second.
+// Gives links a resistance, stiff by 1e4 per second, against which each sinks at a velocity.
+void giveResistances(TestTree& test, const Vector3& sinking) {
+  Arbitrary arbitrary(2);
+  for (int l = 0; l < test.tree.size(); ++l) {
+    BodyModel model = *test.tree.links[l].model;
+    const double drag = 1e4 * arbitrary.between(1, 3);
+    Resistance resistance;
+    resistance.matrix.diagonal() << Vector3::Constant(0.1 * drag), Vector3::Constant(drag);
+    model.loads = std::make_shared<ResistanceAlone>();
+    giveResistance(model, std::make_shared<Resistance>(resistance));
+    test.setModel(l, std::move(model));
+    test.tree.links[l].surroundings.applied.force = drag * sinking;
+  }
+}
+
+TEST(RowVelocityOfLinks, KnowsItsPartByLoads) {
+  TestTree test = makeTree(4, {4, true, true, 5, 0.3});
+  giveResistances(test, {0.01, 0, -0.04});
+  TestTree dry = makeTree(4, {4, true, true, 5, 0.3});
+  for (int l = 0; l < dry.tree.size(); ++l)
+    dry.tree.links[l].surroundings = test.tree.links[l].surroundings;
+  LinkFlight flight(test.tree), without(dry.tree);
+  ASSERT_TRUE(flight.computeRowVelocity(test.pose, test.u, 0.01).is_finite);
+  ASSERT_TRUE(without.computeRowVelocity(dry.pose, dry.u, 0.01).is_finite);
+  const Coordinates& by_loads = flight.rowVelocityByLoads();
+  EXPECT_GT(by_loads.norm(), 0.1 * test.u.norm());
+  EXPECT_LT((flight.rowVelocity() - without.rowVelocity() - by_loads).norm(),
+            1e-12 * by_loads.norm());
+}
+
+// Links that each sink at V by themselves sink at V together, at any step.
 TEST(LinkFlight, SinksSteadilyThroughAStiffFluid) {
   const Vector3 sinking(0.01, 0, -0.04);
   for (const int hertz : {30, 60, 1000}) {
     TestTree test = makeTree(4, {4, true, true, 5, 0.3});
     test.u.setZero();
-    Arbitrary arbitrary(2);
-    for (int l = 0; l < test.tree.size(); ++l) {
-      BodyModel model = *test.tree.links[l].model;
-      const double drag = 1e4 * arbitrary.between(1, 3);
-      Resistance resistance;
-      resistance.matrix.diagonal() << Vector3::Constant(0.1 * drag), Vector3::Constant(drag);
-      model.loads = std::make_shared<ResistanceAlone>();
-      giveResistance(model, std::make_shared<Resistance>(resistance));
-      test.setModel(l, std::move(model));
-      test.tree.links[l].surroundings.applied.force = drag * sinking;
-    }
+    giveResistances(test, sinking);
     LinkFlight flight(test.tree);
     const Vector3 start = test.pose.position;
     ASSERT_TRUE(test.fly(flight, 1.0 / hertz, hertz).is_finite);

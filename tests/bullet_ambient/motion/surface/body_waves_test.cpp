@@ -14,16 +14,19 @@ namespace {
 
 const SurfacePlane kPlane{{0, 0, 1}, 0, 1, 1};
 
-/// The stand of a body of unit inertia whose fluid has an added mass per unit density.
-SurfaceStand standOf(const WetVolume& wet, const SurfacePlane& plane, double added_mass = 0) {
+/// The stand of a body of unit inertia whose fluid has an added mass per unit density, times a
+/// factor.
+SurfaceStand standOf(const WetVolume& wet, const SurfacePlane& plane, double added_mass = 0,
+                     double factor = 1) {
   SurfaceModel model;
   model.above.inertia = Matrix6::Identity();
   model.excess_density = plane.density;
+  model.added_density = factor * plane.density;
   SurfaceStand stand;
   stand.plane = plane;
   stand.immersion_F.wet = wet;
   Matrix6 inertia = Matrix6::Identity();
-  inertia.diagonal().tail<3>().array() += plane.density * added_mass;
+  inertia.diagonal().tail<3>().array() += model.added_density * added_mass;
   stand.inertia = SymmetricMatrix(inertia);
   const SurfaceModel* const models = &model;
   SurfaceStand* const stands = &stand;
@@ -72,6 +75,16 @@ FloatingModes boxModes(double length, double breadth, double draught, double add
   WetVolume wet{volume, {0, 0, -volume * draught / 2}, 0, {area, {0, 0, 0}, Matrix3::Zero()}};
   wet.waterplane.spread.diagonal() << area * length * length / 12, area * breadth * breadth / 12, 0;
   return standOf(wet, kPlane, added_mass).modes;
+}
+
+TEST(BodyWaves, DoNotDependOnTheFactorOnTheAddedMass) {
+  const FloatingModes modes = hemisphere();
+  const WetVolume wet = computeWetSphere(1, {0, 0, 0}, kPlane);
+  for (const double factor : {0.3, 3.0}) {
+    const FloatingModes other = standOf(wet, kPlane, kPi / 3, factor).modes;
+    EXPECT_NEAR(other.strength[0], modes.strength[0], 1e-13 * modes.strength[0]);
+    EXPECT_NEAR(other.rate[0], modes.rate[0], 1e-13 * modes.rate[0]);
+  }
 }
 
 TEST(BodyWaves, OfTheHeaveOfBoxesHaveTheImpedanceOfTheFit) {
