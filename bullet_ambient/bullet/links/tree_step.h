@@ -19,6 +19,11 @@ inline TreeTask taskOf(AmbientBodies& bodies, btScalar time_step) {
   return {bodies, static_cast<double>(time_step), bodies.trees.world()->getGravity()};
 }
 
+/// True if there are trees, and they are those of this world.
+inline bool isOf(const btCollisionWorld& world, const AmbientTrees& trees) noexcept {
+  return !trees.empty() && trees.world() == &world;
+}
+
 /// Calls visit(AmbientTree&) for each tree whose multibody is in the world. Multibodies outside it
 /// may have been destroyed.
 template <class Visit>

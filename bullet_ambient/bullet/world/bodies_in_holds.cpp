@@ -46,10 +46,6 @@ struct Member {
 
 constexpr int kAway = -2;  // AmbientBody::in_hold of what does not move in this world
 
-bool isOf(const btCollisionWorld& world, const AmbientTrees& trees) {
-  return !trees.empty() && trees.world() == &world;
-}
-
 /// Sets AmbientBody::in_hold of all members to -1 or kAway, and places links. Returns how many
 /// members there are.
 std::size_t findMembers(const btCollisionWorld& world, AmbientBodies& bodies) {

@@ -23,10 +23,6 @@ AMBIENT_BEGIN
 
 namespace {
 
-bool isOf(const btCollisionWorld& world, const AmbientTrees& trees) {
-  return !trees.empty() && trees.world() == &world;
-}
-
 // Calls visit(AmbientTree&) for the trees of a world.
 template <class Visit>
 void forEachTreeIn(const btCollisionWorld& world, const AmbientBodies& bodies, const Visit& visit) {
