@@ -277,8 +277,10 @@ class VacuumStep : public testing::TestWithParam<WorldSetup> {
       for (btRigidBody* body : scene->bodies()) {
         // Explicit form of Bullet's gyroscopic torque, equal to the one in the rows' velocity.
         body->setFlags(BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT);
-        body->setRestitution(0);  // a bounce is another one, docs/theory.md eq. (28e)
-        if (scene == &ambient_ && isRound(*body))
+        // A bounce in a fluid is another one, docs/theory.md eq. (28e). With Lemke's solver, which
+        // leaves few rows, nothing bounces; else what does stays Bullet's.
+        if (usesSolver(GetParam(), "Lemke")) body->setRestitution(0);
+        if (scene == &ambient_ && isRound(*body) && body->getRestitution() == 0)
           ambient_.host().fluid().add(*body, nothingButThePath());
       }
     }
