@@ -71,7 +71,7 @@ json fallingBoxes() {
 TEST(SimulationState, GoesOnBitForBit) {
   expectSavedStatesGoOn(readNamedScene("plate_9cm"));
   expectSavedStatesGoOn(sceneFrom(fallingBoxes()), 12);
-  expectSavedStatesGoOn(readNamedScene("pool"), 12, 0.25);
+  expectSavedStatesGoOn(readNamedScene("pool"), 5, 0.25);
 }
 
 TEST(SimulationRegions, AreReplacedByThoseOfAnotherScene) {
