@@ -268,6 +268,25 @@ void requirePrepared(const FluidBody& body) {
                               "its file with ambient_preprocess upgrade");
 }
 
+namespace {
+
+void appendWings(const FluidBody& body, std::string& bytes) {
+  if (body.wings.empty()) return;
+  const auto append = [&bytes](const double* values, std::size_t count) {
+    bytes.append(reinterpret_cast<const char*>(values), count * sizeof(double));
+  };
+  for (const Wing& wing : body.wings) {
+    for (const double* number : wing.numbers()) append(number, 1);
+    bytes += wing.is_joined ? '\1' : '\0';
+  }
+  for (const double* number : body.form.rest.numbers()) append(number, 1);
+  append(body.form.wing_shares.data(), body.form.wing_shares.size());
+  bytes.append(body.form.part_of_face.begin(), body.form.part_of_face.end());
+  bytes.append(body.part_of_triangle.begin(), body.part_of_triangle.end());
+}
+
+}  // namespace
+
 std::uint64_t contentHash(const FluidBody& body) {
   std::string bytes;
   const auto append = [&bytes](const double* values, std::size_t count) {
@@ -318,16 +337,7 @@ std::uint64_t contentHash(const FluidBody& body) {
       bytes.append(reinterpret_cast<const char*>(&opening.to), sizeof opening.to);
     }
   }
-  for (const Wing& wing : body.wings) {
-    for (const double* number : wing.numbers()) append(number, 1);
-    bytes += wing.is_joined ? '\1' : '\0';
-  }
-  if (!body.wings.empty()) {
-    for (const double* number : body.form.rest.numbers()) append(number, 1);
-    append(body.form.wing_shares.data(), body.form.wing_shares.size());
-    bytes.append(body.form.part_of_face.begin(), body.form.part_of_face.end());
-    bytes.append(body.part_of_triangle.begin(), body.part_of_triangle.end());
-  }
+  appendWings(body, bytes);
   return fnv1a64(bytes);
 }
 

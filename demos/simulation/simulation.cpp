@@ -119,7 +119,7 @@ btDefaultCollisionConstructionInfo poolsFor(const Scene& scene) {
 }  // namespace
 
 Simulation::Simulation(const Scene& scene, const std::vector<PreparedBody>& prepared,
-                       bool takes_robots, FlowField flow)
+                       bool takes_robots, const FlowField& flow)
     : configuration_(poolsFor(scene)),
       bullet_(makeBulletWorld(takes_robots || !scene.robots.empty(), dispatcher_, broadphase_,
                               configuration_)),

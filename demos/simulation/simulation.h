@@ -48,7 +48,7 @@ class Simulation {
   /// @throws std::invalid_argument naming the scene's file and the body if its values are not
   /// physical.
   Simulation(const Scene& scene, const std::vector<PreparedBody>& bodies, bool takes_robots = false,
-             FlowField flow = nullptr);
+             const FlowField& flow = nullptr);
   ~Simulation();
 
   /// Whether its Bullet world is one for robots.

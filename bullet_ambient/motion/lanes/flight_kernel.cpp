@@ -298,6 +298,7 @@ void forAll(AnyLanes& bodies) noexcept {
   for (int at = 0; at < kFlightLanes; at += kWidth) {
     const Mask active = load(bodies.active + at) > Lanes{};
     if (!anyOf(active)) continue;
+    // NOLINTNEXTLINE(bugprone-branch-clone): some steps are the same for both.
     if (bodies.has_diagonal_inertia) {
       kDiagonal(bodies, at, active);
     } else {
