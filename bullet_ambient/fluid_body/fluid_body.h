@@ -209,7 +209,7 @@ struct SurfaceForm {
   /// Triangles for hydrostatics, three indices of vertices of the surface each: those of the
   /// surface, with fans of few triangles in place of flat sides.
   std::vector<std::int32_t> hull;
-  /// Of a body with wings: the part of each of `faces`, 0 or the number of its wing from 1 on.
+  /// Part of each of `faces`: 0 the rest, else the number of its wing from 1 on; empty: no wings.
   std::vector<std::uint8_t> part_of_face;
   FormShape rest;  ///< of a body with wings: shape of what is no wing
   /// W of each wing, eq. (158).

@@ -18,7 +18,7 @@ struct GivenWing {
   std::optional<double> aspect;       ///< L of docs/theory.md eq. (156), images counted
 };
 
-/// Which triangles of a mesh are wings.
+/// Choice of the triangles of a mesh that are wings.
 struct WingPlan {
   std::vector<std::uint8_t> labels;  ///< of each triangle: 0 or the number of a wing; empty: none
   std::vector<GivenWing> given;      ///< of each wing

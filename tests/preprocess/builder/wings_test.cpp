@@ -185,7 +185,7 @@ TEST(Wings, FarApartAreTwoBodies) {
     EXPECT_LT((sum.force - 2 * there.force).norm(), 0.005 * v.squaredNorm());
     EXPECT_LT((sum.torque - 2 * there.torque).norm(), 0.005 * v.squaredNorm());
   }
-  // What turns about a point between them is two plates that move opposite ways, w x c.
+  // A turn about a point between them moves the two plates opposite ways, w x c.
   const Wrench up = of_one->load({Vector3::Zero(), {0.3, -7, 40}});
   const double turning = loads->load({{1, 0, 0}, {0.3, 0, 0}}).torque.x();
   EXPECT_NEAR(turning, 2 * (40 * up.force.z() - 7 * up.force.y()), 0.01 * std::abs(turning));

@@ -217,7 +217,7 @@ std::unique_ptr<btMultiBody> ballsOnAHinge(int links, double mass) {
   return robot;
 }
 
-// That multibody in a fluid above a floor, both with restitution 0.8.
+// A multibody in a fluid above a floor, both with restitution 0.8.
 struct BouncingRobot {
   BouncingRobot(int link_count, double density, double viscosity = 0)
       : links(link_count), mass(massOf(density)), weight((mass - density * volume()) * kGravity) {
