@@ -1,13 +1,14 @@
 """Builds the wheel of `pip install ./demos/python`: CMake compiles and installs the component `python`, and this packs it.
 
 A build backend by PEP 517 that takes no more than Python's own library. It builds in build/wheel-*, so that a second
-wheel takes seconds.
+wheel takes seconds. CMAKE_ARGS in the environment: further options of CMake's, such as the place of another Bullet.
 """
 
 import base64
 import hashlib
 import os
 import re
+import shlex
 import subprocess
 import sys
 import sysconfig
@@ -52,7 +53,8 @@ def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     build = str(ROOT / "build" / f"wheel-{sys.implementation.cache_tag}")
-    run("cmake", "-G", "Ninja", "-S", str(ROOT), "-B", build, *[f"-D{name}={value}" for name, value in OPTIONS.items()])
+    options = [f"-D{name}={value}" for name, value in OPTIONS.items()] + shlex.split(os.environ.get("CMAKE_ARGS", ""))
+    run("cmake", "-G", "Ninja", "-S", str(ROOT), "-B", build, *options)
     run("cmake", "--build", build, "--target", *TARGETS)
     with tempfile.TemporaryDirectory() as stage:
         run("cmake", "--install", build, "--component", "python", "--prefix", stage)
