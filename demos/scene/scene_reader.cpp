@@ -27,12 +27,11 @@ fs::path programFolder() {
   return fs::read_symlink("/proc/self/exe", error).parent_path();
 }
 
-/// Returns the folder of the file that this code was linked into: of the Python module, its
-/// package.
+/// Returns the folder of the file that this code was linked into: of the module, its package.
 fs::path libraryFolder() {
+  static const char here = 0;
   Dl_info found;
-  const bool is_found = dladdr(reinterpret_cast<const void*>(&libraryFolder), &found) != 0;
-  return is_found ? fs::path(found.dli_fname).parent_path() : fs::path();
+  return dladdr(&here, &found) != 0 ? fs::path(found.dli_fname).parent_path() : fs::path();
 }
 
 bool looksLikePath(const std::string& text) {
