@@ -1,5 +1,7 @@
 #include "demos/scene/scene_reader.h"
 
+#include <dlfcn.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -25,6 +27,13 @@ fs::path programFolder() {
   return fs::read_symlink("/proc/self/exe", error).parent_path();
 }
 
+/// Returns the folder of the file that this code was linked into: of the module, its package.
+fs::path libraryFolder() {
+  static const char here = 0;
+  Dl_info found;
+  return dladdr(&here, &found) != 0 ? fs::path(found.dli_fname).parent_path() : fs::path();
+}
+
 bool looksLikePath(const std::string& text) {
   return text.find('/') != std::string::npos || fs::path(text).extension() == ".json";
 }
@@ -35,7 +44,7 @@ std::vector<fs::path> sceneFolders() {
   const fs::path program = programFolder();
   std::vector<fs::path> folders;
   for (const fs::path& folder :
-       {fs::path("data/scenes"), program / "../../../data/scenes",
+       {fs::path("data/scenes"), libraryFolder() / "data/scenes", program / "../../../data/scenes",
         program / "../share/bullet_ambient/scenes", fs::path(AMBIENT_SOURCE_SCENES)}) {
     std::error_code error;
     const fs::path real = fs::canonical(folder, error);

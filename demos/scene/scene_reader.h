@@ -8,9 +8,9 @@
 
 namespace ambient {
 
-/// Existing folders of named scenes, in order of priority: ./data/scenes; the source or install
-/// tree of the running program; the source tree that the program was built
-/// from.
+/// Existing folders of named scenes, in order of priority: ./data/scenes; data/scenes beside the
+/// Python module; the source or install tree of the running program; the source tree that the
+/// program was built from.
 std::vector<std::filesystem::path> sceneFolders();
 
 /// Files of all named scenes, sorted by name; of equal names the file in the first folder.

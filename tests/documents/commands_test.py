@@ -16,7 +16,7 @@ BUILD = None
 REFERENCE = ROOT / "docs/file_format.md"  # its forms have all options
 MODULE = "bullet_ambient"
 PROGRAMS = ("ambient_demo", "ambient_preprocess", MODULE)
-OTHERS = "build/crates cd conan cp ctest npm parallel sbatch seq snakemake tar vcpkg".split()
+OTHERS = ". build/crates cd conan cp ctest npm parallel pip python3 sbatch seq snakemake tar vcpkg".split()
 INLINE = re.compile(r"`((?:ambient_(?:demo|preprocess) |build/\w+/bin/|demos/run|tests/run|cmake |ctest )[^`]*)`")
 OPTION = re.compile(r"(?<![\w:=-])--?[a-z][a-z_-]*")
 

@@ -8,6 +8,7 @@ import numpy as np
 import picture
 import pybullet as p
 
+import bullet_ambient
 from bullet_ambient.pybullet import Fluid, Wave
 
 parser = argparse.ArgumentParser(description=__doc__)
@@ -16,7 +17,7 @@ arguments = parser.parse_args()
 
 GRAVITY, SECONDS = 9.81, 20
 WAVES = [Wave(0.12, 3.2, (-1, 0.3, 0), 0.5), Wave(0.04, 2.1, (-1, -0.8, 0))]
-BOAT = Path(__file__).resolve().parents[3] / "data/meshes/boat.obj"
+BOAT = Path(bullet_ambient.Scene("boat_in_waves").file).parents[1] / "meshes/boat.obj"
 
 
 def height(x, y, time):

@@ -8,6 +8,7 @@ import numpy as np
 import picture
 import pybullet as p
 
+import bullet_ambient
 from bullet_ambient.pybullet import Fluid
 
 parser = argparse.ArgumentParser(description=__doc__)
@@ -15,7 +16,7 @@ parser.add_argument("picture", nargs="?", default="out/pybullet_wader.png", type
 arguments = parser.parse_args()
 
 LEVEL, PERIOD, SECONDS = 0.25, 2 / 3, 4
-ROBOT = Path(__file__).resolve().parents[3] / "data/robots/wader.urdf"
+ROBOT = Path(bullet_ambient.Scene("wader").file).parents[1] / "robots/wader.urdf"
 
 p.connect(p.DIRECT)
 p.setGravity(0, 0, -9.81)

@@ -13,7 +13,7 @@ import numpy as np
 import bullet_ambient as ba
 
 FLUID = ba.Medium(density=1, viscosity=4e-7)  # hulls of 4 to 17 m at 1 m/s: Reynolds numbers of 10^7 on their length
-AIRSHIP = Path(__file__).resolve().parents[3] / "data/meshes/airship.obj"  # 4 : 1, with fins
+AIRSHIP = Path(ba.Scene("airship").file).parents[1] / "meshes/airship.obj"  # 4 : 1, with fins
 DRIFT, TURN = 0.035, 0.01  # [m/s] at a speed of 1, [rad/s]
 
 

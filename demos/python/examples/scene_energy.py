@@ -12,7 +12,7 @@ import numpy as np
 
 import bullet_ambient as ba
 
-SCENES = Path(__file__).resolve().parents[3] / "data/scenes"
+SCENES = Path(ba.Scene("leaves").file).parent
 
 
 def in_body_axes(orientation, vectors):

@@ -12,6 +12,7 @@ import bullet_ambient as ba
 
 sys.path.append(str(Path(__file__).resolve().parents[3] / "demos/python/examples"))
 import glide_to_target  # noqa: E402
+import keep_heading  # noqa: E402
 import station_keeping  # noqa: E402
 from cma import Cma  # noqa: E402
 
@@ -243,6 +244,11 @@ class LearningTest(unittest.TestCase):
         _, misses = glide_to_target.learn(7, population=12, each=3, say=lambda *_: None)
         self.assertGreater(misses[0], 2)
         self.assertLess(np.mean(misses[-2:]), 1.8)
+
+    def test_the_boat_begins_to_keep_its_heading(self):
+        _, rewards = keep_heading.learn(5, say=lambda *_: None)
+        self.assertLess(rewards[0], -0.7)
+        self.assertGreater(np.mean(rewards[-2:]), -0.1)
 
 
 if __name__ == "__main__":
