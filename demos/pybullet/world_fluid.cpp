@@ -123,10 +123,28 @@ std::string nameOf(const btCollisionObject& object) {
   return given ? name + " " + given : name;
 }
 
-bool hasContacts(btDispatcher& dispatcher) {
-  for (int i = 0; i < dispatcher.getNumManifolds(); ++i)
-    if (dispatcher.getManifoldByIndexInternal(i)->getNumContacts() > 0) return true;
-  return false;
+bool isOfParts(const btCollisionObject& object) {
+  const btCollisionShape& shape = *object.getCollisionShape();
+  return shape.isCompound() && static_cast<const btCompoundShape&>(shape).getNumChildShapes() > 1;
+}
+
+// What hinders a saved state from being restored bit for bit; null: nothing.
+const char* hindranceOf(const btDispatcherInfo& info, btDispatcher& dispatcher) {
+  const char* found = nullptr;
+  for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+    const btPersistentManifold& touch = *dispatcher.getManifoldByIndexInternal(i);
+    if (touch.getNumContacts() == 0) continue;
+    if (!info.m_deterministicOverlappingPairs)
+      return "bodies touch each other where a state is saved: after restore() they do not move on "
+             "bit for bit, unless setPhysicsEngineParameter(deterministicOverlappingPairs=1) was "
+             "called";
+    if (isOfParts(*touch.getBody0()) || isOfParts(*touch.getBody1()))
+      found =
+          "a body of several collision shapes touches something where a state is saved: after "
+          "restore() it may not move on bit for bit, as Bullet alone knows in which order these "
+          "shapes touch";
+  }
+  return found;
 }
 
 // True for a convex hull, also one in a compound of its own.
@@ -302,12 +320,8 @@ const btMultiBody& WorldFluid::multiBody(int body) const {
 }
 
 std::size_t WorldFluid::save() {
-  if (!world_.getDispatchInfo().m_deterministicOverlappingPairs &&
-      hasContacts(*world_.getDispatcher()))
-    sayOnce(std::string(kOurs) +
-            "bodies touch each other where a state is saved: after restore() they do not move on "
-            "bit for bit, unless setPhysicsEngineParameter(deterministicOverlappingPairs=1) was "
-            "called");
+  if (const char* why = hindranceOf(world_.getDispatchInfo(), *world_.getDispatcher()))
+    sayOnce(std::string(kOurs) + why);
   states_.push_back(fluid_.save());
   return states_.size() - 1;
 }

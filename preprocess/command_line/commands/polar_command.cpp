@@ -201,6 +201,16 @@ void checkNumbers(const PolarArguments& arguments) {
   requireNotNegative("--reference-length", arguments.reference_length);
 }
 
+/// Sets what rounding has left of coefficients beside the largest to 0.
+PolarCoefficients withoutRounding(PolarCoefficients coefficients) {
+  constexpr double kRounding = 1e-12;
+  double largest = 0;
+  for (const double value : coefficients) largest = std::max(largest, std::abs(value));
+  for (double& value : coefficients)
+    if (std::abs(value) < kRounding * largest) value = 0;
+  return coefficients;
+}
+
 void runPolar(const PolarArguments& arguments) {
   const AngleRange attack = parseRange("--attack", arguments.attack);
   const AngleRange side_slip = parseRange("--side-slip", arguments.side_slip);
@@ -233,7 +243,7 @@ void runPolar(const PolarArguments& arguments) {
       char cell[40];
       std::snprintf(cell, sizeof cell, "%.10g,%.10g", attack[i], side_slip[j]);
       text += cell;
-      for (const double value : coefficients) {
+      for (const double value : withoutRounding(coefficients)) {
         std::snprintf(cell, sizeof cell, ",%.9g", value + 0.0);
         text += cell;
       }
@@ -266,7 +276,7 @@ void addPolar(CLI::App& app) {
             "Dynamic viscosity [Pa s] (default 0: no friction)");
   addFlowOptions(command, arguments->flow);
   addOption(command, "--reference-area", arguments->reference_area, "A",
-            "[m^2] (default: half the area projected along --up)");
+            "[m^2] (default: that of the silhouette along --up)");
   addOption(command, "--reference-length", arguments->reference_length, "L",
             "[m] (default: extent along --forward)");
   addOption(command, "--reynolds", arguments->reynolds, "FROM:TO[:PER_DECADE]",

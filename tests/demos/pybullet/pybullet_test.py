@@ -477,6 +477,22 @@ class LifeTest(Case):
             said = [line for line in self.fluid.status()["said"] if "deterministicOverlappingPairs=1" in line]
             self.assertEqual(len(said), 1 - sorts, said)
 
+    def test_a_state_with_contacts_of_several_shapes_is_told(self):
+        self.fluid.remove()
+        self.fluid.air()
+        self.gravity()
+        p.createMultiBody(0, p.createCollisionShape(p.GEOM_PLANE, physicsClientId=self.client), physicsClientId=self.client)
+        p.setPhysicsEngineParameter(deterministicOverlappingPairs=1, physicsClientId=self.client)
+        for boxes in (1, 2):
+            shape = p.createCollisionShapeArray(
+                [p.GEOM_BOX] * boxes, halfExtents=[[0.1] * 3] * boxes,
+                collisionFramePositions=[[0.2 * i, 0, 0] for i in range(boxes)], physicsClientId=self.client)
+            p.createMultiBody(1, shape, basePosition=(boxes, 0, 0.1), physicsClientId=self.client)
+            self.steps(10)
+            self.fluid.save()
+            said = [line for line in self.fluid.status()["said"] if "several collision shapes" in line]
+            self.assertEqual(len(said), boxes - 1, said)
+
     def test_what_is_said_of_shapes_comes_to_each_client_that_has_them(self):
         """The hold of a tray of five boxes."""
         size = [[0.5, 0.3, 0.01], *[[0.01, 0.3, 0.19]] * 2, *[[0.48, 0.01, 0.19]] * 2]

@@ -19,6 +19,7 @@ namespace ambient::test {
 namespace {
 
 constexpr double kPull = 9.81;  // [m/s^2]
+constexpr double kSteppings[] = {30, 60, 240};
 
 struct Float {
   FluidBody shape;
@@ -90,10 +91,10 @@ struct Pool {
     return scene.add(def);
   }
   // Steps until a body sleeps. Returns the time, `most` [s] at most.
-  double timeUntilSleep(btRigidBody& body, double most, double step = 1.0 / 60) {
-    for (int i = 0; i * step < most; ++i) {
-      if (!body.isActive()) return i * step;
-      scene.step(step);
+  double timeUntilSleep(btRigidBody& body, double most, double hertz = 60) {
+    for (int i = 0; i < most * hertz; ++i) {
+      if (!body.isActive()) return i / hertz;
+      scene.step(1 / hertz);
     }
     return most;
   }
@@ -127,7 +128,7 @@ double pushed(const Float& what, double force, double hertz) {
 
 // The distances are those in double at 1000 Hz.
 TEST(FloatingRest, ABodyIsPushedInFloatAsInDouble) {
-  for (const double hertz : {60.0, 240.0, 1000.0}) {
+  for (const double hertz : {30.0, 60.0, 240.0, 1000.0}) {
     EXPECT_NEAR(pushed(boxAfloat({0.8, 0.6, 0.5}, 150), 5, hertz), 0.3001, 0.003) << hertz;
     EXPECT_NEAR(pushed(ballAfloat(0.5, 60), 2, hertz), 0.344, 0.0034) << hertz;
   }
@@ -158,6 +159,21 @@ TEST(FloatingRest, NobodyIsHaltedByRounding) {
   }
 }
 
+// A board of 20 kg/m^3, twenty times as wide as thick, at rest on the water.
+TEST(FloatingRest, NothingIsSaidOfALightBoard) {
+  const Vector3 size(2, 0.5, 0.05);
+  const double draught = size.z() * (20 - air().density) / (water().density - air().density);
+  for (const double hertz : kSteppings) {
+    Pool pool;
+    btRigidBody& board =
+        pool.add(boxAfloat(size, 20 * size.prod()), {0, 0, size.z() / 2 - draught});
+    pool.scene.step(1 / hertz, static_cast<int>(30 * hertz));
+    EXPECT_TRUE(pool.scene.said.empty()) << pool.scene.said.front();
+    EXPECT_EQ(pool.scene.fluid.counters().halted, 0) << hertz;
+    EXPECT_NEAR(heightOf(board), size.z() / 2 - draught, 1e-4) << hertz;
+  }
+}
+
 // A rail that lets a body move up and down only: rows move it.
 TEST(FloatingRest, ABodyOnARailComesToItsBalance) {
   const double draught = 0.6 * (500 - air().density) / (water().density - air().density);
@@ -183,18 +199,19 @@ TEST(FloatingRest, SleepsInANeutralBalance) {
       {ballAfloat(0.5, 0.3 * 523.6), Quaternion::Identity()},
       {barrelOf(0.4, 1.5, 48, 0.5 * 1000 * kPi * 0.16 * 1.5), Quaternion::Identity()},
       {boxAfloat({1, 1, 1}, (water().density + air().density) / 2), edge_up}};
-  for (const auto& [what, orientation] : floats) {
-    Pool pool;
-    btRigidBody& body = pool.add(what, {0, 0, 0}, orientation);
-    body.forceActivationState(ACTIVE_TAG);
-    EXPECT_LT(pool.timeUntilSleep(body, 120), 100) << what.shape.volume;
-    // At rest from the start it sleeps after Bullet's two seconds.
-    body.setLinearVelocity({0, 0, 0});
-    body.setAngularVelocity({0, 0, 0});
-    body.forceActivationState(ACTIVE_TAG);
-    body.setDeactivationTime(0);
-    EXPECT_LT(pool.timeUntilSleep(body, 10), 2.1) << what.shape.volume;
-  }
+  for (const double hertz : kSteppings)
+    for (const auto& [what, orientation] : floats) {
+      Pool pool;
+      btRigidBody& body = pool.add(what, {0, 0, 0}, orientation);
+      body.forceActivationState(ACTIVE_TAG);
+      EXPECT_LT(pool.timeUntilSleep(body, 120, hertz), 100) << what.shape.volume << ", " << hertz;
+      // At rest from the start it sleeps after Bullet's two seconds.
+      body.setLinearVelocity({0, 0, 0});
+      body.setAngularVelocity({0, 0, 0});
+      body.forceActivationState(ACTIVE_TAG);
+      body.setDeactivationTime(0);
+      EXPECT_LT(pool.timeUntilSleep(body, 10, hertz), 2.1) << what.shape.volume << ", " << hertz;
+    }
 }
 
 struct Barge {
@@ -208,14 +225,14 @@ struct Barge {
   }
 };
 
-void expectRestAtBalance(Pool& pool, btRigidBody& body, double height) {
-  const double slept = pool.timeUntilSleep(body, 300);
-  EXPECT_GT(slept, 4);
-  EXPECT_LT(slept, 290);
-  EXPECT_NEAR(heightOf(body), height, 0.01);
+void expectRestAtBalance(Pool& pool, btRigidBody& body, double height, double hertz) {
+  const double slept = pool.timeUntilSleep(body, 300, hertz);
+  EXPECT_GT(slept, 4) << hertz;
+  EXPECT_LT(slept, 290) << hertz;
+  EXPECT_NEAR(heightOf(body), height, 0.01) << hertz;
 }
 
-TEST(FloatingRest, ABargeWithACrateSleepsAtItsBalance) {
+void letABargeWithACrateRest(double hertz) {
   Pool pool;
   Barge barge;
   btBoxShape box(btVector3(bt(0.4), bt(0.4), bt(0.4)));
@@ -224,11 +241,15 @@ TEST(FloatingRest, ABargeWithACrateSleepsAtItsBalance) {
   btRigidBody& crate = pool.add(boxAfloat({0.8, 0.8, 0.8}, 200), {0, 0, barge.balance(200) + 0.9},
                                 Quaternion::Identity(), &box);
   for (btRigidBody* each : {&body, &crate}) each->forceActivationState(ACTIVE_TAG);
-  expectRestAtBalance(pool, body, barge.balance(200));
+  expectRestAtBalance(pool, body, barge.balance(200), hertz);
   EXPECT_FALSE(crate.isActive());
 }
 
-TEST(FloatingRest, BargesOnAHingeSleepAtTheirBalance) {
+TEST(FloatingRest, ABargeWithACrateSleepsAtItsBalance) {
+  for (const double hertz : kSteppings) letABargeWithACrateRest(hertz);
+}
+
+void letBargesOnAHingeRest(double hertz) {
   Pool pool;
   Barge barge;
   btRigidBody* bodies[2] = {};
@@ -240,9 +261,13 @@ TEST(FloatingRest, BargesOnAHingeSleepAtTheirBalance) {
   btHingeConstraint hinge(*bodies[0], *bodies[1], {bt(2.7), 0, 0}, {bt(-2.7), 0, 0}, {0, 1, 0},
                           {0, 1, 0});
   pool.scene.world.addConstraint(&hinge, true);
-  expectRestAtBalance(pool, *bodies[0], barge.balance(0));
+  expectRestAtBalance(pool, *bodies[0], barge.balance(0), hertz);
   EXPECT_FALSE(bodies[1]->isActive());
   pool.scene.world.removeConstraint(&hinge);
+}
+
+TEST(FloatingRest, BargesOnAHingeSleepAtTheirBalance) {
+  for (const double hertz : kSteppings) letBargesOnAHingeRest(hertz);
 }
 
 TEST(FloatingRest, AChangeOfMassWakes) {
