@@ -171,7 +171,8 @@ Vector3 axisOfRevolution(const FluidBody& body) {
   const SymmetricEigen<3> spins = symmetricEigen<3>(about_centre.topLeftCorner<3, 3>());
   const auto isStill = [&](int spin) {
     const Vector3 axis = spins.vectors.col(spin);
-    return spins.values[spin] < kStill * body.volume * axis.dot(body.uniform_mass.inertia * axis);
+    return std::abs(spins.values[spin]) <
+           kStill * body.volume * axis.dot(body.uniform_mass.inertia * axis);
   };
   return isStill(0) && !isStill(1) ? Vector3(spins.vectors.col(0)) : Vector3::Zero();
 }

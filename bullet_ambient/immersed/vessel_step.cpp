@@ -157,6 +157,12 @@ void mixWater(AmbientBody& ambient, const Matrix3& to_world, const Vector6& x, d
   vessel.sloshing_energy = energyOfSloshing(at, states).sum();
 }
 
+// Ends the step of a hold that is empty and stays so.
+void stayDry(HoldState& hold) {
+  hold.change = hold.inflow = 0;
+  hold.is_sealed = false;
+}
+
 // True if the water in a vessel sloshes so little that the vessel may sleep.
 bool isNearlyLevel(const AmbientBody& ambient) {
   constexpr double kLittle = 1e-6;  // of the water's weight times the size of the vessel
@@ -173,18 +179,24 @@ void exchangeWater(AmbientBody& ambient, const MotionView& now, double duration)
   constexpr double kStill = 1e-9;  // of a hold
   VesselState& vessel = *ambient.vessel;
   const SurfaceModel& model = *ambient.surface();
+  const HoldSettings& settings = ambient.def->holds;
+  Passage passage{settings.are_open, duration, settings.atmosphere, &vessel.changes,
+                  vessel.has_waves ? &vessel.rises : nullptr};
+  vessel.change_B.setZero();
+  const SurfacePlane plane_F = seenFrom(planeAt(ambient, now.state), model.fluid_frame);
+  if (staysDry(*model.holds, plane_F, passage, vessel.holds.data())) {
+    for (HoldState& hold : vessel.holds) stayDry(hold);
+    return;
+  }
   const SurfaceStand& stand = standNow(ambient, now);
   const Vector6 x = twistInWater(ambient, now.state);
   const Matrix3 R = now.rotation();
   beginSloshing(ambient, R, x);
   const double twice_before = x.dot(stand.inertia.full() * x) + 2 * vessel.sloshing_energy;
   vessel.sloshing.later = vessel.sloshing.modes;  // before water passes
-  const HoldSettings& settings = ambient.def->holds;
-  const Passage passage{settings.are_open, duration, settings.atmosphere, &vessel.changes,
-                        vessel.has_waves ? &vessel.rises : nullptr};
+  if (stand.inside_F) passage.modes = vessel.sloshing.modes.data();
   const Matrix6 come =
       exchangeWater(*model.holds, stand.immersion_F.plane, passage, vessel.holds.data());
-  vessel.change_B.setZero();
   bool has_changed = false;
   for (std::size_t i = 0; i < vessel.holds.size(); ++i) {
     HoldState& hold = vessel.holds[i];

@@ -8,6 +8,7 @@
 #include "tests/cost/cost_world.h"
 #include "tests/support/bodies/ellipsoid_body.h"
 #include "tests/support/bodies/random_bodies.h"
+#include "tests/support/bodies/vessel_bodies.h"
 
 namespace ambient::test {
 namespace {
@@ -255,6 +256,52 @@ std::vector<CostScene> differentScenes() {
       scenes.push_back({"different_" + name + "_" + std::to_string(bodies), bodies, 30,
                         filling(true), false, filling(false)});
     }
+  return scenes;
+}
+
+namespace {
+
+struct Barges {
+  const char* name;
+  bool has_holds;
+  double water;  ///< in each hold [m^3]
+};
+constexpr Barges kBarges[] = {
+    {"barges_closed", false, 0}, {"barges_dry", true, 0}, {"barges_with_water", true, 0.2}};
+
+// Barges in rows that roll a little in still water.
+void fillBarges(CostWorld& world, const Barges& barges, int count) {
+  constexpr double kMass = 200, kCentre = -0.12;  // [kg]; height in the closed box [m]
+  const OpenBarge barge;
+  const Vector3 half = barge.size / 2, moments = kMass * Vector3(0.13, 0.42, 0.5);
+  const auto shape = std::make_shared<btBoxShape>(vectorOf(half.x(), half.y(), half.z()));
+  for (int i = 0; i < count; ++i) {
+    const btQuaternion turned(btVector3(1, 0, 0),
+                              btScalar(0.02) + btScalar(0.001) * btScalar(i % 11));
+    world.addBody(
+        shape, kMass, vectorOf(moments.x(), moments.y(), moments.z()),
+        btTransform(turned, vectorOf(4 * (i % 32), 4 * (i / 32), 0.03 - barges.water / 2)));
+  }
+  world.has_surface = true;
+  world.attach = [=](Fluid& fluid, const std::vector<std::unique_ptr<btRigidBody>>& bodies) {
+    AttachDef def;
+    FluidBody body = openBarge(barge);
+    if (!barges.has_holds) body.holds.clear();
+    if (barges.water > 0) def.holds.water = {barges.water};
+    def.fluid_body = std::make_shared<FluidBody>(std::move(body));
+    def.fluid_frame.translation = Vector3(0, 0, -kCentre);
+    for (const auto& one : bodies) fluid.add(*one, def);
+  };
+}
+
+}  // namespace
+
+std::vector<CostScene> vesselScenes() {
+  std::vector<CostScene> scenes;
+  for (const Barges& barges : kBarges)
+    scenes.push_back({barges.name, 1000, 30, [&barges](CostWorld& world, int count) {
+                        fillBarges(world, barges, count);
+                      }});
   return scenes;
 }
 

@@ -71,6 +71,8 @@ std::vector<CostScene> freeScenes();
 /// Bodies afloat whose shapes all have other ratios, by up to a third, beside equal ones: what is
 /// longer is the way of their data from memory. Names end in the number of bodies.
 std::vector<CostScene> differentScenes();
+/// Equal barges afloat: closed, with a hold that is dry, and with water in it.
+std::vector<CostScene> vesselScenes();
 /// Boxes of 1300 faces under water, each of which gets a scaled() fluid body before every step.
 std::vector<CostScene> scaledScenes();
 /// Bodies in contacts and joints under water: a pile, and scenes in the manner of Bullet's

@@ -27,8 +27,8 @@ namespace {
 
 std::vector<CostScene> allScenes(const std::string& folder) {
   std::vector<CostScene> scenes = freeScenes();
-  for (const auto& more :
-       {differentScenes(), scaledScenes(), robotScenes(), contactScenes(), flockScenes(folder)})
+  for (const auto& more : {differentScenes(), vesselScenes(), scaledScenes(), robotScenes(),
+                           contactScenes(), flockScenes(folder)})
     scenes.insert(scenes.end(), more.begin(), more.end());
   return scenes;
 }

@@ -19,6 +19,7 @@ SCENES = {
     "boxes_under_water": (64, 20, 60), "plates_under_water": (64, 20, 60), "capsules_under_water": (64, 20, 60),
     "balls_under_water": (64, 20, 60),
     "boxes_afloat": (64, 20, 60), "capsules_afloat": (64, 20, 60), "balls_afloat": (64, 20, 60),
+    "barges_closed": (64, 20, 60), "barges_dry": (64, 20, 60), "barges_with_water": (64, 20, 60),
     "multibodies_under_water": (64, 20, 40), "multibodies_afloat": (64, 20, 40), "pairs_under_water": (64, 20, 40),
     "robots_in_ideal_fluid": (8, 20, 40), "robots_under_water": (8, 20, 40), "robots_afloat": (8, 20, 40),
     "pile_in_water": (64, 30, 60), "block_in_water": (64, 30, 60), "stacks_in_water": (91, 30, 60),

@@ -205,6 +205,14 @@ class BodyIndex {
 /// one at the same address. @pre the body is alive
 int instanceNumber(const btRigidBody& body) noexcept;
 
+/// A body or link that moves in a world, where it is now.
+struct PlacedMember {
+  Vector3 centre;      ///< of mass [m]
+  std::size_t number;  ///< in the order of the world
+  AmbientBody* body;
+  const AmbientLink* link;  ///< null: a rigid body
+};
+
 /// All members of one Fluid: bodies, links, regions, and what they share. Solvers of the fluid keep
 /// this object alive; handles (Immersed) do not.
 class AmbientBodies : public std::enable_shared_from_this<AmbientBodies> {
@@ -251,7 +259,8 @@ class AmbientBodies : public std::enable_shared_from_this<AmbientBodies> {
   std::function<std::string(const btCollisionObject&)> naming;  ///< Fluid::setNaming()
   std::atomic<unsigned> solved{0};  ///< number of groups solved so far by all solvers of this fluid
   bool has_vessels = false;         ///< true: a body with holds was added
-  bool is_closed = false;           ///< the Fluid was destroyed
+  std::vector<PlacedMember> placed;  ///< scratch memory of findBodiesInHolds()
+  bool is_closed = false;            ///< the Fluid was destroyed
 
  private:
   void forgetSolved(const AmbientBody& ambient) noexcept;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <vector>
 
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
@@ -32,63 +34,77 @@ bool isInside(const Surface& surface, const Vector3& point) {
   return std::abs(angle) > 2 * kPi;
 }
 
-/// A body or link at its present pose.
-struct Member {
-  AmbientBody& ambient;
-  const AmbientLink* link = nullptr;  ///< null: a rigid body
+MotionView nowOf(const PlacedMember& member) {
+  return member.link ? member.link->now : motionOf(*member.body->body);
+}
+bool isAwake(const PlacedMember& member) {
+  return member.link ? !isAsleep(*member.body->multi_body) : member.body->body->isActive();
+}
 
-  Vector3 centre() const {
-    return link ? link->now.centre() : toVector3(ambient.body->getWorldTransform().getOrigin());
-  }
-  MotionView now() const { return link ? link->now : motionOf(*ambient.body); }
-  bool isAwake() const { return link ? !isAsleep(*ambient.multi_body) : ambient.body->isActive(); }
-};
-
-constexpr int kAway = -2;  // AmbientBody::in_hold of what does not move in this world
-
-/// Sets AmbientBody::in_hold of all members to -1 or kAway, and places links. Returns how many
-/// members there are.
-std::size_t findMembers(const btCollisionWorld& world, AmbientBodies& bodies) {
+/// Gathers what moves in this world from west to east, and places links.
+void gatherMembers(const btCollisionWorld& world, AmbientBodies& bodies) {
+  std::vector<PlacedMember>& placed = bodies.placed;
+  placed.clear();
   std::size_t count = 0;
   bodies.forEach([&count](AmbientBody& body) {
-    body.in_hold = kAway;
+    body.in_hold = -1;
     ++count;
   });
+  placed.reserve(count);
+  const auto place = [&](AmbientBody& body, const AmbientLink* link, const Vector3& centre) {
+    if (centre.allFinite()) placed.push_back({centre, placed.size(), &body, link});
+  };
   const btCollisionObjectArray& objects = world.getCollisionObjectArray();
   for (int i = 0; i < objects.size(); ++i) {
     AmbientBody* const ambient = bodies.find(objects[i]);
-    if (ambient && !objects[i]->isStaticOrKinematicObject()) ambient->in_hold = -1;
+    if (ambient && !objects[i]->isStaticOrKinematicObject())
+      place(*ambient, nullptr, toVector3(objects[i]->getWorldTransform().getOrigin()));
   }
-  if (!isOf(world, bodies.trees)) return count;
-  forEachTree(*bodies.trees.world(), bodies.trees, [](AmbientTree& tree) {
-    placeLinksNow(tree);
-    for (const auto& link : tree.links)
-      if (link->mass.mass > 0) link->ambient.in_hold = -1;
+  if (isOf(world, bodies.trees))
+    forEachTree(*bodies.trees.world(), bodies.trees, [&](AmbientTree& tree) {
+      placeLinksNow(tree);
+      for (const auto& link : tree.links)
+        if (link->mass.mass > 0) place(link->ambient, link.get(), link->now.centre());
+    });
+  std::sort(placed.begin(), placed.end(), [](const PlacedMember& a, const PlacedMember& b) {
+    return a.centre.x() < b.centre.x() || (a.centre.x() == b.centre.x() && a.number < b.number);
   });
-  return count;
 }
 
-/// Calls visit(const Member&) for the members that move. @pre findMembers()
+bool isVesselAtSurface(const PlacedMember& member) {
+  return member.body->vessel && member.body->surface();
+}
+
+/// Calls visit(const PlacedMember&) for the others whose centre is no farther from that of a vessel
+/// than the vessel reaches.
 template <class Visit>
-void forEachMember(AmbientBodies& bodies, const Visit& visit) {
-  bodies.forEach([&](AmbientBody& ambient) {
-    if (ambient.in_hold == kAway) return;
-    visit(Member{ambient, ambient.body ? nullptr : &bodies.trees.linkOf(ambient)});
-  });
+void forEachNear(const std::vector<PlacedMember>& placed, const PlacedMember& vessel,
+                 const Visit& visit) {
+  const double reach = vessel.body->surface()->radius, east = vessel.centre.x() + reach;
+  const auto isWest = [](const PlacedMember& member, double x) { return member.centre.x() < x; };
+  auto member = std::lower_bound(placed.begin(), placed.end(), vessel.centre.x() - reach, isWest);
+  for (; member != placed.end() && member->centre.x() <= east; ++member)
+    if (member->body != vessel.body &&
+        (member->centre - vessel.centre).squaredNorm() < reach * reach)
+      visit(*member);
 }
 
 /// A vessel at its present pose.
 struct Vessel {
-  explicit Vessel(const Member& of)
-      : ambient(of.ambient),
-        now(of.now()),
-        is_awake(of.isAwake()),
+  Vessel(const PlacedMember& of, AmbientBodies& among)
+      : place(of),
+        members(among),
+        ambient(*of.body),
+        now(nowOf(of)),
+        is_awake(isAwake(of)),
         R_WF(now.rotation() * ambient.surface()->fluid_frame.rotation),
         origin_W(now.centre() + now.rotation() * ambient.surface()->fluid_frame.translation),
         sea_F(seenFrom(ambient.floating->plane_W, R_WF, origin_W)),
         normal_W(-(now.gravity - ambient.medium.acceleration).normalized()),
         normal_F(R_WF.transpose() * normal_W) {}
 
+  const PlacedMember& place;
+  AmbientBodies& members;
   AmbientBody& ambient;
   MotionView now;
   bool is_awake;
@@ -112,16 +128,14 @@ HoldAround* aroundOf(const AmbientBody& body, FluidRegions& regions) {
   return &regions.in_holds[static_cast<std::size_t>(body.in_hold)];
 }
 
-/// Puts a body into the hold of a vessel that has its centre, unless it is in a smaller one.
-void enterHold(const Vessel& vessel, const Member& member, FluidRegions& regions) {
-  AmbientBody& body = member.ambient;
-  const SurfaceModel& model = *vessel.ambient.surface();
-  const Vector3 way = member.centre() - vessel.now.centre();
+/// Puts a body near a vessel into the hold that has its centre, unless it is in a smaller vessel.
+void enterHold(const Vessel& vessel, const PlacedMember& member) {
+  AmbientBody& body = *member.body;
+  FluidRegions& regions = vessel.members.regions;
   const double size = vessel.ambient.metric().reference_length;
-  if (!(way.squaredNorm() < model.radius * model.radius)) return;
   const HoldAround* const known = aroundOf(body, regions);
   if (known && !(size < known->size)) return;
-  const Vector3 place_F = vessel.R_WF.transpose() * (member.centre() - vessel.origin_W);
+  const Vector3 place_F = vessel.R_WF.transpose() * (member.centre - vessel.origin_W);
   const std::vector<Hold>& holds = vessel.ambient.vessel->shape->holds;
   for (std::size_t i = 0; i < holds.size(); ++i) {
     if (!(body.def->fluid_body->volume < holds[i].volume)) continue;
@@ -143,37 +157,37 @@ void enterHold(const Vessel& vessel, const Member& member, FluidRegions& regions
   }
 }
 
-/// Calls visit(const Member&, HoldAround&) for the bodies in a hold, in the order of the world:
-/// that of the members is another one after a state was restored, and so would be the bits of sums.
+/// Calls visit(const PlacedMember&, HoldAround&) for what is in a vessel, from west to east: the
+/// same bits of sums in each order of the members.
 template <class Visit>
-void forEachInHold(const btCollisionWorld& world, AmbientBodies& bodies, const Vessel& vessel,
-                   std::size_t hold, const Visit& visit) {
-  const auto visitIn = [&](const Member& member) {
-    HoldAround* const around = aroundOf(member.ambient, bodies.regions);
-    if (around && around->vessel == &vessel.ambient && around->hold == hold) visit(member, *around);
-  };
-  const btCollisionObjectArray& objects = world.getCollisionObjectArray();
-  for (int i = 0; i < objects.size(); ++i)
-    if (AmbientBody* const ambient = bodies.find(objects[i])) visitIn({*ambient});
-  if (!isOf(world, bodies.trees)) return;
-  forEachTree(*bodies.trees.world(), bodies.trees, [&](AmbientTree& tree) {
-    for (const auto& link : tree.links) visitIn({link->ambient, link.get()});
+void forEachInside(const PlacedMember& vessel, AmbientBodies& bodies, const Visit& visit) {
+  forEachNear(bodies.placed, vessel, [&](const PlacedMember& member) {
+    HoldAround* const around = aroundOf(*member.body, bodies.regions);
+    if (around && around->vessel == vessel.body) visit(member, *around);
+  });
+}
+template <class Visit>
+void forEachInHold(const Vessel& vessel, std::size_t hold, const Visit& visit) {
+  forEachInside(vessel.place, vessel.members, [&](const PlacedMember& member, HoldAround& around) {
+    if (around.hold == hold) visit(member, around);
   });
 }
 
-/// Whether any body is in a hold.
-bool hasAny(const FluidRegions& regions, const Vessel& vessel, std::size_t hold) {
-  const auto& all = regions.in_holds;
-  return std::any_of(all.begin(), all.end(), [&](const HoldAround& around) {
-    return around.vessel == &vessel.ambient && around.hold == hold;
-  });
+/// Whether the level of a hold hangs on other bodies, or did so a step before.
+bool isShared(const PlacedMember& vessel, AmbientBodies& bodies) {
+  const std::vector<HoldState>& holds = vessel.body->vessel->holds;
+  bool is_any = std::any_of(holds.begin(), holds.end(),
+                            [](const HoldState& hold) { return hold.displaced != 0; });
+  forEachInside(vessel, bodies, [&](const PlacedMember&, HoldAround&) { is_any = true; });
+  return is_any;
 }
 
 /// Volume and area of a body below a level of the vessel's hold, a height in F.
-Waterplane displacedBy(const Member& member, const Vessel& vessel, double height, double& volume) {
-  const FluidModels& models = *member.ambient.models;
+Waterplane displacedBy(const PlacedMember& member, const Vessel& vessel, double height,
+                       double& volume) {
+  const FluidModels& models = *member.body->models;
   if (models.surfaces.empty()) return {};
-  const MotionView now = member.now();
+  const MotionView now = nowOf(member);
   const Vector3& normal = vessel.normal_W;
   const SurfacePlane plane_W{normal, height + normal.dot(vessel.origin_W), 0, 0};
   const WetVolume wet =
@@ -185,14 +199,12 @@ Waterplane displacedBy(const Member& member, const Vessel& vessel, double height
 
 /// Finds the level in a hold with what floats there: V_hold(h) - sum of V_body(h) is the volume of
 /// its water, docs/theory.md eq. (155). Newton's method between brackets.
-void findLevel(const btCollisionWorld& world, AmbientBodies& bodies, const Vessel& vessel,
-               std::size_t hold) {
+void findLevel(const Vessel& vessel, std::size_t hold) {
   constexpr double kEmpty = 1e-12, kAccuracy = 1e-12;  // of the hold
   constexpr int kMostSteps = 60;
   HoldState& state = vessel.ambient.vessel->holds[hold];
   const HoldShape& shape = vessel.ambient.surface()->holds->shapes[hold];
   const Vector3& normal_F = vessel.normal_F;
-  if (!hasAny(bodies.regions, vessel, hold) && state.displaced == 0) return;
   double displaced = 0, height = 0;
   const bool is_dry = !(state.volume > kEmpty * shape.capacity());
   if (!is_dry) {
@@ -204,7 +216,7 @@ void findLevel(const btCollisionWorld& world, AmbientBodies& bodies, const Vesse
       const WetVolume full = computeWetVolume(shape.hull(), {normal_F, height, 0, 0});
       double area = full.waterplane.area;
       displaced = 0;
-      forEachInHold(world, bodies, vessel, hold, [&](const Member& member, HoldAround&) {
+      forEachInHold(vessel, hold, [&](const PlacedMember& member, HoldAround&) {
         area -= displacedBy(member, vessel, height, displaced).area;
       });
       const double error = full.volume - displaced - state.volume;
@@ -218,33 +230,33 @@ void findLevel(const btCollisionWorld& world, AmbientBodies& bodies, const Vesse
   if (displaced != state.displaced) vessel.ambient.floating->is_valid = false;
   state.displaced = displaced;
   const double height_W = height + vessel.normal_W.dot(vessel.origin_W);
-  forEachInHold(world, bodies, vessel, hold, [&](const Member& member, HoldAround& around) {
+  forEachInHold(vessel, hold, [&](const PlacedMember& member, HoldAround& around) {
     around.is_dry = is_dry;
     around.height = height_W;
-    if (!is_dry && around.is_awake && !member.isAwake()) wake(member.ambient);
+    if (!is_dry && around.is_awake && !isAwake(member)) wake(*member.body);
   });
 }
 
 }  // namespace
 
 void findBodiesInHolds(btCollisionWorld& world, AmbientBodies& bodies) noexcept {
-  const std::size_t count = findMembers(world, bodies);
+  gatherMembers(world, bodies);
+  const std::vector<PlacedMember>& placed = bodies.placed;
   bodies.regions.in_holds.clear();
-  bodies.regions.in_holds.reserve(count);
-  const auto forEachVessel = [&](const auto& visit) {
-    forEachMember(bodies, [&](const Member& member) {
-      if (member.ambient.vessel && member.ambient.surface()) visit(Vessel(member));
+  bodies.regions.in_holds.reserve(placed.size());
+  for (const PlacedMember& member : placed) {
+    if (!isVesselAtSurface(member)) continue;
+    std::optional<Vessel> vessel;
+    forEachNear(placed, member, [&](const PlacedMember& other) {
+      if (!vessel) vessel.emplace(member, bodies);
+      enterHold(*vessel, other);
     });
-  };
-  forEachVessel([&](const Vessel& vessel) {
-    forEachMember(bodies, [&](const Member& member) {
-      if (&member.ambient != &vessel.ambient) enterHold(vessel, member, bodies.regions);
-    });
-  });
-  forEachVessel([&](const Vessel& vessel) {
-    for (std::size_t i = 0; i < vessel.ambient.vessel->holds.size(); ++i)
-      findLevel(world, bodies, vessel, i);
-  });
+  }
+  for (const PlacedMember& member : placed) {
+    if (!isVesselAtSurface(member) || !isShared(member, bodies)) continue;
+    const Vessel vessel(member, bodies);
+    for (std::size_t i = 0; i < member.body->vessel->holds.size(); ++i) findLevel(vessel, i);
+  }
 }
 
 AMBIENT_END

@@ -74,7 +74,8 @@ class FormLoads final : public ViscousLoads {
               }),
         lift_(*body, *shape_, stall_lag),
         density_(settings.density),
-        centre_(body->centre_of_volume) {
+        centre_(body->centre_of_volume),
+        still_axis_(axisOfRevolution(*body)) {
     if (!(settings.viscosity > 0) || !body->viscous.isKnown()) return;
     Vector3 own_drag{0, 0, 0};
     if (!body->viscous.separation.smooth_base.isZero(0)) own_drag = LoadTables(body).ownDrag(faces);
@@ -120,8 +121,14 @@ class FormLoads final : public ViscousLoads {
   }
 
  private:
+  /// Pressure on the faces. That on a body of revolution neither sees its spin nor changes it,
+  /// docs/theory.md eq. (66b).
   Wrench onFaces(const Twist& x, const WetPart* wet) const noexcept {
-    return wet ? on_faces_->wetLoad(x, *wet) : on_faces_->load(x);
+    const Vector3 spin = still_axis_.dot(x.angular) * still_axis_;
+    const Twist seen{x.angular - spin, x.linear + spin.cross(centre_)};
+    Wrench load = wet ? on_faces_->wetLoad(seen, *wet) : on_faces_->load(seen);
+    load.torque -= still_axis_.dot(load.torque - centre_.cross(load.force)) * still_axis_;
+    return load;
   }
   Wrench withWings(Wrench load, const Twist& x, const WetPart* wet) const noexcept {
     for (const auto& wing : on_wings_) load += wet ? wing->wetLoad(x, *wet) : wing->load(x);
@@ -147,6 +154,7 @@ class FormLoads final : public ViscousLoads {
   FormLift lift_;
   double density_;
   Vector3 centre_;
+  Vector3 still_axis_;             ///< of a body of revolution, unit; else 0
   std::optional<ViscousLaw> law_;  ///< none: no viscosity
   std::optional<WingLift> wings_;  ///< none: the body is one part
   std::vector<std::shared_ptr<const SurfaceLoads>> on_wings_;

@@ -104,6 +104,7 @@ HoldModes modesOf(const HoldShape& shape, const HoldFill& fill,
   const WetVolume& water = fill.water;
   const double volume = water.volume, area = water.waterplane.area;
   if (!(volume > 0)) return found;
+  found.height = fill.height;
   const Vector3& normal = plane_F.normal;
   const double share = volume / shape.capacity(), root = portable::cbrt(share);
   found.turning = share * root * root * shape.turningInertia();

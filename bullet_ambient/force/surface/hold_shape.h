@@ -61,9 +61,10 @@ struct SloshMode {
   double farthest = 0;     ///< way at which the surface meets the floor or the top of the hold [m]
 };
 
-/// Motion of the water in a hold: its two modes, and its resistance to turning.
+/// Level of the water in a hold and its motion: its two modes, and its resistance to turning.
 struct HoldModes {
   SloshMode modes[2];
+  double height = 0;  ///< HoldFill::height; without water of no meaning [m]
   Matrix3 turning = Matrix3::Zero();  ///< J about its centre, per unit density, eq. (151) [m^5]
 };
 

@@ -129,13 +129,16 @@ bool areDryAndClear(const HoldShapes& holds, const SurfacePlane& plane_F, const 
 }
 
 /// Lets the pump of a hold run. Sealed air is pressed together to a half in a step at most.
-void runPump(const HoldShape& shape, double duration, HoldState& state) {
+/// `known`: Passage::modes of the hold; null: not known.
+void runPump(const HoldShape& shape, double duration, const HoldModes* known, HoldState& state) {
   const double room = std::max(0.0, shape.capacity() - state.filled());
   state.inflow = std::clamp(duration * state.pump, -state.volume,
                             state.is_sealed && state.air > 0 ? room / 2 : room);
   state.change = -state.volume;
   state.volume += state.inflow;
-  state.level = std::numeric_limits<double>::quiet_NaN();
+  state.level = known && state.inflow == 0 && state.volume > 0
+                    ? known->height
+                    : std::numeric_limits<double>::quiet_NaN();
   state.air_group = -1;
 }
 
@@ -150,11 +153,20 @@ void loseDregs(const HoldShape& shape, HoldState& state) {
 
 }  // namespace
 
+bool staysDry(const HoldShapes& holds, const SurfacePlane& plane_F, const Passage& passage,
+              const HoldState* states) noexcept {
+  return std::none_of(states, states + holds.shapes.size(),
+                      [](const HoldState& state) { return state.pump > 0; }) &&
+         (passage.are_open ? areDryAndClear(holds, plane_F, passage, states)
+                           : areEmpty(holds, states));
+}
+
 Matrix6 exchangeWater(const HoldShapes& holds, const SurfacePlane& plane_F, const Passage& passage,
                       HoldState* states) noexcept {
   AMBIENT_ASSERT(passage.duration >= 0 && passage.atmosphere > 0);
   for (std::size_t i = 0; i < holds.shapes.size(); ++i)
-    runPump(holds.shapes[i], passage.duration, states[i]);
+    runPump(holds.shapes[i], passage.duration, passage.modes ? &passage.modes[i] : nullptr,
+            states[i]);
   if (passage.are_open && areDryAndClear(holds, plane_F, passage, states)) {
     for (std::size_t i = 0; i < holds.shapes.size(); ++i) states[i].is_sealed = false;
   } else if (passage.are_open) {

@@ -85,6 +85,8 @@ struct Passage {
   double atmosphere = 101325;               ///< pressure of the air at the surface [Pa]
   const OpeningChanges* changes = nullptr;  ///< null: none
   const RimRises* rises = nullptr;          ///< null: the sea is a plane at the openings
+  /// Those of the holds at the plane, with the water that they have; null: not known.
+  const HoldModes* modes = nullptr;
 };
 
 /// Water in all holds of a body at one pose, in F: what it adds to the closed vessel.

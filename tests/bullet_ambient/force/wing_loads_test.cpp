@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -11,6 +12,7 @@
 #include "bullet_ambient/force/loads/face_loads.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "preprocess/base/surface_form.h"
+#include "tests/support/bodies/ellipsoid_body.h"
 #include "tests/support/bodies/hull_bodies.h"
 #include "tests/support/bodies/random_bodies.h"
 #include "tests/support/runs.h"
@@ -154,6 +156,32 @@ TEST(WingLoads, TurnWithTheBody) {
     EXPECT_LE((turn * a.force - b.force).norm(), 1e-9 * b.force.norm()) << shape;
     EXPECT_LE((turn * a.torque - b.torque).norm(), 1e-9 * b.torque.norm()) << shape;
   }
+}
+
+/// Largest torque about z, by which motions of a drop with few, uneven faces differ from those of a
+/// body of revolution, over the largest of all torques. `is_round`: its moments of inertia are
+/// known.
+double spinningTorque(bool is_round) {
+  FluidBody drop = test::latticeEllipsoid({0.2, 0.2, 0.5}, 7, 6);
+  const double across = (0.04 + 0.25) / 5;
+  if (is_round) drop.uniform_mass.inertia = Vector3(across, across, 0.08 / 5).asDiagonal();
+  const auto loads = loadsOf(drop);
+  test::Arbitrary arbitrary(75);
+  double spinning = 0, largest = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Twist x = arbitrary.twist(2, 2);
+    const Wrench load = loads->load(x);
+    EXPECT_LE(power(load, x), 1e-15);
+    spinning = std::max(spinning, std::abs(load.torque.z()));
+    largest = std::max(largest, load.torque.norm());
+  }
+  return spinning / largest;
+}
+
+// Eq. (66b).
+TEST(WingLoads, DoNotSpinABodyOfRevolution) {
+  EXPECT_LT(spinningTorque(true), 1e-14);
+  EXPECT_GT(spinningTorque(false), 0.01);
 }
 
 TEST(WingLoads, ChangeContinuouslyWithTheMotion) {
