@@ -64,7 +64,7 @@ struct SloshMode {
 /// Level of the water in a hold and its motion: its two modes, and its resistance to turning.
 struct HoldModes {
   SloshMode modes[2];
-  double height = 0;  ///< HoldFill::height; without water of no meaning [m]
+  double height = 0;                  ///< HoldFill::height; without water of no meaning [m]
   Matrix3 turning = Matrix3::Zero();  ///< J about its centre, per unit density, eq. (151) [m^5]
 };
 
