@@ -323,6 +323,12 @@ TEST(RobotAfloat, RollsAsWithItsLoadWeldedOn) {
   }
 }
 
+// For ten minutes: rows that gained a little would roll it for ever.
+TEST(RobotAfloat, LiesStillInTheEnd) {
+  for (const Load load : {Load::kFixed, Load::kMotor, Load::kPositionMotor, Load::kLimits})
+    EXPECT_LT(Barge(load).largestTilt(540, 600, 30), 0.05 * kRoll) << static_cast<int>(load);
+}
+
 TEST(RobotAfloat, RollsUnderASwingingLoadAsInShortSteps) {
   const double in_short_steps = decayOf(Load::kSwings, 480);
   for (const double hertz : {30.0, 60.0})
