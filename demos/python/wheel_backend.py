@@ -1,7 +1,8 @@
 """Builds the wheel of `pip install ./demos/python`: CMake compiles and installs the component `python`, and this packs it.
 
 A build backend by PEP 517 that takes no more than Python's own library. It builds in build/wheel-*, so that a second
-wheel takes seconds. CMAKE_ARGS in the environment: further options of CMake's, such as the place of another Bullet.
+wheel takes seconds; no option of an earlier call is kept. CMAKE_ARGS in the environment: further options of CMake's, such
+as the place of another Bullet.
 """
 
 import base64
@@ -9,6 +10,7 @@ import hashlib
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 import sysconfig
@@ -25,6 +27,7 @@ Name: bullet_ambient
 Version: {VERSION}
 Summary: Rigid bodies of Bullet in air or water: added mass, pressure with separation, friction, buoyancy
 License: Zlib
+License-File: LICENSE
 Requires-Python: >=3.10
 Requires-Dist: numpy
 """
@@ -48,13 +51,14 @@ def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
     folder.mkdir()
     (folder / "METADATA").write_text(METADATA)
     (folder / "WHEEL").write_text(WHEEL)
+    shutil.copy(ROOT / "LICENSE", folder)
     return folder.name
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     build = str(ROOT / "build" / f"wheel-{sys.implementation.cache_tag}")
     options = [f"-D{name}={value}" for name, value in OPTIONS.items()] + shlex.split(os.environ.get("CMAKE_ARGS", ""))
-    run("cmake", "-G", "Ninja", "-S", str(ROOT), "-B", build, *options)
+    run("cmake", "--fresh", "-G", "Ninja", "-S", str(ROOT), "-B", build, *options)
     run("cmake", "--build", build, "--target", *TARGETS)
     with tempfile.TemporaryDirectory() as stage:
         run("cmake", "--install", build, "--component", "python", "--prefix", stage)
@@ -69,7 +73,7 @@ def pack(stage, wheel):
               for name, path in files.items()}
     record = f"{NAME}.dist-info/RECORD"
     lines = [f"{name},sha256={hashes[name]},{path.stat().st_size}" for name, path in files.items()] + [f"{record},,"]
-    with zipfile.ZipFile(wheel, "w", zipfile.ZIP_DEFLATED) as archive:
+    with zipfile.ZipFile(wheel, "w", zipfile.ZIP_DEFLATED, strict_timestamps=False) as archive:
         for name, path in files.items():
             archive.write(path, name)
         archive.writestr(record, "\n".join(lines) + "\n")

@@ -7,8 +7,8 @@ ValueError, files that cannot be used OSError, in one line that says what is wro
 import os as _os
 from pathlib import Path as _Path
 
-# ambient_mesh_reader, the program that reads mesh files, is in bin beside the module, or on PATH already.
-_os.environ["PATH"] = _os.pathsep.join([_os.environ.get("PATH", _os.defpath), str(_Path(__file__).parent / "bin")])
+# ambient_mesh_reader, the program that reads mesh files, is in bin beside the module: before one of another version.
+_os.environ["PATH"] = _os.pathsep.join([str(_Path(__file__).parent / "bin"), _os.environ.get("PATH", _os.defpath)])
 
 from ._core import (
     Body,

@@ -711,6 +711,8 @@ class PolarTest(CommandTest):
             self.expect_close(row[LIFT], ((a > 0) - (a < 0)) * math.cos(a)**3, 1e-8)
             self.expect_close(row[DRAG], math.cos(a)**2 * abs(math.sin(a)), 1e-8)
             self.expect_close(row[PITCH], self.munk_pitch(facts, a, 6, 2), 1e-8)
+            # Rounding, such as a C_l of 1e-17, is not printed.
+            self.assertEqual([row[SIDE], row[ROLL], row[YAW]], [0, 0, 0])
 
     def test_an_oblique_spheroid_agrees_with_quadrature(self):
         # Surface integrals of the model over the smooth body: F / (rho/2), T / (rho/2) at V = 1.
