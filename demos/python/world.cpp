@@ -311,6 +311,15 @@ void setCommands(PythonWorld& world, const InputArray& commands) {
   for (std::size_t i = 0; i < thrusters.size(); ++i) thrusters.command(i, commands.data()[i]);
 }
 
+/// An array of a number of each thruster.
+template <class Number>
+py::array ofThrusters(const PythonWorld& world, const Number& number) {
+  const std::vector<ThrusterState>& states = world.simulation().thrusters().states();
+  Eigen::VectorXd numbers(static_cast<Eigen::Index>(states.size()));
+  std::transform(states.begin(), states.end(), numbers.begin(), number);
+  return arrayOf(numbers);
+}
+
 void bindThrusters(py::class_<PythonWorld, std::shared_ptr<PythonWorld>>& type) {
   type.def_property_readonly(
           "thrusters",
@@ -326,11 +335,23 @@ void bindThrusters(py::class_<PythonWorld, std::shared_ptr<PythonWorld>>& type) 
       .def_property_readonly(
           "thrusts",
           [](const PythonWorld& w) {
-            const std::vector<double>& thrusts = w.simulation().thrusters().thrusts();
-            return arrayOf(
-                Eigen::VectorXd::Map(thrusts.data(), static_cast<Eigen::Index>(thrusts.size())));
+            return ofThrusters(w, [](const ThrusterState& s) { return s.load.thrust; });
           },
-          "Thrusts (T,) at the end of the last step [N], without what dry discs lose.");
+          "Thrusts (T,) in the last step [N], without what dry discs lose.")
+      .def_property_readonly(
+          "turns",
+          [](const PythonWorld& w) {
+            return ofThrusters(w, [](const ThrusterState& s) { return s.drive; });
+          },
+          "What follows the commands (T,): turns of propellers by numbers [1/s]; of an ideal disc "
+          "the thrust that it would have at rest, of other thrusters their thrust [N].")
+      .def_property_readonly(
+          "powers",
+          [](const PythonWorld& w) {
+            return ofThrusters(w, [](const ThrusterState& s) { return s.load.power; });
+          },
+          "Powers (T,) of the shafts of propellers in the last step [W], without what dry discs "
+          "lose; 0 of thrusters that have none.");
 }
 
 void bindStates(py::class_<PythonWorld, std::shared_ptr<PythonWorld>>& type) {

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <utility>
 
+#include "bullet_ambient/base/pi.h"
 #include "demos/scene/scene_parts.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/robot/robot_model.h"
@@ -41,9 +43,55 @@ void checkCurve(const ThrusterDef& thruster, const std::string& place) {
                       thruster.curve[i - 1].first, "; must be above that");
 }
 
+/// Points of a table [J, thrust, torque], the last column times `per_torque`.
+std::vector<PropellerPoint> toPoints(const nlohmann::json& table, double per_torque) {
+  std::vector<PropellerPoint> points;
+  for (const nlohmann::json& row : table)
+    points.push_back(
+        {row[0].get<double>(), row[1].get<double>(), per_torque * row[2].get<double>()});
+  return points;
+}
+
+Propeller toPropeller(const nlohmann::json& from) {
+  const double diameter = from.at("diameter").get<double>();
+  const double astern = from.value("astern", PropellerExtras{}.astern);
+  if (const auto screw = from.find("wageningen"); screw != from.end())
+    return Propeller::wageningen(
+        diameter, {screw->at("blades").get<int>(), screw->at("area_ratio").get<double>(),
+                   screw->at("pitch_ratio").get<double>(), astern});
+  const PropellerExtras extras{from.value("area_ratio", PropellerExtras{}.area_ratio), astern};
+  if (from.contains("kt_kq"))
+    return Propeller::byTable(diameter, toPoints(from.at("kt_kq"), 1), extras);
+  if (from.contains("ct_cp"))
+    return Propeller::byTable(diameter, toPoints(from.at("ct_cp"), 1 / (2 * kPi)), extras);
+  return Propeller::idealDisc(diameter);
+}
+
+/// Sets the propeller of a thruster, its disc and its sense.
+void readPropeller(const nlohmann::json& from, const std::string& place, ThrusterDef& thruster) {
+  const nlohmann::json& propeller = from.at("propeller");
+  if (from.contains("radius"))
+    raiseInputError(place + "radius", "is given beside a propeller, whose diameter it follows");
+  int laws = 0;
+  for (const char* law : {"kt_kq", "ct_cp", "wageningen"}) laws += propeller.contains(law);
+  if (laws > 1)
+    raiseInputError(
+        place + "propeller", "has ", laws,
+        " of kt_kq, ct_cp and wageningen; must be one of them, or none for an ideal disc");
+  try {
+    thruster.propeller = toPropeller(propeller);
+  } catch (const std::invalid_argument& error) {
+    raiseInputError(place + "propeller", error.what());
+  }
+  if (!thruster.propeller->isIdealDisc() && from.contains("torque_per_thrust"))
+    raiseInputError(place + "torque_per_thrust", "is given beside a propeller that has a torque");
+  thruster.radius = thruster.propeller->diameter() / 2;
+  thruster.is_left_handed = propeller.value("hand", "right") == "left";
+}
+
 }  // namespace
 
-double ThrusterDef::thrustAt(double command) const {
+double ThrusterDef::driveAt(double command) const {
   if (!(command > curve.front().first)) return curve.front().second;
   for (std::size_t i = 1; i < curve.size(); ++i) {
     const auto& [from, low] = curve[i - 1];
@@ -77,6 +125,7 @@ ThrusterDef toThruster(const nlohmann::json& from, const Scene& scene) {
   thruster.lag = from.value("lag", thruster.lag);
   thruster.radius = from.value("radius", thruster.radius);
   thruster.torque_per_thrust = from.value("torque_per_thrust", thruster.torque_per_thrust);
+  if (from.contains("propeller")) readPropeller(from, place, thruster);
   return thruster;
 }
 

@@ -206,7 +206,10 @@ void Simulation::step() {
 void Simulation::push() {
   thrusters_.follow(time_step_);
   const auto poseOf = [this](std::size_t body) { return sample(bodies_[body]); };
-  thrusters_.push(poseOf, fluid_.time(),
+  const auto fluidAt = [this](std::size_t body, const Vector3& place) {
+    return fluidAround(body, place);
+  };
+  thrusters_.push(poseOf, fluidAt,
                   [this](std::size_t body, const Wrench& wrench) { apply(bodies_[body], wrench); });
 }
 
@@ -231,7 +234,6 @@ void Simulation::setRegions(const Scene& scene) {
     raiseInputError(scene.file.string(), "it has ", regions.size(),
                     " waters and regions, the world ", regions_.size(), "; must be as many");
   for (std::size_t i = 0; i < regions.size(); ++i) fluid_.setRegion(regions_[i], regions[i]);
-  thrusters_.setRegions(regions);
   fluids_ = std::move(regions);
 }
 
@@ -369,37 +371,37 @@ void Simulation::setMedium(std::size_t body, const Medium& medium) {
 }
 
 std::string Simulation::saveState() const {
-  const std::vector<double>& thrusts = thrusters_.thrusts();
-  std::string bytes(sizeof steps_ + thrusts.size() * sizeof(double), '\0');
+  const std::vector<ThrusterState>& thrusters = thrusters_.states();
+  std::string bytes(sizeof steps_ + thrusters.size() * sizeof(ThrusterState), '\0');
   std::memcpy(bytes.data(), &steps_, sizeof steps_);
-  std::copy_n(reinterpret_cast<const char*>(thrusts.data()), thrusts.size() * sizeof(double),
-              bytes.data() + sizeof steps_);
+  std::copy_n(reinterpret_cast<const char*>(thrusters.data()),
+              thrusters.size() * sizeof(ThrusterState), bytes.data() + sizeof steps_);
   return bytes + encodeState(fluid_.save());
 }
 
 void Simulation::restoreState(std::string_view bytes) {
   const std::string source = "saved state";
-  std::vector<double> thrusts(thrusters_.size());
-  const std::size_t head = sizeof steps_ + thrusts.size() * sizeof(double);
+  std::vector<ThrusterState> thrusters(thrusters_.size());
+  const std::size_t head = sizeof steps_ + thrusters.size() * sizeof(ThrusterState);
   if (bytes.size() < head) throw std::runtime_error(source + ": is cut short");
   long long steps = 0;
   std::memcpy(&steps, bytes.data(), sizeof steps);
   std::copy_n(bytes.data() + sizeof steps, head - sizeof steps,
-              reinterpret_cast<char*>(thrusts.data()));
+              reinterpret_cast<char*>(thrusters.data()));
   if (steps < 0) throw std::runtime_error(source + ": is damaged: its steps are below 0");
-  for (const double thrust : thrusts)
-    if (!std::isfinite(thrust)) throw std::runtime_error(source + ": a thrust is not finite");
+  for (const ThrusterState& thruster : thrusters)
+    if (!thruster.isFinite()) throw std::runtime_error(source + ": a thrust is not finite");
   const auto lookup = [this](const std::string& name) { return findFluidBody(name); };
   WorldState state = decodeState(bytes.substr(head), source, lookup);
   setFunctions(state, own_law_, own_flight_);
   fluid_.restore(state);
-  thrusters_.setThrusts(thrusts);
+  thrusters_.setStates(thrusters);
   steps_ = steps;
 }
 
 void Simulation::restore(const SimulationState& state) {
   fluid_.restore(state.world);
-  thrusters_.setThrusts(state.thrusts);
+  thrusters_.setStates(state.thrusters);
   steps_ = state.steps;
   for (WorldBody& body : bodies_) body.is_at_start = false;
 }

@@ -35,7 +35,7 @@ constexpr std::array<std::pair<const char*, long long AmbientCounters::*>, 6> kW
 /// All that changes of a simulation from step to step, in memory.
 struct SimulationState {
   long long steps = 0;
-  std::vector<double> thrusts;  ///< [N]
+  std::vector<ThrusterState> thrusters;
   WorldState world;
 };
 
@@ -143,7 +143,7 @@ class Simulation {
   /// of another scene; the simulation then stays as it was.
   void restoreState(std::string_view bytes);
   /// Copies all that changes from step to step, in memory, in microseconds.
-  SimulationState state() const { return {steps_, thrusters_.thrusts(), fluid_.save()}; }
+  SimulationState state() const { return {steps_, thrusters_.states(), fluid_.save()}; }
   /// Goes on from there, as restoreState(). @pre a state of this scene
   void restore(const SimulationState& state);
 
@@ -159,6 +159,8 @@ class Simulation {
   void fillWithFluids(const Scene& scene, const FlowField& flow);
   /// Region that counts at a point; null: none.
   const FluidRegion* regionAt(const Vector3& point) const;
+  /// Fluids at a point: of its region; without one the medium of a body, or a vacuum.
+  RegionSample fluidAround(std::size_t body, const Vector3& point) const;
   btRigidBody& rigidBody(std::size_t body);
   std::shared_ptr<const FluidBody> findFluidBody(const std::string& name) const;
   MotionSample sample(const WorldBody& of) const;
