@@ -186,6 +186,27 @@ TEST(SceneReader, ReadsThrusters) {
   for (const auto& [command, thrust] : thrusts) EXPECT_EQ(thruster.driveAt(command), thrust);
 }
 
+TEST(SceneReader, ReadsPropellers) {
+  json text = ballScene();
+  json thruster = {{"on", "ball"}, {"curve", {{0, 0}, {1, 20}}}};
+  text["thrusters"] = json::array({thruster, thruster, thruster});
+  text["thrusters"][0]["propeller"] = {{"diameter", 0.3}};
+  text["thrusters"][1]["propeller"] = {
+      {"diameter", 0.2}, {"ct_cp", {{0, 0.1, 0.05}, {0.8, 0, 0.02}}}, {"hand", "left"}};
+  text["thrusters"][2]["propeller"] = {
+      {"diameter", 0.4},
+      {"wageningen", {{"blades", 5}, {"area_ratio", 0.6}, {"pitch_ratio", 0.8}}}};
+  const std::vector<ThrusterDef> read = sceneFrom(text).thrusters;
+  EXPECT_TRUE(read.at(0).propeller->isIdealDisc());
+  EXPECT_EQ(read.at(0).radius, 0.15);
+  // C_P = 2 pi K_Q: the power is rho n^3 D^5 C_P.
+  EXPECT_NEAR(read.at(1).propeller->load(10, 0, 1.2).power, 1.2 * 1e3 * 3.2e-4 * 0.05, 1e-15);
+  EXPECT_TRUE(read.at(1).is_left_handed);
+  const Propeller screw = Propeller::wageningen(0.4, {5, 0.6, 0.8});
+  EXPECT_EQ(read.at(2).propeller->load(3, 1, 998).torque, screw.load(3, 1, 998).torque);
+  EXPECT_FALSE(read.at(2).is_left_handed);
+}
+
 TEST(SceneReader, NamesAMissingFile) {
   EXPECT_EQ(test::refusalOf<std::exception>([] { readScene("no/such/scene.json"); }),
             "no/such/scene.json: no such file");
