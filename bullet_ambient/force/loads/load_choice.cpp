@@ -6,6 +6,7 @@
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/force/law/form_law.h"
 #include "bullet_ambient/force/loads/face_loads.h"
+#include "bullet_ambient/force/loads/foils.h"
 #include "bullet_ambient/force/loads/form_loads.h"
 #include "bullet_ambient/force/loads/load_tables.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
@@ -314,10 +315,14 @@ std::shared_ptr<const SurfaceLoads> lawOf(const Body& body, const LoadSettings& 
 std::shared_ptr<const SurfaceLoads> makeLoads(const Body& body, const Medium& medium,
                                               const FlowSettings& flow, LoadPlace place) {
   const LoadSettings settings = loadSettings(medium, flow);
-  const auto make = [&] { return lawOf(body, settings, flow, place); };
+  const auto make = [&] {
+    auto loads = lawOf(body, settings, flow, place);
+    return flow.foils && medium.density > 0 ? addFoils(std::move(loads), flow.foils, medium.density)
+                                            : loads;
+  };
   checkFlow(*body, flow);
   // Not for a medium without loads, nor for one that later checks reject.
-  const bool is_shared = medium.density > 0 && medium.viscosity >= 0 && !flow.own_law;
+  const bool is_shared = medium.density > 0 && medium.viscosity >= 0 && !flow.isOfOneBody();
   return is_shared ? LoadTables(body).loads(medium, flow, place, make) : make();
 }
 
