@@ -238,7 +238,8 @@ TEST(Foils, AddToTheLoadsOfABody) {
     const Vector6 load = of_both.toB(both->load(of_both.toF(x))).vector();
     EXPECT_LE((load - expected).norm(), 1e-12 * expected.norm());
     const SplitLoad split = both->split(of_both.toF(x), nullptr);
-    const Wrench sum = split.wrench + both->resistance()->load(split.growth, of_both.toF(x));
+    Wrench sum = split.wrench;
+    if (both->resistance()) sum += both->resistance()->load(split.growth, of_both.toF(x));
     EXPECT_LE((of_both.toB(sum).vector() - expected).norm(), 1e-12 * expected.norm());
     EXPECT_NE(makeSurfaceLoads(body, water(), flow), both);  // not shared
     EXPECT_EQ(makeSurfaceLoads(body, Medium{}, flow), nullptr);
