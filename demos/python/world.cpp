@@ -354,6 +354,49 @@ void bindThrusters(py::class_<PythonWorld, std::shared_ptr<PythonWorld>>& type) 
           "lose; 0 of thrusters that have none.");
 }
 
+/// An array of a number of each foil.
+template <class Number>
+py::array ofFoils(const PythonWorld& world, const Number& number) {
+  const SceneFoils& foils = world.simulation().foils();
+  Eigen::VectorXd numbers(static_cast<Eigen::Index>(foils.size()));
+  for (std::size_t i = 0; i < foils.size(); ++i)
+    numbers[static_cast<Eigen::Index>(i)] = number(foils, i);
+  return arrayOf(numbers);
+}
+
+void setFoilCommands(PythonWorld& world, const InputArray& commands) {
+  SceneFoils& foils = world.simulation().foils();
+  if (commands.ndim() != 1 || commands.shape(0) != static_cast<py::ssize_t>(foils.size()))
+    throw py::value_error("foil_commands have shape " + shapeText(commands) +
+                          "; must be one for each of " + std::to_string(foils.size()) + " foils");
+  for (std::size_t i = 0; i < foils.size(); ++i) foils.command(i, commands.data()[i]);
+}
+
+void bindFoils(py::class_<PythonWorld, std::shared_ptr<PythonWorld>>& type) {
+  type.def_property_readonly(
+          "foils",
+          [](const PythonWorld& w) {
+            std::vector<std::string> names;
+            for (const FoilDef& def : w.scene().foils) names.push_back(def.name);
+            return names;
+          },
+          "Names of the foils (F), in the order of the scene.")
+      .def_property(
+          "foil_commands",
+          [](const PythonWorld& w) {
+            return ofFoils(w, [](const SceneFoils& f, std::size_t i) { return f.command(i); });
+          },
+          &setFoilCommands,
+          "Commands (F,) of the foils, which hold until others are set; 0 at first. The angles of "
+          "those with a curve follow by it and the lag of the scene.")
+      .def_property_readonly(
+          "foil_angles",
+          [](const PythonWorld& w) {
+            return ofFoils(w, [](const SceneFoils& f, std::size_t i) { return f.angle(i); });
+          },
+          "Angles (F,) of the foils about their spans [rad].");
+}
+
 void bindStates(py::class_<PythonWorld, std::shared_ptr<PythonWorld>>& type) {
   type.def(
           "state", [](const PythonWorld& w) { return py::bytes(w.simulation().saveState()); },
@@ -394,6 +437,7 @@ True
   bindWorldMotion(type);
   bindWorldRobots(type);
   bindThrusters(type);
+  bindFoils(type);
   bindStates(type);
   type.def(
       "set_regions", [](PythonWorld& w, const Scene& scene) { w.setRegions(scene); },

@@ -17,6 +17,7 @@
 #include "demos/scene/scene.h"
 #include "demos/simulation/body_preparation.h"
 #include "demos/simulation/robots/robots_in_world.h"
+#include "demos/simulation/scene_foils.h"
 #include "demos/simulation/thrusters.h"
 #include "demos/simulation/world_body.h"
 
@@ -36,6 +37,7 @@ constexpr std::array<std::pair<const char*, long long AmbientCounters::*>, 6> kW
 struct SimulationState {
   long long steps = 0;
   std::vector<ThrusterState> thrusters;
+  std::vector<double> foil_angles;  ///< [rad]
   WorldState world;
 };
 
@@ -78,6 +80,10 @@ class Simulation {
   /// Thrusters of the scene; their commands are 0 at first.
   Thrusters& thrusters() { return thrusters_; }
   const Thrusters& thrusters() const { return thrusters_; }
+
+  /// Foils of the scene likewise.
+  SceneFoils& foils() { return foils_; }
+  const SceneFoils& foils() const { return foils_; }
 
   /// Work done for one body by the fluid; zero for a body without fluid.
   AmbientCounters work(std::size_t body) const;
@@ -143,7 +149,9 @@ class Simulation {
   /// of another scene; the simulation then stays as it was.
   void restoreState(std::string_view bytes);
   /// Copies all that changes from step to step, in memory, in microseconds.
-  SimulationState state() const { return {steps_, thrusters_.states(), fluid_.save()}; }
+  SimulationState state() const {
+    return {steps_, thrusters_.states(), foils_.angles(), fluid_.save()};
+  }
   /// Goes on from there, as restoreState(). @pre a state of this scene
   void restore(const SimulationState& state);
 
@@ -179,6 +187,7 @@ class Simulation {
   std::unique_ptr<RobotsInWorld> robots_ = makeRobotsInWorld();  ///< null: built without
   std::vector<std::unique_ptr<btTypedConstraint>> joints_;
   Thrusters thrusters_;
+  SceneFoils foils_;
   LoadLaw own_law_;       ///< law of all bodies; empty: this library's law
   OwnFlight own_flight_;  ///< integrator of all bodies; null: the passive leapfrog
   double time_step_;

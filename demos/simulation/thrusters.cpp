@@ -36,7 +36,7 @@ void Thrusters::setFactors(std::size_t index, double thrust, double lag) {
 void Thrusters::follow(double time_step) {
   for (std::size_t i = 0; i < defs_.size(); ++i) {
     const double factor = defs_[i].propeller ? 1 : factors_[i].thrust;
-    const double asked = factor * defs_[i].driveAt(commands_[i]);
+    const double asked = factor * valueAt(defs_[i].curve, commands_[i]);
     const double lag = factors_[i].lag * defs_[i].lag;
     double& drive = states_[i].drive;
     drive += (asked - drive) * (time_step / (lag + time_step));
@@ -48,23 +48,24 @@ bool Thrusters::readsFluid(std::size_t index) const {
   return defs_[index].propeller || (defs_[index].radius > 0 && states_[index].drive != 0);
 }
 
-PropellerLoad Thrusters::loadOf(std::size_t index, const MotionSample& pose,
-                                const Medium& medium) const {
-  const ThrusterDef& def = defs_[index];
+double Thrusters::advanceIn(const Medium& medium, std::size_t index,
+                            const MotionSample& pose) const {
   const Vector3 velocity = pose.twist.at(pose.orientation * arms_[index]) - medium.velocity;
-  const double advance = velocity.dot(pose.orientation * def.axis);
-  return factors_[index].thrust *
-         def.propeller->load(states_[index].drive, advance, medium.density);
+  return velocity.dot(pose.orientation * defs_[index].axis);
 }
 
 // A disc in two fluids has the share in the lower one; above it, all of the upper.
 Wrench Thrusters::wrenchIn(const RegionSample& fluid, std::size_t index, const MotionSample& pose) {
   const ThrusterDef& def = defs_[index];
   double wet = std::clamp(0.5 + fluid.height / (2 * def.radius), 0.0, 1.0);
-  PropellerLoad& load = states_[index].load;
+  ThrusterState& state = states_[index];
+  PropellerLoad& load = state.load;
   if (def.propeller) {
-    load = loadOf(index, pose, wet > 0 ? fluid.below : fluid.above);
+    const Medium& medium = wet > 0 ? fluid.below : fluid.above;
     if (!(wet > 0)) wet = 1;
+    state.advance = advanceIn(medium, index, pose);
+    state.density = wet * medium.density;
+    load = factors_[index].thrust * def.propeller->load(state.drive, state.advance, medium.density);
   }
   Wrench wrench = wet * load.thrust * per_thrust_[index];
   wrench.torque -= (def.is_left_handed ? -wet : wet) * load.torque * def.axis;

@@ -16,11 +16,14 @@ namespace ambient {
 /// State of a thruster; plain numbers, as saved states hold them.
 struct ThrusterState {
   double drive = 0;    ///< what follows the command: thrust [N], or turns [1/s]
+  double advance = 0;  ///< of a propeller in the last step [m/s]
+  double density = 0;  ///< of the fluid at its disc then, times the share of the disc in it
   PropellerLoad load;  ///< in the last step, without what dry discs lose; without a propeller: its
                        ///< thrust alone
 
   bool isFinite() const {
-    return std::isfinite(drive + load.thrust + load.torque + load.power + load.induced);
+    return std::isfinite(drive + advance + density + load.thrust + load.torque + load.power +
+                         load.induced);
   }
 };
 static_assert(std::is_trivially_copyable_v<ThrusterState>);
@@ -76,8 +79,8 @@ class Thrusters {
   }
   /// Wrench about the centre of mass, axes of the body. Keeps the load.
   Wrench wrenchIn(const RegionSample& fluid, std::size_t index, const MotionSample& pose);
-  /// Load of a whole disc in a fluid.
-  PropellerLoad loadOf(std::size_t index, const MotionSample& pose, const Medium& medium) const;
+  /// Velocity of a disc along its axis, relative to a fluid.
+  double advanceIn(const Medium& medium, std::size_t index, const MotionSample& pose) const;
 
   std::vector<ThrusterDef> defs_;
   std::vector<Vector3> arms_;       // from the centre of mass, axes of the shape [m]

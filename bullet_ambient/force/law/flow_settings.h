@@ -46,10 +46,10 @@ struct FlowSettings {
   /// Height of the roughness of the surface [m], form law: dimples, felt, fouling; 0: smooth.
   double roughness = 0;
   /// Wings, fins and rudders by their numbers, beside the shape of the body; null: none. Kept by
-  /// whoever turns them, Foils::turn(). Saved states hold them no more than own_law.
+  /// whoever turns them, Foils::turn(); a body that gets a saved state keeps its own.
   std::shared_ptr<const Foils> foils = nullptr;
 
-  /// Whether loads and models by these settings are those of one body alone.
+  /// Whether models by these settings are those of one body alone.
   bool isOfOneBody() const { return own_law || foils; }
 };
 

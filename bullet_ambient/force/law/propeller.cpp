@@ -133,6 +133,24 @@ double inducedVelocity(double thrust, double advance, double mass_per_length) no
   return sign * (-along - std::sqrt(along * along - rest_sq));
 }
 
+double Wash::shareOf(const Vector3& centre, const Vector3& half) const noexcept {
+  const double beside = radius * radius - centre.squaredNorm();
+  const double length_sq = half.squaredNorm(), skew = centre.dot(half);
+  const double root_sq = skew * skew + length_sq * beside;
+  if (!(root_sq > 0)) return beside > 0 ? 1 : 0;
+  const double root = std::sqrt(root_sq);
+  const double from = std::max(-length_sq, -skew - root), to = std::min(length_sq, -skew + root);
+  return std::max(0.0, to - from) / (2 * length_sq);
+}
+
+Wash washOf(double induced, double advance, double radius, double distance) noexcept {
+  const double own = std::abs(induced), along = induced < 0 ? -advance : advance;
+  if (!(distance > 0 && own > 0 && along + own > 0)) return {};
+  const double way = distance / std::sqrt(distance * distance + radius * radius);
+  const double velocity = own * (1 + way);
+  return {velocity, radius * std::sqrt((along + own) / (along + velocity))};
+}
+
 Propeller::Propeller(double diameter, std::vector<PropellerPoint> points,
                      const PropellerExtras& extras, double pitch_ratio)
     : diameter_(diameter), points_(std::move(points)), astern_(extras.astern) {

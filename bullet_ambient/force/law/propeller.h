@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "bullet_ambient/spatial/vector_types.h"
+
 namespace ambient {
 
 /// Thrust and torque of a propeller, and what they cost; signs as those of positive turns.
@@ -90,5 +92,23 @@ class Propeller {
 /// Returns v_i of momentum theory for a thrust [N] at an advance [m/s], with the thrust's sign,
 /// docs/theory.md eq. (162). `mass_per_length`: rho A of the disc, above 0 [kg/m].
 double inducedVelocity(double thrust, double advance, double mass_per_length) noexcept;
+
+/// Jet behind a disc.
+struct Wash {
+  double velocity = 0;  ///< that it adds to the fluid, away from the disc, >= 0 [m/s]
+  double radius = 0;    ///< [m]; 0: there is none
+
+  /// Returns the share of a line that is in the jet. `centre`: of the line from the axis; `half`:
+  /// from there to its end [m].
+  double shareOf(const Vector3& centre, const Vector3& half) const noexcept;
+};
+
+/// Returns the jet of a disc at a distance behind it, docs/theory.md eq. (170): against the axis
+/// if `induced` is positive, else along it.
+/// @param induced v_i [m/s]
+/// @param advance V of the disc [m/s]
+/// @param radius of the disc [m]
+/// @param distance down the jet [m]
+Wash washOf(double induced, double advance, double radius, double distance) noexcept;
 
 }  // namespace ambient

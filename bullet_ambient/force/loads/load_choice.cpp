@@ -315,15 +315,13 @@ std::shared_ptr<const SurfaceLoads> lawOf(const Body& body, const LoadSettings& 
 std::shared_ptr<const SurfaceLoads> makeLoads(const Body& body, const Medium& medium,
                                               const FlowSettings& flow, LoadPlace place) {
   const LoadSettings settings = loadSettings(medium, flow);
-  const auto make = [&] {
-    auto loads = lawOf(body, settings, flow, place);
-    return flow.foils && medium.density > 0 ? addFoils(std::move(loads), flow.foils, medium.density)
-                                            : loads;
-  };
+  const auto make = [&] { return lawOf(body, settings, flow, place); };
   checkFlow(*body, flow);
   // Not for a medium without loads, nor for one that later checks reject.
-  const bool is_shared = medium.density > 0 && medium.viscosity >= 0 && !flow.isOfOneBody();
-  return is_shared ? LoadTables(body).loads(medium, flow, place, make) : make();
+  const bool is_shared = medium.density > 0 && medium.viscosity >= 0 && !flow.own_law;
+  auto loads = is_shared ? LoadTables(body).loads(medium, flow, place, make) : make();
+  if (!flow.foils || !(medium.density > 0)) return loads;
+  return addFoils(std::move(loads), flow.foils, medium.density);
 }
 
 }  // namespace

@@ -87,24 +87,26 @@ TEST(FoilsInAWorld, TurnForOneBodyAlone) {
   EXPECT_LT(static_cast<double>(one.getAngularVelocity().z()) * turned, 0);
 }
 
-TEST(FoilsInAWorld, AreInStatesInMemoryAndGivenToThoseInBytes) {
-  const auto foils = std::make_shared<Foils>(gliderFoils());
+TEST(FoilsInAWorld, StayWithABodyThatGetsASavedState) {
+  std::vector<std::shared_ptr<Foils>> foils;
+  for (int i = 0; i < 3; ++i) foils.push_back(std::make_shared<Foils>(gliderFoils()));
   FluidWorld one, other, third;
-  const Twist start{{1, 2, 3}, {3, 0.2, 0}};
-  btRigidBody& here = addGlider(one, foils, 4, start);
-  btRigidBody& there = addGlider(other, foils);
-  btRigidBody& last = addGlider(third, foils);
+  btRigidBody& here = addGlider(one, foils[0], 4, {{1, 2, 3}, {3, 0.2, 0}});
+  btRigidBody& there = addGlider(other, foils[1]);
+  btRigidBody& last = addGlider(third, foils[2]);
   one.step(kWorldStep, 10);
   const WorldState state = one.fluid.save();
   other.fluid.restore(state);
   const auto lookup = [&](const std::string&) { return one.of(here).fluidBody(); };
-  WorldState decoded = decodeState(encodeState(state), "state", lookup);
-  EXPECT_EQ(decoded.bodies[0].ambient->def.flow.foils, nullptr);
-  decoded.bodies[0].ambient->def.flow.foils = foils;
-  third.fluid.restore(decoded);
+  third.fluid.restore(decodeState(encodeState(state), "state", lookup));
   for (FluidWorld* world : {&one, &other, &third}) world->step(kWorldStep, 20);
   EXPECT_TRUE(moveAlike(here, there));
   EXPECT_TRUE(moveAlike(here, last));
+  // What the first world turns, the others do not feel.
+  foils[0]->turn(1, 0.3);
+  for (FluidWorld* world : {&one, &other, &third}) world->step(kWorldStep, 5);
+  EXPECT_FALSE(moveAlike(here, there));
+  EXPECT_TRUE(moveAlike(there, last));
 }
 
 }  // namespace

@@ -241,7 +241,7 @@ TEST(Foils, AddToTheLoadsOfABody) {
     Wrench sum = split.wrench;
     if (both->resistance()) sum += both->resistance()->load(split.growth, of_both.toF(x));
     EXPECT_LE((of_both.toB(sum).vector() - expected).norm(), 1e-12 * expected.norm());
-    EXPECT_NE(makeSurfaceLoads(body, water(), flow), both);  // not shared
+    EXPECT_NE(makeSurfaceLoads(body, water(), flow), both);
     EXPECT_EQ(makeSurfaceLoads(body, Medium{}, flow), nullptr);
   }
 }

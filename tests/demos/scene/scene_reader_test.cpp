@@ -183,7 +183,7 @@ TEST(SceneReader, ReadsThrusters) {
   EXPECT_EQ(thruster.torque_per_thrust, 0.01);
   const double thrusts[][2] = {{-3, -20},  {-0.5, -10}, {0, 0}, {0.25, 2},
                                {0.75, 17}, {1, 30},     {2, 30}};
-  for (const auto& [command, thrust] : thrusts) EXPECT_EQ(thruster.driveAt(command), thrust);
+  for (const auto& [command, thrust] : thrusts) EXPECT_EQ(valueAt(thruster.curve, command), thrust);
 }
 
 TEST(SceneReader, ReadsPropellers) {
