@@ -138,13 +138,6 @@ double Wing::plateMass() const {
   return kPi / 4 * chord * chord * span * std::min(1.0, aspect) * of_strip;
 }
 
-double Wing::shareOf(double volume, double phi) const {
-  const auto squared = [](double x) { return x * x; };
-  const double thick = squared(volume / plateMass());
-  const double aside = squared(1.5 * std::max(1 - phi, 0.0));
-  return squared(std::max(1 - thick, 0.0)) * std::max(1 - aside, 0.0);
-}
-
 std::array<double*, Wing::kNumbers> Wing::numbers() { return wingNumbersOf<double>(*this); }
 
 std::array<const double*, Wing::kNumbers> Wing::numbers() const {

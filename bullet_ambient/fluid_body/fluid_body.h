@@ -194,8 +194,6 @@ struct Wing {
 
   /// Returns k of eq. (156), its added mass along z per unit density [m^3].
   double plateMass() const;
-  /// Returns W of eq. (158) for a volume A t [m^3] and phi, 1 of flat sides.
-  double shareOf(double volume, double phi) const;
   /// All numbers but is_joined in the order above, which is that of files.
   std::array<double*, kNumbers> numbers();
   std::array<const double*, kNumbers> numbers() const;

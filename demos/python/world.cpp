@@ -329,9 +329,10 @@ void bindThrusters(py::class_<PythonWorld, std::shared_ptr<PythonWorld>>& type) 
             return names;
           },
           "Names of the thrusters (T), in the order of the scene.")
-      .def_property("commands", &commandsOf, &setCommands,
-                    "Commands (T,) of the thrusters, which hold until others are set; 0 at first. "
-                    "Their thrusts follow by the curve and the lag of the scene.")
+      .def_property(
+          "commands", &commandsOf, &setCommands,
+          "Commands (T,) of the thrusters, which hold until others are set; at first those of "
+          "the scene. Their thrusts follow by the curve and the lag of the scene.")
       .def_property_readonly(
           "thrusts",
           [](const PythonWorld& w) {

@@ -126,6 +126,7 @@ struct ThrusterDef {
   Vector3 position = Vector3::Zero();  ///< [m]
   Vector3 axis = Vector3::UnitX();     ///< direction of a positive thrust, unit
   CommandCurve curve;                  ///< command, drive [N] or [1/s]
+  double command = 0;                  ///< at the start
   double lag = 0;                      ///< time constant of the drive [s]
   double radius = 0;                   ///< of the disc [m]; 0: it is never dry
   double torque_per_thrust = 0;        ///< torque about the axis over the thrust [m]
@@ -139,6 +140,7 @@ struct FoilDef {
   std::size_t body = 0;  ///< index in Scene::bodies
   Foil foil;
   CommandCurve curve;  ///< command, angle [rad]; empty: it does not turn
+  double command = 0;  ///< at the start
   double lag = 0;      ///< time constant of the angle [s]
 };
 

@@ -141,11 +141,13 @@ FoilDef toFoil(const nlohmann::json& from, const Scene& scene) {
     for (const auto& row : from.at("polar"))
       foil.polar.push_back({row[0].get<double>(), row[1].get<double>(), row[2].get<double>()});
   if (from.contains("curve")) def.curve = toCurve(from.at("curve"), place);
+  def.command = from.value("command", def.command);
   def.lag = from.value("lag", def.lag);
   try {
     Foils({foil});
   } catch (const std::invalid_argument& error) {
-    raiseInputError(place.substr(0, place.size() - 1), std::string(error.what()).substr(8));
+    const std::string line = error.what();  // foil 0: its ...
+    raiseInputError(place.substr(0, place.size() - 1), line.substr(line.find("its")));
   }
   return def;
 }
@@ -160,6 +162,7 @@ ThrusterDef toThruster(const nlohmann::json& from, const Scene& scene) {
   if (!(axis.norm() > 0)) raiseInputError(place + "axis", "is 0, 0, 0; must have a length > 0");
   thruster.axis = mount.pose.linear() * axis.normalized();
   thruster.curve = toCurve(from.at("curve"), place);
+  thruster.command = from.value("command", thruster.command);
   thruster.lag = from.value("lag", thruster.lag);
   thruster.radius = from.value("radius", thruster.radius);
   thruster.torque_per_thrust = from.value("torque_per_thrust", thruster.torque_per_thrust);

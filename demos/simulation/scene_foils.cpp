@@ -12,6 +12,7 @@ SceneFoils::SceneFoils(const Scene& scene, const std::vector<PreparedBody>& bodi
     const PreparedBody& body = bodies[def.body];
     Placed placed;
     placed.def = def;
+    placed.command = def.command;
     placed.index = on_bodies[def.body].size();
     placed.arm = def.foil.position - body.centre_of_mass;
     placed.origin = body.fluid_origin - body.centre_of_mass;

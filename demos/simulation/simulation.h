@@ -77,7 +77,7 @@ class Simulation {
   /// Present motion of one body. Allocates nothing.
   MotionSample sample(std::size_t body) const { return sample(bodies_.at(body)); }
 
-  /// Thrusters of the scene; their commands are 0 at first.
+  /// Thrusters of the scene; their commands are those of the scene at first.
   Thrusters& thrusters() { return thrusters_; }
   const Thrusters& thrusters() const { return thrusters_; }
 

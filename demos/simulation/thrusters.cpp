@@ -9,9 +9,9 @@ namespace ambient {
 Thrusters::Thrusters(const Scene& scene, const std::vector<PreparedBody>& bodies)
     : defs_(scene.thrusters),
       factors_(defs_.size()),
-      commands_(defs_.size(), 0.0),
       states_(defs_.size()) {
   for (const ThrusterDef& def : defs_) {
+    commands_.push_back(def.command);
     arms_.push_back(def.position - bodies[def.body].centre_of_mass);
     per_thrust_.push_back(
         {arms_.back().cross(def.axis) + def.torque_per_thrust * def.axis, def.axis});

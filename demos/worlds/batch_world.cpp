@@ -117,9 +117,10 @@ void BatchWorld::setFlowAndThrusters() {
   Thrusters& thrusters = simulation_->thrusters();
   for (std::size_t i = 0; i < thrusters.size(); ++i) {
     thrusters.setFactors(i, thrusts ? thrusts[i] : 1, lag ? *lag : 1);
-    thrusters.command(i, 0);
+    thrusters.command(i, thrusters.def(i).command);
   }
-  for (std::size_t i = 0; i < simulation_->foils().size(); ++i) simulation_->foils().command(i, 0);
+  SceneFoils& foils = simulation_->foils();
+  for (std::size_t i = 0; i < foils.size(); ++i) foils.command(i, foils.def(i).command);
   const double* target = find(VariationKind::kTarget);
   target_ = target ? vectorAt(target) : Vector3(Vector3::Zero());
   const double* gust = find(VariationKind::kGust);

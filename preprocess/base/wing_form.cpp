@@ -18,7 +18,7 @@ double shareOf(const Wing& wing, const LiftedPart& part, const FaceTable& faces)
     area += faces.area[i];
   }
   if (!(area > 0)) return 0;
-  return wing.shareOf(part.volume, facing / area);
+  return wingShare(wing, part.volume, facing / area);
 }
 
 }  // namespace

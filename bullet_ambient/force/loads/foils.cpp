@@ -114,7 +114,7 @@ std::shared_ptr<const SurfaceLoads> lawOfWing(const Foil& foil, const Wing& wing
 Foils::Placed Foils::place(const Foil& foil, std::size_t index) {
   checkFoil(foil, index);
   const Wing wing = wingOf(foil);
-  const double share = wing.shareOf(foil.span * foil.chord * foil.thickness, 1);
+  const double share = wingShare(wing, foil.span * foil.chord * foil.thickness, 1);
   Placed placed{foil, 0, {}, {}, ShapeFactors(wing, share), nullptr, {}, wing.plateMass() / 2};
   if (foil.polar.empty()) placed.law = lawOfWing(foil, wing, share);
   placed.halves =

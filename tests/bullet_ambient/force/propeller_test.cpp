@@ -153,6 +153,42 @@ TEST(Propeller, BrakesWhereItStandsStill) {
   EXPECT_GT(screw.load(-3, 1, kDensity).power, 0);
 }
 
+// Eq. (170): v_i at the disc, 2 v_i and half of the area far behind it at rest; the jet keeps its
+// flow, and its momentum is the thrust.
+TEST(Propeller, HasAWashThatContracts) {
+  const PropellerLoad load = Propeller::idealDisc(0.4).load(50, 0, kDensity);
+  const double area = kPi / 4 * 0.16;
+  const Wash at = washOf(load.induced, 0, 0.2, 1e-9), far = washOf(load.induced, 0, 0.2, 1e6);
+  EXPECT_NEAR(at.velocity, load.induced, 1e-6);
+  EXPECT_NEAR(at.radius, 0.2, 1e-6);
+  EXPECT_NEAR(far.velocity, 2 * load.induced, 1e-9);
+  EXPECT_NEAR(far.radius, 0.2 / std::sqrt(2), 1e-9);
+  EXPECT_NEAR(kDensity * kPi * far.radius * far.radius * far.velocity * far.velocity, 50, 1e-7);
+  const Wash moving = washOf(load.induced, 3, 0.2, 0.3);
+  EXPECT_NEAR(kPi * moving.radius * moving.radius * (3 + moving.velocity),
+              area * (3 + load.induced), 1e-12);
+  // Backwards the jet goes the other way; there is none before the disc, and none against a stream
+  // that comes through it from behind.
+  EXPECT_NEAR(washOf(-load.induced, -3, 0.2, 0.3).velocity, moving.velocity, 1e-12);
+  EXPECT_EQ(washOf(load.induced, 0, 0.2, -0.1).radius, 0);
+  EXPECT_EQ(washOf(load.induced, -2 * load.induced, 0.2, 0.3).radius, 0);
+}
+
+TEST(Propeller, WashesTheShareOfALineInItsJet) {
+  const Wash wash{1, 0.5};
+  const auto share = [&](double y, double z, double half) {
+    return wash.shareOf({0, y, z}, {0, half, 0});
+  };
+  EXPECT_NEAR(share(0, 0, 0.4), 1, 1e-15);
+  EXPECT_NEAR(share(0, 0, 1), 0.5, 1e-15);
+  EXPECT_NEAR(share(0.5, 0, 0.5), 0.5, 1e-15);
+  EXPECT_NEAR(share(0, 0.3, 1), 0.4, 1e-15);
+  EXPECT_EQ(share(0, 0.6, 1), 0);
+  EXPECT_EQ(share(3, 0, 1), 0);
+  EXPECT_EQ(share(0.1, 0, 0), 1);
+  EXPECT_EQ(share(0.6, 0, 0), 0);
+}
+
 TEST(Propeller, RefusesWhatNoPropellerHas) {
   const auto table = [](std::vector<PropellerPoint> points) {
     return test::refusalOf<std::invalid_argument>(

@@ -207,6 +207,37 @@ TEST(SceneReader, ReadsPropellers) {
   EXPECT_FALSE(read.at(2).is_left_handed);
 }
 
+TEST(SceneReader, ReadsFoils) {
+  json text = ballScene();
+  text["foils"] = json::array(
+      {{{"on", "ball"},
+        {"position", {1, 2, 3}},
+        {"chord_axis", {0, 1, 0}},
+        {"span_axis", {0, 0, 1}},
+        {"span", 2},
+        {"chord", 0.5},
+        {"thickness", 0.05},
+        {"camber", 0.02},
+        {"drag", 0.008},
+        {"aspect", 8},
+        {"curve", {{-1, -0.6}, {1, 0.6}}},
+        {"command", 0.5},
+        {"lag", 0.3}},
+       {{"on", "ball"}, {"span", 1}, {"chord", 1}, {"polar", {{0, 0, 0.1}, {3.141593, 0, 0.2}}}}});
+  const std::vector<FoilDef> foils = sceneFrom(text).foils;
+  const Foil& foil = foils.at(0).foil;
+  EXPECT_EQ(foils[0].name, "foil_0");
+  EXPECT_EQ(foil.position, Vector3(1, 2, 3));
+  EXPECT_EQ(foil.chord_axis, Vector3(0, 1, 0));
+  EXPECT_EQ(foil.span_axis, Vector3(0, 0, 1));
+  const double numbers[] = {foil.span, foil.chord,  foil.thickness,   foil.camber,
+                            foil.drag, foil.aspect, foils[0].command, foils[0].lag};
+  const double expected[] = {2, 0.5, 0.05, 0.02, 0.008, 8, 0.5, 0.3};
+  for (std::size_t i = 0; i < std::size(expected); ++i) EXPECT_EQ(numbers[i], expected[i]);
+  EXPECT_NEAR(valueAt(foils[0].curve, 0.5), 0.3, 1e-15);
+  EXPECT_EQ(foils.at(1).foil.polar.at(1).drag, 0.2);
+}
+
 TEST(SceneReader, NamesAMissingFile) {
   EXPECT_EQ(test::refusalOf<std::exception>([] { readScene("no/such/scene.json"); }),
             "no/such/scene.json: no such file");
