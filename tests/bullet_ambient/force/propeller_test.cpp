@@ -14,14 +14,14 @@
 namespace ambient {
 namespace {
 
-constexpr double kDensity = 998;
+constexpr double kSeaDensity = 998;
 
 WageningenScrew b455() { return {4, 0.55, 1}; }
 
 /// K_T and K_Q that load() gives at J.
 PropellerPoint seen(const Propeller& propeller, double advance, double turns = 3) {
-  const double d = propeller.diameter(), scale = kDensity * turns * turns * std::pow(d, 4);
-  const PropellerLoad load = propeller.load(turns, advance * std::abs(turns) * d, kDensity);
+  const double d = propeller.diameter(), scale = kSeaDensity * turns * turns * std::pow(d, 4);
+  const PropellerLoad load = propeller.load(turns, advance * std::abs(turns) * d, kSeaDensity);
   return {advance, load.thrust / scale, load.torque / (scale * d)};
 }
 
@@ -64,18 +64,20 @@ TEST(Propeller, HasItsTablesPointsAndLinesBetween) {
 // T = 2 rho A W (W - V), P = T W: momentum theory, with the power of the thrust at rest.
 TEST(Propeller, IsAnIdealDiscByMomentumTheory) {
   const Propeller disc = Propeller::idealDisc(0.3);
-  const double mass = kDensity * kPi / 4 * 0.09;
+  const double mass = kSeaDensity * kPi / 4 * 0.09;
   for (const double rest : {20.0, -20.0})
     for (const double advance : {-8.0, -1.0, -0.1, 0.0, 0.2, 1.0, 8.0}) {
-      const PropellerLoad load = disc.load(rest, advance, kDensity);
+      const PropellerLoad load = disc.load(rest, advance, kSeaDensity);
       const double through = advance + load.induced;
       EXPECT_NEAR(load.power, std::pow(20, 1.5) / std::sqrt(2 * mass), 1e-12);
       EXPECT_NEAR(load.thrust * through, load.power, 1e-12 * load.power);
       const double momentum = 2 * mass * std::abs(through) * load.induced;
       EXPECT_NEAR(load.thrust, momentum, 1e-12 * std::abs(momentum));
-      if (advance == 0) EXPECT_NEAR(load.thrust, rest, 1e-12);
+      if (advance == 0) {
+        EXPECT_NEAR(load.thrust, rest, 1e-12);
+      }
     }
-  EXPECT_EQ(disc.load(0, 3, kDensity).thrust, 0);
+  EXPECT_EQ(disc.load(0, 3, kSeaDensity).thrust, 0);
   EXPECT_EQ(disc.load(20, 3, 0).thrust, 0);
 }
 
@@ -109,7 +111,7 @@ TEST(Propeller, NeverExceedsTheIdealEfficiency) {
   for (const Propeller& propeller : allPropellers())
     for (int i = 0; i < 2000; ++i) {
       const double turns = arbitrary.between(-20, 20), advance = arbitrary.between(-8, 8);
-      const PropellerLoad load = propeller.load(turns, advance, kDensity);
+      const PropellerLoad load = propeller.load(turns, advance, kSeaDensity);
       const double through = advance + load.induced;
       const double size = std::abs(load.thrust) * (std::abs(advance) + std::abs(load.induced));
       ASSERT_GE(load.power, load.thrust * through - 1e-12 * size);
@@ -121,9 +123,9 @@ TEST(Propeller, NeverExceedsTheIdealEfficiency) {
 TEST(Propeller, ChangesContinuouslyThroughAllQuadrants) {
   for (const Propeller& propeller : allPropellers()) {
     const auto at = [&](double angle) {
-      return propeller.load(10 * std::cos(angle), 6 * std::sin(angle), kDensity);
+      return propeller.load(10 * std::cos(angle), 6 * std::sin(angle), kSeaDensity);
     };
-    const double scale = kDensity * 36 * 0.0625;
+    const double scale = kSeaDensity * 36 * 0.0625;
     const double most = 2e-3;
     for (int i = 0; i < 5000; ++i) {
       const double angle = 2 * kPi * i / 5000;
@@ -138,32 +140,32 @@ TEST(Propeller, ChangesContinuouslyThroughAllQuadrants) {
 TEST(Propeller, BrakesWhereItStandsStill) {
   const Propeller screw = Propeller::wageningen(0.4, b455());
   const double slope = 1 / (0.7 * kPi), disc = kPi / 4 * 0.16;
-  const double drag = 0.5 * kDensity * 4 * disc * 0.55 * 1.17 / std::sqrt(1 + slope * slope);
+  const double drag = 0.5 * kSeaDensity * 4 * disc * 0.55 * 1.17 / std::sqrt(1 + slope * slope);
   for (const double advance : {2.0, -2.0}) {
-    const PropellerLoad load = screw.load(0, advance, kDensity);
+    const PropellerLoad load = screw.load(0, advance, kSeaDensity);
     EXPECT_NEAR(load.thrust, advance > 0 ? -drag : drag, 1e-12 * drag);
     EXPECT_NEAR(load.torque, load.thrust * 0.4 / (2 * kPi), 1e-12 * drag);
     EXPECT_EQ(load.power, 0);
   }
-  EXPECT_EQ(screw.load(0, 0, kDensity).thrust, 0);
+  EXPECT_EQ(screw.load(0, 0, kSeaDensity).thrust, 0);
   // The flow turns it ahead where its shaft is slow: it then gives power.
-  EXPECT_LT(screw.load(1, 2, kDensity).power, 0);
+  EXPECT_LT(screw.load(1, 2, kSeaDensity).power, 0);
   // It stops a ship that still moves ahead, and needs power for it.
-  EXPECT_LT(screw.load(-3, 1, kDensity).thrust, 0);
-  EXPECT_GT(screw.load(-3, 1, kDensity).power, 0);
+  EXPECT_LT(screw.load(-3, 1, kSeaDensity).thrust, 0);
+  EXPECT_GT(screw.load(-3, 1, kSeaDensity).power, 0);
 }
 
 // Eq. (170): v_i at the disc, 2 v_i and half of the area far behind it at rest; the jet keeps its
 // flow, and its momentum is the thrust.
 TEST(Propeller, HasAWashThatContracts) {
-  const PropellerLoad load = Propeller::idealDisc(0.4).load(50, 0, kDensity);
+  const PropellerLoad load = Propeller::idealDisc(0.4).load(50, 0, kSeaDensity);
   const double area = kPi / 4 * 0.16;
   const Wash at = washOf(load.induced, 0, 0.2, 1e-9), far = washOf(load.induced, 0, 0.2, 1e6);
   EXPECT_NEAR(at.velocity, load.induced, 1e-6);
   EXPECT_NEAR(at.radius, 0.2, 1e-6);
   EXPECT_NEAR(far.velocity, 2 * load.induced, 1e-9);
   EXPECT_NEAR(far.radius, 0.2 / std::sqrt(2), 1e-9);
-  EXPECT_NEAR(kDensity * kPi * far.radius * far.radius * far.velocity * far.velocity, 50, 1e-7);
+  EXPECT_NEAR(kSeaDensity * kPi * far.radius * far.radius * far.velocity * far.velocity, 50, 1e-7);
   const Wash moving = washOf(load.induced, 3, 0.2, 0.3);
   EXPECT_NEAR(kPi * moving.radius * moving.radius * (3 + moving.velocity),
               area * (3 + load.induced), 1e-12);
