@@ -36,7 +36,8 @@ using FluidBodyLookup = std::function<std::shared_ptr<const FluidBody>(const std
 
 /// Converts a saved state to bytes: little-endian, with version, precision and checksum. The same
 /// state gives the same bytes. FlowSettings::own_law and FlightSettings::own_flight, functions, are
-/// not included: set them in the result of decodeState().
+/// not included: set them in the result of decodeState(). Foils, FlowSettings::foils, are not
+/// either: a body that has some keeps them, at the angles to which it has turned them.
 /// @throws std::runtime_error if two fluid bodies of one name have different contents.
 std::string encodeState(const WorldState& state);
 

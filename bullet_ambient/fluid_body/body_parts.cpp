@@ -1,5 +1,6 @@
 #include "bullet_ambient/fluid_body/body_parts.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "bullet_ambient/base/ambient_assert.h"
@@ -23,6 +24,13 @@ Matrix3 positivePartOf(const Matrix3& matrix) {
 }
 
 }  // namespace
+
+double wingShare(const Wing& wing, double volume, double phi) {
+  const auto squared = [](double x) { return x * x; };
+  const double thick = squared(volume / wing.plateMass());
+  const double aside = squared(1.5 * std::max(1 - phi, 0.0));
+  return squared(std::max(1 - thick, 0.0)) * std::max(1 - aside, 0.0);
+}
 
 FaceTable facesOfPart(const SurfaceForm& form, std::size_t label) {
   AMBIENT_ASSERT(form.part_of_face.size() == form.faces.size());

@@ -14,6 +14,10 @@ struct LiftedPart {
   Vector3 centre{0, 0, 0};               ///< of its volume [m]
 };
 
+/// Returns W of docs/theory.md eq. (158) of a wing with a volume A t [m^3] and phi, 1 of flat
+/// sides.
+double wingShare(const Wing& wing, double volume, double phi);
+
 /// Returns the faces of the form law that have a label: 0 of the rest, or the number of a wing.
 /// @pre form.part_of_face is filled
 FaceTable facesOfPart(const SurfaceForm& form, std::size_t label);

@@ -172,7 +172,7 @@ std::shared_ptr<const AttachDef> shareDef(AttachDef def, ModelTables& tables) {
   key.insert(key.end(), def.holds.water.begin(), def.holds.water.end());
   const auto make = [&] { return std::make_shared<const AttachDef>(def); };
   const bool is_shared =
-      def.name.empty() && !def.flow.own_law && !def.flight.own_flight && isFinite(key);
+      def.name.empty() && !def.flow.isOfOneBody() && !def.flight.own_flight && isFinite(key);
   return is_shared ? tables.defs.get(def.fluid_body, key, make) : make();
 }
 
@@ -184,7 +184,7 @@ std::shared_ptr<const FluidModels> makeFluidModels(const AttachDef& def, const I
     return std::make_shared<const FluidModels>(makeModels(def, mass, fluids));
   };
   const Key key = keyOf(def, mass, fluids);
-  const bool is_shared = !def.flow.own_law && isFinite(key);
+  const bool is_shared = !def.flow.isOfOneBody() && isFinite(key);
   return is_shared ? tables.models.get(def.fluid_body, key, make) : make();
 }
 

@@ -311,6 +311,15 @@ void setCommands(PythonWorld& world, const InputArray& commands) {
   for (std::size_t i = 0; i < thrusters.size(); ++i) thrusters.command(i, commands.data()[i]);
 }
 
+/// An array of a number of each thruster.
+template <class Number>
+py::array ofThrusters(const PythonWorld& world, const Number& number) {
+  const std::vector<ThrusterState>& states = world.simulation().thrusters().states();
+  Eigen::VectorXd numbers(static_cast<Eigen::Index>(states.size()));
+  std::transform(states.begin(), states.end(), numbers.begin(), number);
+  return arrayOf(numbers);
+}
+
 void bindThrusters(py::class_<PythonWorld, std::shared_ptr<PythonWorld>>& type) {
   type.def_property_readonly(
           "thrusters",
@@ -320,17 +329,73 @@ void bindThrusters(py::class_<PythonWorld, std::shared_ptr<PythonWorld>>& type) 
             return names;
           },
           "Names of the thrusters (T), in the order of the scene.")
-      .def_property("commands", &commandsOf, &setCommands,
-                    "Commands (T,) of the thrusters, which hold until others are set; 0 at first. "
-                    "Their thrusts follow by the curve and the lag of the scene.")
+      .def_property(
+          "commands", &commandsOf, &setCommands,
+          "Commands (T,) of the thrusters, which hold until others are set; at first those of "
+          "the scene. Their thrusts follow by the curve and the lag of the scene.")
       .def_property_readonly(
           "thrusts",
           [](const PythonWorld& w) {
-            const std::vector<double>& thrusts = w.simulation().thrusters().thrusts();
-            return arrayOf(
-                Eigen::VectorXd::Map(thrusts.data(), static_cast<Eigen::Index>(thrusts.size())));
+            return ofThrusters(w, [](const ThrusterState& s) { return s.load.thrust; });
           },
-          "Thrusts (T,) at the end of the last step [N], without what dry discs lose.");
+          "Thrusts (T,) in the last step [N], without what dry discs lose.")
+      .def_property_readonly(
+          "turns",
+          [](const PythonWorld& w) {
+            return ofThrusters(w, [](const ThrusterState& s) { return s.drive; });
+          },
+          "What follows the commands (T,): turns of propellers by numbers [1/s]; of an ideal disc "
+          "the thrust that it would have at rest, of other thrusters their thrust [N].")
+      .def_property_readonly(
+          "powers",
+          [](const PythonWorld& w) {
+            return ofThrusters(w, [](const ThrusterState& s) { return s.load.power; });
+          },
+          "Powers (T,) of the shafts of propellers in the last step [W], without what dry discs "
+          "lose; 0 of thrusters that have none.");
+}
+
+/// An array of a number of each foil.
+template <class Number>
+py::array ofFoils(const PythonWorld& world, const Number& number) {
+  const SceneFoils& foils = world.simulation().foils();
+  Eigen::VectorXd numbers(static_cast<Eigen::Index>(foils.size()));
+  for (std::size_t i = 0; i < foils.size(); ++i)
+    numbers[static_cast<Eigen::Index>(i)] = number(foils, i);
+  return arrayOf(numbers);
+}
+
+void setFoilCommands(PythonWorld& world, const InputArray& commands) {
+  SceneFoils& foils = world.simulation().foils();
+  if (commands.ndim() != 1 || commands.shape(0) != static_cast<py::ssize_t>(foils.size()))
+    throw py::value_error("foil_commands have shape " + shapeText(commands) +
+                          "; must be one for each of " + std::to_string(foils.size()) + " foils");
+  for (std::size_t i = 0; i < foils.size(); ++i) foils.command(i, commands.data()[i]);
+}
+
+void bindFoils(py::class_<PythonWorld, std::shared_ptr<PythonWorld>>& type) {
+  type.def_property_readonly(
+          "foils",
+          [](const PythonWorld& w) {
+            std::vector<std::string> names;
+            for (const FoilDef& def : w.scene().foils) names.push_back(def.name);
+            return names;
+          },
+          "Names of the foils (F), in the order of the scene.")
+      .def_property(
+          "foil_commands",
+          [](const PythonWorld& w) {
+            return ofFoils(w, [](const SceneFoils& f, std::size_t i) { return f.command(i); });
+          },
+          &setFoilCommands,
+          "Commands (F,) of the foils, which hold until others are set; 0 at first. The angles of "
+          "those with a curve follow by it and the lag of the scene.")
+      .def_property_readonly(
+          "foil_angles",
+          [](const PythonWorld& w) {
+            return ofFoils(w, [](const SceneFoils& f, std::size_t i) { return f.angle(i); });
+          },
+          "Angles (F,) of the foils about their spans [rad].");
 }
 
 void bindStates(py::class_<PythonWorld, std::shared_ptr<PythonWorld>>& type) {
@@ -373,6 +438,7 @@ True
   bindWorldMotion(type);
   bindWorldRobots(type);
   bindThrusters(type);
+  bindFoils(type);
   bindStates(type);
   type.def(
       "set_regions", [](PythonWorld& w, const Scene& scene) { w.setRegions(scene); },

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "bullet_ambient/force/law/propeller.h"
+#include "bullet_ambient/force/loads/foils.h"
 #include "bullet_ambient/force/medium/fluid_region.h"
 #include "bullet_ambient/force/medium/medium.h"
 #include "bullet_ambient/force/medium/waves.h"
@@ -109,19 +111,37 @@ struct JointDef {
   std::optional<Vector3> axis;      ///< axis of a hinge in W at t = 0; none: ball joint
 };
 
-/// A propeller, jet or rotor that pushes a body. Frame: that of the body's shape or link.
+/// Points command, value with rising commands.
+using CommandCurve = std::vector<std::pair<double, double>>;
+
+/// Value of a curve for a command, linear in between, that of the ends beyond.
+double valueAt(const CommandCurve& curve, double command);
+
+/// A propeller, jet or rotor that pushes a body. Frame: that of the body's shape or link. What
+/// drives it follows the command: the thrust; with a propeller by numbers its turns, and of an
+/// ideal disc the thrust at rest.
 struct ThrusterDef {
   std::string name;
-  std::size_t body = 0;                          ///< index in Scene::bodies
-  Vector3 position = Vector3::Zero();            ///< [m]
-  Vector3 axis = Vector3::UnitX();               ///< direction of a positive thrust, unit
-  std::vector<std::pair<double, double>> curve;  ///< command, thrust at rest [N]; commands rise
-  double lag = 0;                                ///< time constant of the thrust [s]
-  double radius = 0;                             ///< of the disc [m]; 0: it is never dry
-  double torque_per_thrust = 0;                  ///< torque about the axis over the thrust [m]
+  std::size_t body = 0;                ///< index in Scene::bodies
+  Vector3 position = Vector3::Zero();  ///< [m]
+  Vector3 axis = Vector3::UnitX();     ///< direction of a positive thrust, unit
+  CommandCurve curve;                  ///< command, drive [N] or [1/s]
+  double command = 0;                  ///< at the start
+  double lag = 0;                      ///< time constant of the drive [s]
+  double radius = 0;                   ///< of the disc [m]; 0: it is never dry
+  double torque_per_thrust = 0;        ///< torque about the axis over the thrust [m]
+  std::optional<Propeller> propeller;  ///< none: the drive is the thrust
+  bool is_left_handed = false;         ///< turns backwards about the axis where it pushes along it
+};
 
-  /// Thrust for a command, linear in between, that of the ends beyond [N].
-  double thrustAt(double command) const;
+/// A wing, fin or rudder by its numbers, on a body. Frame: that of the body's shape or link.
+struct FoilDef {
+  std::string name;
+  std::size_t body = 0;  ///< index in Scene::bodies
+  Foil foil;
+  CommandCurve curve;  ///< command, angle [rad]; empty: it does not turn
+  double command = 0;  ///< at the start
+  double lag = 0;      ///< time constant of the angle [s]
 };
 
 /// Water with a surface, still or with waves. The fluid above the surface is Scene::medium.
@@ -154,6 +174,7 @@ struct Scene {
   std::vector<RobotDef> robots;
   std::vector<JointDef> joints;
   std::vector<ThrusterDef> thrusters;
+  std::vector<FoilDef> foils;
 };
 
 }  // namespace ambient

@@ -38,6 +38,9 @@ void addRobot(const nlohmann::json& from, Scene& scene);
 /// @throws std::runtime_error, one line that names the file, the place, the value and the limit.
 ThrusterDef toThruster(const nlohmann::json& from, const Scene& scene);
 
+/// Reads the entry of a foil likewise.
+FoilDef toFoil(const nlohmann::json& from, const Scene& scene);
+
 // Values of keys of a scene. @pre the schema has accepted them
 
 inline Vector3 toVector(const nlohmann::json& v) {

@@ -248,6 +248,8 @@ Scene toScene(const json& from, const std::filesystem::path& file) {
   if (from.contains("thrusters"))
     for (const json& thruster : from.at("thrusters"))
       scene.thrusters.push_back(toThruster(thruster, scene));
+  if (from.contains("foils"))
+    for (const json& foil : from.at("foils")) scene.foils.push_back(toFoil(foil, scene));
   return scene;
 }
 

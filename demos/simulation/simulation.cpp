@@ -136,10 +136,11 @@ Simulation::Simulation(const Scene& scene, const std::vector<PreparedBody>& prep
     warning_ += sentence;
   });
   bullet_.world->setGravity(toBullet(scene.gravity));
+  thrusters_ = Thrusters(scene, prepared);
+  foils_ = SceneFoils(scene, prepared);
   fillWithFluids(scene, flow);
   addRobots(scene, prepared);
   for (const JointDef& joint : scene.joints) add(joint);
-  thrusters_ = Thrusters(scene, prepared);
 }
 
 Simulation::~Simulation() {
@@ -164,7 +165,8 @@ void Simulation::add(const Scene& scene, const BodyDef& def, const PreparedBody&
   }
   if (scene.model == FluidModel::kVacuum || !prepared.fluid_body) return;
   try {
-    const AttachDef attach = makeAttachDef(scene, def, prepared, added.R_SB, own_law_);
+    AttachDef attach = makeAttachDef(scene, def, prepared, added.R_SB, own_law_);
+    if (scene.model == FluidModel::kAmbient) attach.flow.foils = foils_.of(bodies_.size() - 1);
     added.immersed = added.link ? fluid_.add(multiBodyOf(added), added.linkNumber(), attach)
                                 : fluid_.add(*added.body, attach);
   } catch (const std::invalid_argument& error) {
@@ -205,13 +207,20 @@ void Simulation::step() {
 
 void Simulation::push() {
   thrusters_.follow(time_step_);
+  foils_.follow(time_step_);
   const auto poseOf = [this](std::size_t body) { return sample(bodies_[body]); };
-  thrusters_.push(poseOf, fluid_.time(),
-                  [this](std::size_t body, const Wrench& wrench) { apply(bodies_[body], wrench); });
+  const auto fluidAt = [this](std::size_t body, const Vector3& place) {
+    return fluidAround(body, place);
+  };
+  const auto toBody = [this](std::size_t body, const Wrench& wrench) {
+    apply(bodies_[body], wrench);
+  };
+  thrusters_.push(poseOf, fluidAt, toBody);
+  foils_.pushByWash(thrusters_, poseOf, fluidAt, toBody);
 }
 
 void Simulation::stepUnchecked() {
-  if (thrusters_.size() > 0) push();
+  if (thrusters_.size() + foils_.size() > 0) push();
   if (robots_) robots_->prepareStep(0, time(), time_step_);
   // 0 substeps: Bullet makes exactly one step of this length.
   bullet_.world->stepSimulation(static_cast<btScalar>(time_step_), 0);
@@ -231,7 +240,6 @@ void Simulation::setRegions(const Scene& scene) {
     raiseInputError(scene.file.string(), "it has ", regions.size(),
                     " waters and regions, the world ", regions_.size(), "; must be as many");
   for (std::size_t i = 0; i < regions.size(); ++i) fluid_.setRegion(regions_[i], regions[i]);
-  thrusters_.setRegions(regions);
   fluids_ = std::move(regions);
 }
 
@@ -369,37 +377,51 @@ void Simulation::setMedium(std::size_t body, const Medium& medium) {
 }
 
 std::string Simulation::saveState() const {
-  const std::vector<double>& thrusts = thrusters_.thrusts();
-  std::string bytes(sizeof steps_ + thrusts.size() * sizeof(double), '\0');
-  std::memcpy(bytes.data(), &steps_, sizeof steps_);
-  std::copy_n(reinterpret_cast<const char*>(thrusts.data()), thrusts.size() * sizeof(double),
-              bytes.data() + sizeof steps_);
+  const std::vector<ThrusterState>& thrusters = thrusters_.states();
+  std::string bytes;
+  const auto append = [&bytes](const auto* from, std::size_t count) {
+    bytes.append(reinterpret_cast<const char*>(from), count * sizeof *from);
+  };
+  append(&steps_, 1);
+  append(thrusters.data(), thrusters.size());
+  const std::vector<double> angles = foils_.angles();
+  append(angles.data(), angles.size());
   return bytes + encodeState(fluid_.save());
 }
 
 void Simulation::restoreState(std::string_view bytes) {
   const std::string source = "saved state";
-  std::vector<double> thrusts(thrusters_.size());
-  const std::size_t head = sizeof steps_ + thrusts.size() * sizeof(double);
-  if (bytes.size() < head) throw std::runtime_error(source + ": is cut short");
+  std::vector<ThrusterState> thrusters(thrusters_.size());
+  std::vector<double> angles(foils_.size());
   long long steps = 0;
-  std::memcpy(&steps, bytes.data(), sizeof steps);
-  std::copy_n(bytes.data() + sizeof steps, head - sizeof steps,
-              reinterpret_cast<char*>(thrusts.data()));
+  std::size_t head = 0;
+  const auto take = [&](auto* to, std::size_t count) {
+    const std::size_t size = count * sizeof *to;
+    if (bytes.size() < head + size) throw std::runtime_error(source + ": is cut short");
+    if (size > 0) std::memcpy(to, bytes.data() + head, size);
+    head += size;
+  };
+  take(&steps, 1);
+  take(thrusters.data(), thrusters.size());
+  take(angles.data(), angles.size());
   if (steps < 0) throw std::runtime_error(source + ": is damaged: its steps are below 0");
-  for (const double thrust : thrusts)
-    if (!std::isfinite(thrust)) throw std::runtime_error(source + ": a thrust is not finite");
+  for (const ThrusterState& thruster : thrusters)
+    if (!thruster.isFinite()) throw std::runtime_error(source + ": a thrust is not finite");
+  for (const double angle : angles)
+    if (!std::isfinite(angle)) throw std::runtime_error(source + ": an angle is not finite");
   const auto lookup = [this](const std::string& name) { return findFluidBody(name); };
   WorldState state = decodeState(bytes.substr(head), source, lookup);
   setFunctions(state, own_law_, own_flight_);
   fluid_.restore(state);
-  thrusters_.setThrusts(thrusts);
+  thrusters_.setStates(thrusters);
+  foils_.setAngles(angles);
   steps_ = steps;
 }
 
 void Simulation::restore(const SimulationState& state) {
   fluid_.restore(state.world);
-  thrusters_.setThrusts(state.thrusts);
+  thrusters_.setStates(state.thrusters);
+  foils_.setAngles(state.foil_angles);
   steps_ = state.steps;
   for (WorldBody& body : bodies_) body.is_at_start = false;
 }

@@ -17,6 +17,7 @@
 #include "demos/scene/scene.h"
 #include "demos/simulation/body_preparation.h"
 #include "demos/simulation/robots/robots_in_world.h"
+#include "demos/simulation/scene_foils.h"
 #include "demos/simulation/thrusters.h"
 #include "demos/simulation/world_body.h"
 
@@ -35,7 +36,8 @@ constexpr std::array<std::pair<const char*, long long AmbientCounters::*>, 6> kW
 /// All that changes of a simulation from step to step, in memory.
 struct SimulationState {
   long long steps = 0;
-  std::vector<double> thrusts;  ///< [N]
+  std::vector<ThrusterState> thrusters;
+  std::vector<double> foil_angles;  ///< [rad]
   WorldState world;
 };
 
@@ -75,9 +77,13 @@ class Simulation {
   /// Present motion of one body. Allocates nothing.
   MotionSample sample(std::size_t body) const { return sample(bodies_.at(body)); }
 
-  /// Thrusters of the scene; their commands are 0 at first.
+  /// Thrusters of the scene; their commands are those of the scene at first.
   Thrusters& thrusters() { return thrusters_; }
   const Thrusters& thrusters() const { return thrusters_; }
+
+  /// Foils of the scene likewise.
+  SceneFoils& foils() { return foils_; }
+  const SceneFoils& foils() const { return foils_; }
 
   /// Work done for one body by the fluid; zero for a body without fluid.
   AmbientCounters work(std::size_t body) const;
@@ -143,7 +149,9 @@ class Simulation {
   /// of another scene; the simulation then stays as it was.
   void restoreState(std::string_view bytes);
   /// Copies all that changes from step to step, in memory, in microseconds.
-  SimulationState state() const { return {steps_, thrusters_.thrusts(), fluid_.save()}; }
+  SimulationState state() const {
+    return {steps_, thrusters_.states(), foils_.angles(), fluid_.save()};
+  }
   /// Goes on from there, as restoreState(). @pre a state of this scene
   void restore(const SimulationState& state);
 
@@ -159,6 +167,8 @@ class Simulation {
   void fillWithFluids(const Scene& scene, const FlowField& flow);
   /// Region that counts at a point; null: none.
   const FluidRegion* regionAt(const Vector3& point) const;
+  /// Fluids at a point: of its region; without one the medium of a body, or a vacuum.
+  RegionSample fluidAround(std::size_t body, const Vector3& point) const;
   btRigidBody& rigidBody(std::size_t body);
   std::shared_ptr<const FluidBody> findFluidBody(const std::string& name) const;
   MotionSample sample(const WorldBody& of) const;
@@ -177,6 +187,7 @@ class Simulation {
   std::unique_ptr<RobotsInWorld> robots_ = makeRobotsInWorld();  ///< null: built without
   std::vector<std::unique_ptr<btTypedConstraint>> joints_;
   Thrusters thrusters_;
+  SceneFoils foils_;
   LoadLaw own_law_;       ///< law of all bodies; empty: this library's law
   OwnFlight own_flight_;  ///< integrator of all bodies; null: the passive leapfrog
   double time_step_;

@@ -65,9 +65,17 @@ const FluidRegion* Simulation::regionAt(const Vector3& point) const {
 Medium Simulation::mediumAround(std::size_t body) const {
   const WorldBody& of = bodies_.at(body);
   if (!of.immersed) return {};
-  const Vector3 point = sample(of).position;
-  const FluidRegion* region = regionAt(point);
-  return region ? sampleRegion(*region, point, fluid_.time()).here() : of.immersed->medium();
+  return fluidAround(body, sample(of).position).here();
+}
+
+RegionSample Simulation::fluidAround(std::size_t body, const Vector3& point) const {
+  const auto& immersed = bodies_[body].immersed;
+  if (const FluidRegion* region = regionAt(point))
+    return sampleRegion(*region, point, fluid_.time());
+  RegionSample everywhere;
+  if (immersed) everywhere.below = everywhere.above = immersed->medium();
+  everywhere.height = std::numeric_limits<double>::infinity();
+  return everywhere;
 }
 
 double Simulation::surfaceOver(const Vector3& point) const {

@@ -4,21 +4,18 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "demos/scene/scene_water.h"
-
 namespace ambient {
 
 Thrusters::Thrusters(const Scene& scene, const std::vector<PreparedBody>& bodies)
     : defs_(scene.thrusters),
       factors_(defs_.size()),
-      commands_(defs_.size(), 0.0),
-      thrusts_(defs_.size(), 0.0) {
+      states_(defs_.size()) {
   for (const ThrusterDef& def : defs_) {
+    commands_.push_back(def.command);
     arms_.push_back(def.position - bodies[def.body].centre_of_mass);
     per_thrust_.push_back(
         {arms_.back().cross(def.axis) + def.torque_per_thrust * def.axis, def.axis});
   }
-  if (!defs_.empty()) setRegions(makeRegions(scene));
 }
 
 void Thrusters::command(std::size_t index, double value) {
@@ -28,43 +25,51 @@ void Thrusters::command(std::size_t index, double value) {
   commands_.at(index) = value;
 }
 
-void Thrusters::setThrusts(const std::vector<double>& thrusts) {
-  std::copy(thrusts.begin(), thrusts.end(), thrusts_.begin());
+void Thrusters::setStates(const std::vector<ThrusterState>& states) {
+  std::copy(states.begin(), states.end(), states_.begin());
 }
 
 void Thrusters::setFactors(std::size_t index, double thrust, double lag) {
   factors_.at(index) = {thrust, lag};
 }
 
-void Thrusters::setRegions(const std::vector<FluidRegion>& regions) {
-  const auto has_disc = [](const ThrusterDef& def) { return def.radius > 0; };
-  const auto has_surface = [](const FluidRegion& region) { return region.surface != nullptr; };
-  const auto found = std::find_if(regions.begin(), regions.end(), has_surface);
-  water_.reset();
-  if (found != regions.end() && std::any_of(defs_.begin(), defs_.end(), has_disc)) water_ = *found;
-}
-
 void Thrusters::follow(double time_step) {
   for (std::size_t i = 0; i < defs_.size(); ++i) {
-    const double asked = factors_[i].thrust * defs_[i].thrustAt(commands_[i]);
+    const double factor = defs_[i].propeller ? 1 : factors_[i].thrust;
+    const double asked = factor * valueAt(defs_[i].curve, commands_[i]);
     const double lag = factors_[i].lag * defs_[i].lag;
-    thrusts_[i] += (asked - thrusts_[i]) * (time_step / (lag + time_step));
+    double& drive = states_[i].drive;
+    drive += (asked - drive) * (time_step / (lag + time_step));
+    if (!defs_[i].propeller) states_[i].load.thrust = drive;
   }
 }
 
-double Thrusters::wetShare(std::size_t index, const MotionSample& pose, double time) const {
-  const double radius = defs_[index].radius;
-  if (!water_ || !(radius > 0)) return 1;
-  const Vector3 place = pose.position + pose.orientation * arms_[index];
-  if (water_->bounds && !water_->bounds->hold(place)) return 1;
-  const double height = sampleRegion(*water_, place, time).height;
-  return std::clamp(0.5 + height / (2 * radius), 0.0, 1.0);
+bool Thrusters::readsFluid(std::size_t index) const {
+  return defs_[index].propeller || (defs_[index].radius > 0 && states_[index].drive != 0);
 }
 
-Wrench Thrusters::wrenchOf(std::size_t index, const MotionSample& pose, double time) const {
-  const double thrust = thrusts_[index];
-  if (thrust == 0) return {};
-  return wetShare(index, pose, time) * thrust * per_thrust_[index];
+double Thrusters::advanceIn(const Medium& medium, std::size_t index,
+                            const MotionSample& pose) const {
+  const Vector3 velocity = pose.twist.at(pose.orientation * arms_[index]) - medium.velocity;
+  return velocity.dot(pose.orientation * defs_[index].axis);
+}
+
+// A disc in two fluids has the share in the lower one; above it, all of the upper.
+Wrench Thrusters::wrenchIn(const RegionSample& fluid, std::size_t index, const MotionSample& pose) {
+  const ThrusterDef& def = defs_[index];
+  double wet = std::clamp(0.5 + fluid.height / (2 * def.radius), 0.0, 1.0);
+  ThrusterState& state = states_[index];
+  PropellerLoad& load = state.load;
+  if (def.propeller) {
+    const Medium& medium = wet > 0 ? fluid.below : fluid.above;
+    if (!(wet > 0)) wet = 1;
+    state.advance = advanceIn(medium, index, pose);
+    state.density = wet * medium.density;
+    load = factors_[index].thrust * def.propeller->load(state.drive, state.advance, medium.density);
+  }
+  Wrench wrench = wet * load.thrust * per_thrust_[index];
+  wrench.torque -= (def.is_left_handed ? -wet : wet) * load.torque * def.axis;
+  return wrench;
 }
 
 }  // namespace ambient

@@ -1,7 +1,8 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
-#include <functional>
+#include <type_traits>
 #include <vector>
 
 #include "bullet_ambient/force/medium/fluid_region.h"
@@ -11,6 +12,21 @@
 #include "demos/simulation/prepared_body.h"
 
 namespace ambient {
+
+/// State of a thruster; plain numbers, as saved states hold them.
+struct ThrusterState {
+  double drive = 0;    ///< what follows the command: thrust [N], or turns [1/s]
+  double advance = 0;  ///< of a propeller in the last step [m/s]
+  double density = 0;  ///< of the fluid at its disc then, times the share of the disc in it
+  PropellerLoad load;  ///< in the last step, without what dry discs lose; without a propeller: its
+                       ///< thrust alone
+
+  bool isFinite() const {
+    return std::isfinite(drive + advance + density + load.thrust + load.torque + load.power +
+                         load.induced);
+  }
+};
+static_assert(std::is_trivially_copyable_v<ThrusterState>);
 
 /// Thrusters of a scene: their commands, and the thrusts that follow these.
 class Thrusters {
@@ -26,27 +42,26 @@ class Thrusters {
   void command(std::size_t index, double value);
   double command(std::size_t index) const { return commands_.at(index); }
 
-  /// Thrusts at the end of the last step [N], without what dry discs lose.
-  const std::vector<double>& thrusts() const { return thrusts_; }
+  const std::vector<ThrusterState>& states() const { return states_; }
   /// @pre finite, one for each thruster
-  void setThrusts(const std::vector<double>& thrusts);
-  /// Multiplies the thrusts that a thruster is asked for, and its lag; both 1 at first.
+  void setStates(const std::vector<ThrusterState>& states);
+  /// Multiplies the thrusts of a thruster, and its lag; both 1 at first.
   void setFactors(std::size_t index, double thrust, double lag);
-  /// Takes the surface of the water from these regions; without one all discs are wet.
-  void setRegions(const std::vector<FluidRegion>& regions);
 
-  /// Lets the thrusts follow the commands for a step h, by implicit Euler: T += (F - T) h / (lag +
-  /// h), F the thrust of the command.
+  /// Lets the drives follow the commands for a step h, by implicit Euler: T += (F - T) h / (lag +
+  /// h), F the drive of the command.
   void follow(double time_step);
   /// Gives wrenches about the centre of mass, world axes, to apply(body, wrench). `poseOf(body)`:
-  /// MotionSample; `time`: that of the fluid [s].
-  template <class PoseOf, class Apply>
-  void push(const PoseOf& poseOf, double time, const Apply& apply) const {
+  /// MotionSample; `fluidAt(body, place)`: RegionSample around a point in W.
+  template <class PoseOf, class FluidAt, class Apply>
+  void push(const PoseOf& poseOf, const FluidAt& fluidAt, const Apply& apply) {
     for (std::size_t i = 0; i < defs_.size();) {
       const std::size_t body = defs_[i].body;
       const MotionSample pose = poseOf(body);
       Wrench sum;
-      for (; i < defs_.size() && defs_[i].body == body; ++i) sum += wrenchOf(i, pose, time);
+      for (; i < defs_.size() && defs_[i].body == body; ++i)
+        sum += readsFluid(i) ? wrenchIn(fluidAt(body, placeOf(i, pose)), i, pose)
+                             : states_[i].load.thrust * per_thrust_[i];
       if (sum.torque.isZero(0) && sum.force.isZero(0)) continue;
       apply(body, Wrench{pose.orientation * sum.torque, pose.orientation * sum.force});
     }
@@ -57,17 +72,22 @@ class Thrusters {
     double thrust = 1, lag = 1;
   };
 
-  /// Wrench about the centre of mass, axes of the body.
-  Wrench wrenchOf(std::size_t index, const MotionSample& pose, double time) const;
-  /// Share of the height of an upright disc that is below the surface.
-  double wetShare(std::size_t index, const MotionSample& pose, double time) const;
+  /// Whether the fluid at the disc counts: of a propeller, and where a thrust could be dry.
+  bool readsFluid(std::size_t index) const;
+  Vector3 placeOf(std::size_t index, const MotionSample& pose) const {
+    return pose.position + pose.orientation * arms_[index];
+  }
+  /// Wrench about the centre of mass, axes of the body. Keeps the load.
+  Wrench wrenchIn(const RegionSample& fluid, std::size_t index, const MotionSample& pose);
+  /// Velocity of a disc along its axis, relative to a fluid.
+  double advanceIn(const Medium& medium, std::size_t index, const MotionSample& pose) const;
 
   std::vector<ThrusterDef> defs_;
   std::vector<Vector3> arms_;       // from the centre of mass, axes of the shape [m]
   std::vector<Wrench> per_thrust_;  // about the centre of mass, same axes
   std::vector<Factors> factors_;
-  std::vector<double> commands_, thrusts_;
-  std::optional<FluidRegion> water_;  // none: no disc can be dry
+  std::vector<double> commands_;
+  std::vector<ThrusterState> states_;
 };
 
 }  // namespace ambient

@@ -95,6 +95,7 @@ int BatchPlan::sizeOf(int size) const {
 
 int BatchPlan::sizeOf(ActionKind kind) const {
   if (kind == ActionKind::kThrusters) return sizeOf(kPerThruster);
+  if (kind == ActionKind::kFoils) return static_cast<int>(scene.foils.size());
   return kind == ActionKind::kWrench || kind == ActionKind::kWrenchWorld ? 6 : sizeOf(kPerJoint);
 }
 
@@ -117,7 +118,8 @@ int BatchPlan::sizeOf(VariationKind kind) const {
 }
 
 std::vector<int> BatchPlan::rowsOf(const std::string& key, std::vector<int> rows, int size) {
-  if (size == 0) raiseInputError(key, "has no numbers: the scene has no thrusters or joints");
+  if (size == 0)
+    raiseInputError(key, "has no numbers: the scene has no thrusters, foils or joints");
   most_numbers = std::max(most_numbers, size);
   if (rows.empty()) {
     rows.resize(static_cast<std::size_t>(size));

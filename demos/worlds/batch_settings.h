@@ -15,14 +15,16 @@ namespace ambient {
 /// Effect of a column of the actions; sizes by bodies, thrusters T and joints J of the scene.
 enum class ActionKind {
   kThrusters,      ///< T commands, clipped to -1 to 1
+  kFoils,          ///< F commands of foils likewise
   kWrench,         ///< torque about the centre of mass [N m], force [N]; axes of the body's shape
   kWrenchWorld,    ///< the same in world axes
   kJointTorque,    ///< J torques [N m] or forces [N]
   kMotorPosition,  ///< J positions of motors [rad] or [m]
   kMotorVelocity   ///< J velocities of motors [rad/s] or [m/s]
 };
-constexpr std::array<std::pair<ActionKind, const char*>, 6> kActionNames{
+constexpr std::array<std::pair<ActionKind, const char*>, 7> kActionNames{
     {{ActionKind::kThrusters, "thrusters"},
+     {ActionKind::kFoils, "foils"},
      {ActionKind::kWrench, "wrench"},
      {ActionKind::kWrenchWorld, "wrench_world"},
      {ActionKind::kJointTorque, "joint_torque"},

@@ -117,8 +117,10 @@ void BatchWorld::setFlowAndThrusters() {
   Thrusters& thrusters = simulation_->thrusters();
   for (std::size_t i = 0; i < thrusters.size(); ++i) {
     thrusters.setFactors(i, thrusts ? thrusts[i] : 1, lag ? *lag : 1);
-    thrusters.command(i, 0);
+    thrusters.command(i, thrusters.def(i).command);
   }
+  SceneFoils& foils = simulation_->foils();
+  for (std::size_t i = 0; i < foils.size(); ++i) foils.command(i, foils.def(i).command);
   const double* target = find(VariationKind::kTarget);
   target_ = target ? vectorAt(target) : Vector3(Vector3::Zero());
   const double* gust = find(VariationKind::kGust);
@@ -222,14 +224,24 @@ void BatchWorld::push(const ActionField& field) {
   simulation_->apply(field.body, wrench);
 }
 
+void BatchWorld::command(const ActionField& field) {
+  const double* asked = rows_.action + field.field.offset;
+  for (std::size_t i = 0; i < field.rows.size(); ++i) {
+    const auto row = static_cast<std::size_t>(field.rows[i]);
+    const double command = std::clamp(field.scale * asked[i], -1.0, 1.0);
+    if (field.kind == ActionKind::kFoils)
+      simulation_->foils().command(row, command);
+    else
+      simulation_->thrusters().command(row, command);
+  }
+}
+
 void BatchWorld::act(bool is_first) {
   for (const ActionField& action : plan_.actions) {
-    const double* asked = rows_.action + action.field.offset;
     switch (action.kind) {
       case ActionKind::kThrusters:
-        for (std::size_t i = 0; is_first && i < action.rows.size(); ++i)
-          simulation_->thrusters().command(static_cast<std::size_t>(action.rows[i]),
-                                           std::clamp(action.scale * asked[i], -1.0, 1.0));
+      case ActionKind::kFoils:
+        if (is_first) command(action);
         break;
       case ActionKind::kMotorPosition:
       case ActionKind::kMotorVelocity:

@@ -66,6 +66,7 @@ class BatchWorld {
   void setFlowAndThrusters();
   void drawGust();
   bool isActionFinite();
+  void command(const ActionField& field);
   void setMotors(const ActionField& field);
   void push(const ActionField& field);
   void act(bool is_first);

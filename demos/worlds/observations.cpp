@@ -89,8 +89,8 @@ const ObservationKind kKinds[] = {
     {"target", 3, [](View v, double* to) { put(inBody(v, v.target - v.now.position), to); }},
     {"thrust", kPerThruster,
      [](View v, double* to) {
-       const std::vector<double>& thrusts = v.simulation.thrusters().thrusts();
-       std::copy(thrusts.begin(), thrusts.end(), to);
+       for (const ThrusterState& thruster : v.simulation.thrusters().states())
+         *to++ = thruster.load.thrust;
      }},
     {"wet", 1, [](View v, double* to) { to[0] = v.simulation.wet(v.field->body).share; }},
     {"contact", 1, [](View v, double* to) { to[0] = v.simulation.contactImpulse(v.field->body); }},

@@ -18,9 +18,7 @@ double shareOf(const Wing& wing, const LiftedPart& part, const FaceTable& faces)
     area += faces.area[i];
   }
   if (!(area > 0)) return 0;
-  const double thick = squared(part.volume / wing.plateMass());
-  const double aside = squared(1.5 * std::max(1 - facing / area, 0.0));
-  return squared(std::max(1 - thick, 0.0)) * std::max(1 - aside, 0.0);
+  return wingShare(wing, part.volume, facing / area);
 }
 
 }  // namespace

@@ -237,14 +237,16 @@ bool floatAgain(AmbientBody& ambient, const RigidState& now, const FluidRegions&
 namespace {
 
 std::unique_ptr<AmbientLink> makeLink(const LinkFluidState& saved, const MultiBodyState& state,
-                                      AmbientBodies& registered) {
+                                      const btMultiBody& body, AmbientBodies& registered) {
   const auto index = static_cast<std::size_t>(saved.link) + 1;
   if (saved.link < -1 || index >= state.links.size())
     throw std::invalid_argument("restoreState: a fluid is that of link " +
                                 std::to_string(saved.link) + ", which the state has not");
   auto link = std::make_unique<AmbientLink>(saved.link);
   link->mass = inverseOf(state.links[index].mass, state.links[index].inertia);
-  link->ambient = makeAmbient(saved.ambient, link->mass, registered);
+  const AmbientLink* before = registered.trees.find(&body, saved.link);
+  link->ambient =
+      makeAmbient(saved.ambient, link->mass, registered, before ? &before->ambient : nullptr);
   return link;
 }
 
@@ -325,12 +327,14 @@ void fillHolds(const AmbientState& saved, AmbientBody& ambient) {
 }  // namespace
 
 AmbientBody makeAmbient(const AmbientState& saved, const InverseMass& mass,
-                        AmbientBodies& registered) {
+                        AmbientBodies& registered, const AmbientBody* before) {
   if (!saved.def.fluid_body)
     throw std::invalid_argument("restoreState: an attached body of the state has no fluid body");
   checkDef("restoreState: body with fluid body '" + saved.def.fluid_body->name + "'", saved.def);
   AmbientBody ambient;
-  ambient.def = shareDef(saved.def, registered.load_tables);
+  AttachDef def = saved.def;
+  if (before) def.flow.foils = before->def->flow.foils;
+  ambient.def = shareDef(std::move(def), registered.load_tables);
   refreshModels(ambient, mass, registered.regions, registered.load_tables);
   fillHolds(saved, ambient);
   // A region that does not exist here is left to the next step.
@@ -350,6 +354,7 @@ AmbientBody makeAmbient(const AmbientState& saved, const InverseMass& mass,
 }
 
 std::vector<std::unique_ptr<AmbientLink>> makeLinks(const MultiBodyState& state,
+                                                    const btMultiBody& body,
                                                     AmbientBodies& registered) {
   std::vector<std::unique_ptr<AmbientLink>> links;
   for (const LinkFluidState& saved : state.fluids) {
@@ -357,7 +362,7 @@ std::vector<std::unique_ptr<AmbientLink>> makeLinks(const MultiBodyState& state,
       if (other->link == saved.link)
         throw std::invalid_argument("restoreState: the state has two fluids of link " +
                                     std::to_string(saved.link));
-    links.push_back(makeLink(saved, state, registered));
+    links.push_back(makeLink(saved, state, body, registered));
   }
   return links;
 }

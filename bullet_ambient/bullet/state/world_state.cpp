@@ -56,7 +56,7 @@ std::vector<std::optional<AmbientBody>> makeAmbientBodies(const WorldState& stat
     if (!state.bodies[i].ambient) continue;
     const InverseMass mass{static_cast<double>(state.bodies[i].inverse_mass),
                            toVector3(state.bodies[i].inverse_inertia)};
-    result.back() = makeAmbient(*state.bodies[i].ambient, mass, members);
+    result.back() = makeAmbient(*state.bodies[i].ambient, mass, members, members.find(bodies[i]));
     result.back()->body = bodies[i];
   }
   return result;
@@ -64,9 +64,12 @@ std::vector<std::optional<AmbientBody>> makeAmbientBodies(const WorldState& stat
 
 using Links = std::vector<std::unique_ptr<AmbientLink>>;
 
-std::vector<Links> makeAllLinks(const WorldState& state, AmbientBodies& members) {
+std::vector<Links> makeAllLinks(const WorldState& state, btDynamicsWorld& world,
+                                AmbientBodies& members) {
+  const std::vector<btMultiBody*> bodies = multiBodiesOf(world);
   std::vector<Links> result;
-  for (const MultiBodyState& body : state.multi_bodies) result.push_back(makeLinks(body, members));
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    result.push_back(makeLinks(state.multi_bodies[i], *bodies[i], members));
   return result;
 }
 
@@ -127,7 +130,7 @@ void restoreState(const WorldState& state, btDynamicsWorld& world, AmbientBodies
   checkFits(state, world);
   checkNumbers(state);
   auto ambient_bodies = makeAmbientBodies(state, bodies, members);
-  std::vector<Links> links = makeAllLinks(state, members);
+  std::vector<Links> links = makeAllLinks(state, world, members);
 
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     restoreMass(state.bodies[i], *bodies[i]);

@@ -9,6 +9,7 @@
 
 namespace ambient {
 
+class Foils;
 struct FluidBody;
 struct LoadSettings;
 class SurfaceLoads;
@@ -44,6 +45,12 @@ struct FlowSettings {
   double stall_lag = 4.5;
   /// Height of the roughness of the surface [m], form law: dimples, felt, fouling; 0: smooth.
   double roughness = 0;
+  /// Wings, fins and rudders by their numbers, beside the shape of the body; null: none. Kept by
+  /// whoever turns them, Foils::turn(); a body that gets a saved state keeps its own.
+  std::shared_ptr<const Foils> foils = nullptr;
+
+  /// Whether models by these settings are those of one body alone.
+  bool isOfOneBody() const { return own_law || foils; }
 };
 
 }  // namespace ambient

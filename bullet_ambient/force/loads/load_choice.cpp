@@ -6,6 +6,7 @@
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/force/law/form_law.h"
 #include "bullet_ambient/force/loads/face_loads.h"
+#include "bullet_ambient/force/loads/foils.h"
 #include "bullet_ambient/force/loads/form_loads.h"
 #include "bullet_ambient/force/loads/load_tables.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
@@ -318,7 +319,9 @@ std::shared_ptr<const SurfaceLoads> makeLoads(const Body& body, const Medium& me
   checkFlow(*body, flow);
   // Not for a medium without loads, nor for one that later checks reject.
   const bool is_shared = medium.density > 0 && medium.viscosity >= 0 && !flow.own_law;
-  return is_shared ? LoadTables(body).loads(medium, flow, place, make) : make();
+  auto loads = is_shared ? LoadTables(body).loads(medium, flow, place, make) : make();
+  if (!flow.foils || !(medium.density > 0)) return loads;
+  return addFoils(std::move(loads), flow.foils, medium.density);
 }
 
 }  // namespace

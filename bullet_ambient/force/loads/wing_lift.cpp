@@ -18,22 +18,24 @@ Wrench aboutOrigin(const Wrench& about, const Vector3& point) {
 
 }  // namespace
 
+std::array<WingHalf, 2> halvesOf(const Vector3& centre, const Vector3& span, const Vector3& chord) {
+  const Vector3 to_station = 0.5 / std::sqrt(3.0) * span;
+  return {{{centre - to_station, span / 4, chord / 2}, {centre + to_station, span / 4, chord / 2}}};
+}
+
 WingLift::WingLift(const std::vector<BodyPart>& parts, double stall_lag)
     : rest_(parts.front().lifted, parts.front().shape, stall_lag),
       rest_centre_(parts.front().lifted.centre) {
   for (std::size_t i = 1; i < parts.size(); ++i) {
     const BodyPart& wing = parts[i];
-    const Vector3& reach = wing.shape.reach;
-    const Vector3 to_station = 0.5 / std::sqrt(3.0) * reach;
     const FormShape& shape = wing.shape.shape;
+    const Vector3 chord = shape.chord * shape.facing.cross(shape.span);
     wings_.push_back({FormLift(halfOf(wing.lifted), wing.shape, stall_lag),
-                      {wing.lifted.centre - to_station, wing.lifted.centre + to_station},
-                      reach / 4,
-                      shape.chord / 2 * shape.facing.cross(shape.span)});
+                      halvesOf(wing.lifted.centre, wing.shape.reach, chord)});
   }
 }
 
-double WingLift::One::wetShareAt(const Vector3& station, const WetPart& wet) const noexcept {
+double WingHalf::wetShare(const WetPart& wet) const noexcept {
   const SurfacePlane& plane = wet.plane;
   const double reach = std::abs(plane.normal.dot(span)) + std::abs(plane.normal.dot(chord));
   const double depth = plane.depth(station);
@@ -50,10 +52,11 @@ Wrench WingLift::load(const Twist& x, double density, const MunkShares& munk,
   Wrench sum =
       aboutOrigin(rest_.load(x.angular, x.at(rest_centre_), wet_density, munk.rest), rest_centre_);
   for (const One& wing : wings_)
-    for (const Vector3& station : wing.stations) {
-      const double share = wet ? wing.wetShareAt(station, *wet) : 1;
-      sum += aboutOrigin(wing.half.load(x.angular, x.at(station), share * density, munk.wings),
-                         station);
+    for (const WingHalf& half : wing.halves) {
+      const double share = wet ? half.wetShare(*wet) : 1;
+      const Wrench load =
+          wing.half.load(x.angular, x.at(half.station), share * density, munk.wings);
+      sum += aboutOrigin(load, half.station);
     }
   return sum;
 }

@@ -13,6 +13,18 @@ struct MunkShares {
   double rest = 1, wings = 1;
 };
 
+/// Half of a wing around a station.
+struct WingHalf {
+  Vector3 station;      ///< Gauss point of the span [m]
+  Vector3 span, chord;  ///< quarter of b along h, half of c across it [m]
+
+  /// Share of it that is in the fluid.
+  double wetShare(const WetPart& wet) const noexcept;
+};
+
+/// Returns the halves of a rectangle. `span`: b h; `chord`: c along the chord [m].
+std::array<WingHalf, 2> halvesOf(const Vector3& centre, const Vector3& span, const Vector3& chord);
+
 /// Lift of rotation and loss of Munk's moment of a body with wings: FormLift of each wing at the
 /// two Gauss points of its span, and of the rest, docs/theory.md eq. (160). Frame F. Power 0.
 class WingLift {
@@ -28,11 +40,7 @@ class WingLift {
  private:
   struct One {
     FormLift half;  ///< of half of the wing
-    std::array<Vector3, 2> stations;
-    Vector3 span, chord;  ///< quarter of b along h, half of c across it [m]
-
-    /// Share of the half of the wing around a station that is in the fluid.
-    double wetShareAt(const Vector3& station, const WetPart& wet) const noexcept;
+    std::array<WingHalf, 2> halves;
   };
 
   FormLift rest_;

@@ -5,8 +5,8 @@
 #include <tuple>
 
 #include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/force/loads/foils.h"
 #include "bullet_ambient/force/loads/load_tables.h"
-#include "bullet_ambient/force/loads/surface_loads.h"
 #include "bullet_ambient/force/surface/wetted_parts.h"
 #include "bullet_ambient/spatial/cholesky.h"
 #include "bullet_ambient/spatial/inertia.h"
@@ -81,6 +81,10 @@ SurfaceModel makeSurfaceModel(const SurfaceModelDef& def) {
   model.loads_below = partLoads(def, def.below);
   if (isFeltAbove(def)) model.loads_above = partLoads(def, def.above);
   model.radius = radiusOf(*def.shape, def.fluid_frame, model.hull.get());
+  if (def.flow.foils)
+    model.radius =
+        std::max(model.radius, def.flow.foils->reachFrom(-(def.fluid_frame.rotation.transpose() *
+                                                           def.fluid_frame.translation)));
   constexpr double kHeaveOfParts = 1.13;
   if (model.hull && def.shape->waterline.empty()) model.heave_factor = kHeaveOfParts;
   model.wave_damping = def.wave_damping;

@@ -183,7 +183,59 @@ TEST(SceneReader, ReadsThrusters) {
   EXPECT_EQ(thruster.torque_per_thrust, 0.01);
   const double thrusts[][2] = {{-3, -20},  {-0.5, -10}, {0, 0}, {0.25, 2},
                                {0.75, 17}, {1, 30},     {2, 30}};
-  for (const auto& [command, thrust] : thrusts) EXPECT_EQ(thruster.thrustAt(command), thrust);
+  for (const auto& [command, thrust] : thrusts) EXPECT_EQ(valueAt(thruster.curve, command), thrust);
+}
+
+TEST(SceneReader, ReadsPropellers) {
+  json text = ballScene();
+  json thruster = {{"on", "ball"}, {"curve", {{0, 0}, {1, 20}}}};
+  text["thrusters"] = json::array({thruster, thruster, thruster});
+  text["thrusters"][0]["propeller"] = {{"diameter", 0.3}};
+  text["thrusters"][1]["propeller"] = {
+      {"diameter", 0.2}, {"ct_cp", {{0, 0.1, 0.05}, {0.8, 0, 0.02}}}, {"hand", "left"}};
+  text["thrusters"][2]["propeller"] = {
+      {"diameter", 0.4},
+      {"wageningen", {{"blades", 5}, {"area_ratio", 0.6}, {"pitch_ratio", 0.8}}}};
+  const std::vector<ThrusterDef> read = sceneFrom(text).thrusters;
+  EXPECT_TRUE(read.at(0).propeller->isIdealDisc());
+  EXPECT_EQ(read.at(0).radius, 0.15);
+  // C_P = 2 pi K_Q: the power is rho n^3 D^5 C_P.
+  EXPECT_NEAR(read.at(1).propeller->load(10, 0, 1.2).power, 1.2 * 1e3 * 3.2e-4 * 0.05, 1e-15);
+  EXPECT_TRUE(read.at(1).is_left_handed);
+  const Propeller screw = Propeller::wageningen(0.4, {5, 0.6, 0.8});
+  EXPECT_EQ(read.at(2).propeller->load(3, 1, 998).torque, screw.load(3, 1, 998).torque);
+  EXPECT_FALSE(read.at(2).is_left_handed);
+}
+
+TEST(SceneReader, ReadsFoils) {
+  json text = ballScene();
+  text["foils"] = json::array(
+      {{{"on", "ball"},
+        {"position", {1, 2, 3}},
+        {"chord_axis", {0, 1, 0}},
+        {"span_axis", {0, 0, 1}},
+        {"span", 2},
+        {"chord", 0.5},
+        {"thickness", 0.05},
+        {"camber", 0.02},
+        {"drag", 0.008},
+        {"aspect", 8},
+        {"curve", {{-1, -0.6}, {1, 0.6}}},
+        {"command", 0.5},
+        {"lag", 0.3}},
+       {{"on", "ball"}, {"span", 1}, {"chord", 1}, {"polar", {{0, 0, 0.1}, {3.141593, 0, 0.2}}}}});
+  const std::vector<FoilDef> foils = sceneFrom(text).foils;
+  const Foil& foil = foils.at(0).foil;
+  EXPECT_EQ(foils[0].name, "foil_0");
+  EXPECT_EQ(foil.position, Vector3(1, 2, 3));
+  EXPECT_EQ(foil.chord_axis, Vector3(0, 1, 0));
+  EXPECT_EQ(foil.span_axis, Vector3(0, 0, 1));
+  const double numbers[] = {foil.span, foil.chord,  foil.thickness,   foil.camber,
+                            foil.drag, foil.aspect, foils[0].command, foils[0].lag};
+  const double expected[] = {2, 0.5, 0.05, 0.02, 0.008, 8, 0.5, 0.3};
+  for (std::size_t i = 0; i < std::size(expected); ++i) EXPECT_EQ(numbers[i], expected[i]);
+  EXPECT_NEAR(valueAt(foils[0].curve, 0.5), 0.3, 1e-15);
+  EXPECT_EQ(foils.at(1).foil.polar.at(1).drag, 0.2);
 }
 
 TEST(SceneReader, NamesAMissingFile) {
