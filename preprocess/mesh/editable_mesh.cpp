@@ -1,7 +1,6 @@
 #include "preprocess/mesh/editable_mesh.h"
 
 #include <algorithm>
-#include <iterator>
 #include <queue>
 #include <vector>
 
@@ -28,6 +27,7 @@ double EditableMesh::shapeOf(const Corners& t) const {
 std::vector<int> EditableMesh::trianglesAt(int a, int b) const {
   const bool fewer_at_b = around[b].size() < around[a].size();
   std::vector<int> result;
+  result.reserve(2);
   for (const int t : around[fewer_at_b ? b : a])
     if (holds(triangles[t], fewer_at_b ? a : b)) result.push_back(t);
   return result;
@@ -35,6 +35,7 @@ std::vector<int> EditableMesh::trianglesAt(int a, int b) const {
 
 std::vector<int> EditableMesh::neighboursOf(int v) const {
   std::vector<int> result;
+  result.reserve(2 * around[v].size());
   for (const int t : around[v])
     for (const int corner : triangles[t])
       if (corner != v) result.push_back(corner);
@@ -45,10 +46,9 @@ std::vector<int> EditableMesh::neighboursOf(int v) const {
 
 std::size_t EditableMesh::commonNeighbours(int a, int b) const {
   const std::vector<int> of_a = neighboursOf(a), of_b = neighboursOf(b);
-  std::vector<int> common;
-  std::set_intersection(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(),
-                        std::back_inserter(common));
-  return common.size();
+  return static_cast<std::size_t>(std::count_if(of_a.begin(), of_a.end(), [&](int v) {
+    return std::binary_search(of_b.begin(), of_b.end(), v);
+  }));
 }
 
 int EditableMesh::contract(int v, int target) {

@@ -168,18 +168,35 @@ Features farthestFirst(const FaceTable& faces, const Features& features, int cou
   return seeds;
 }
 
-std::size_t nearest(const Features& means, const Vector6& feature) {
-  std::size_t best = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < means.size(); ++k) {
-    const double distance = (means[k] - feature).squaredNorm();
-    if (distance < least) {
-      least = distance;
-      best = k;
-    }
+/// Means of clusters, and of each pair a quarter of its squared distance.
+struct Means {
+  explicit Means(const Features& of_clusters) : places(of_clusters), quarters(of_clusters.size()) {
+    for (std::size_t k = 0; k < places.size(); ++k)
+      for (const Vector6& other : places)
+        quarters[k].push_back(0.25 * (places[k] - other).squaredNorm());
   }
-  return best;
-}
+
+  /// Returns the nearest mean, the first of equal ones. Those farther from the one of `before` than
+  /// twice the feature is are no nearer.
+  std::size_t nearest(const Vector6& feature, std::size_t before) const {
+    constexpr double kRounding = 1 + 1e-9;
+    const double limit = kRounding * (places[before] - feature).squaredNorm();
+    std::size_t best = before;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      if (quarters[before][k] > limit) continue;
+      const double distance = (places[k] - feature).squaredNorm();
+      if (distance < least) {
+        least = distance;
+        best = k;
+      }
+    }
+    return best;
+  }
+
+  Features places;
+  std::vector<std::vector<double>> quarters;
+};
 
 void moveToMeans(const FaceTable& faces, const Features& features,
                  const std::vector<std::size_t>& owner, Features& means) {
@@ -204,9 +221,10 @@ FaceClusters clusterFaces(const FaceTable& faces, int count) {
   Features means = farthestFirst(faces, features, count);
   std::vector<std::size_t> owner(features.size(), 0);
   for (int round = 0; round < kRounds; ++round) {
+    const Means near(means);
     bool changed = round == 0;
     for (std::size_t i = 0; i < features.size(); ++i) {
-      const std::size_t now = nearest(means, features[i]);
+      const std::size_t now = near.nearest(features[i], owner[i]);
       changed |= now != owner[i];
       owner[i] = now;
     }
