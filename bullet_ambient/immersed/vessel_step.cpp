@@ -186,6 +186,7 @@ void exchangeWater(AmbientBody& ambient, const MotionView& now, double duration)
   const SurfacePlane plane_F = seenFrom(planeAt(ambient, now.state), model.fluid_frame);
   if (staysDry(*model.holds, plane_F, passage, vessel.holds.data())) {
     for (HoldState& hold : vessel.holds) stayDry(hold);
+    vessel.sloshing_energy = 0;  // setWater() may have emptied a hold
     return;
   }
   const SurfaceStand& stand = standNow(ambient, now);

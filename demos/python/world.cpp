@@ -388,8 +388,8 @@ void bindFoils(py::class_<PythonWorld, std::shared_ptr<PythonWorld>>& type) {
             return ofFoils(w, [](const SceneFoils& f, std::size_t i) { return f.command(i); });
           },
           &setFoilCommands,
-          "Commands (F,) of the foils, which hold until others are set; 0 at first. The angles of "
-          "those with a curve follow by it and the lag of the scene.")
+          "Commands (F,) of the foils, which hold until others are set; at first those of the "
+          "scene. The angles of those with a curve follow by it and the lag of the scene.")
       .def_property_readonly(
           "foil_angles",
           [](const PythonWorld& w) {

@@ -99,6 +99,12 @@ void readPropeller(const nlohmann::json& from, const std::string& place, Thruste
     raiseInputError(
         place + "propeller", "has ", laws,
         " of kt_kq, ct_cp and wageningen; must be one of them, or none for an ideal disc");
+  if (propeller.contains("area_ratio") && !propeller.contains("kt_kq") &&
+      !propeller.contains("ct_cp"))
+    raiseInputError(place + "propeller.area_ratio", "is given without a table kt_kq or ct_cp");
+  for (const char* key : {"astern", "hand"})
+    if (laws == 0 && propeller.contains(key))
+      raiseInputError(place + "propeller." + key, "is given of an ideal disc, which has no blades");
   try {
     thruster.propeller = toPropeller(propeller);
   } catch (const std::invalid_argument& error) {

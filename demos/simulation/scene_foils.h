@@ -44,6 +44,7 @@ class SceneFoils {
                   const Apply& apply) const {
     for (const Placed& placed : placed_)
       for (const std::size_t thruster : placed.thrusters) {
+        if (thrusters.states()[thruster].load.induced == 0) continue;
         const MotionSample pose = poseOf(placed.def.body);
         const RegionSample fluid =
             fluidAt(placed.def.body, pose.position + pose.orientation * placed.arm);

@@ -12,7 +12,7 @@
 
 namespace ambient {
 
-/// Effect of a column of the actions; sizes by bodies, thrusters T and joints J of the scene.
+/// Effect of a column of the actions; sizes by thrusters T, foils F and joints J of the scene.
 enum class ActionKind {
   kThrusters,      ///< T commands, clipped to -1 to 1
   kFoils,          ///< F commands of foils likewise

@@ -285,7 +285,7 @@ bool hasGainedEnergy(const AmbientTree& tree, double since_start) noexcept {
         const FrameOffset pose{dynamics.rotation(link), dynamics.position(link)};
         return hydrostaticEnergyAt(ambient, pose, surface.time) +
                ambient.floating->waves_with_rows.energy() +
-               (ambient.vessel ? ambient.vessel->before_rows.energy : 0);
+               (ambient.stand().inside_F ? ambient.vessel->before_rows.energy : 0);
       });
   return place > surface.energy + surface.rounding;
 }
