@@ -7,9 +7,7 @@
 namespace ambient {
 
 Thrusters::Thrusters(const Scene& scene, const std::vector<PreparedBody>& bodies)
-    : defs_(scene.thrusters),
-      factors_(defs_.size()),
-      states_(defs_.size()) {
+    : defs_(scene.thrusters), factors_(defs_.size()), states_(defs_.size()) {
   for (const ThrusterDef& def : defs_) {
     commands_.push_back(def.command);
     arms_.push_back(def.position - bodies[def.body].centre_of_mass);

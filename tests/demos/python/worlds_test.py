@@ -227,6 +227,21 @@ class WorldBatchTest(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, "\"thruster_1\" is not finite"):
                 world.commands = [0, np.nan]
 
+    def test_screw_and_rudder_of_a_world(self):
+        with ba.World(ba.Scene("rudder_and_screw")) as world:
+            self.assertEqual((world.thrusters, world.foils), (["screw"], ["rudder"]))
+            self.assertEqual((world.commands.tolist(), world.foil_commands.tolist()), ([1], [-0.8]))
+            world.foil_commands = [1]
+            world.step(240)
+            self.assertAlmostEqual(world.turns[0], 10, places=4)
+            self.assertAlmostEqual(world.foil_angles[0], -0.6, places=3)
+            self.assertGreater(world.powers[0], world.thrusts[0] * world.twist[0, 3])
+            self.assertGreater(world.twist[0, 2], 0.1)  # to its left
+            with self.assertRaisesRegex(ValueError, r"shape \(2,\); must be one for each of 1 foils"):
+                world.foil_commands = [1, 0]
+            with self.assertRaisesRegex(ValueError, "\"rudder\" is not finite"):
+                world.foil_commands = [np.nan]
+
 
 class LearningTest(unittest.TestCase):
     def test_the_strategy_finds_a_minimum(self):
