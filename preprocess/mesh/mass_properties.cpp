@@ -171,8 +171,8 @@ std::string unlikelySizeWarning(const TriangleMesh& mesh, bool is_scaled,
   if (size >= kSmallestLikely && (size <= kLargestLikely || is_scaled)) return {};
   return source + ": its size is " + extentsText(mesh.extents()) +
          (size > kLargestLikely
-              ? "; lengths are metres: if the file is in millimetres, --scale 0.001"
-              : "; lengths are metres: if the file is in others, --scale FACTOR");
+              ? "; lengths are metres: if the file is in millimetres, give a scale of 0.001"
+              : "; lengths are metres: if the file is in others, give a scale");
 }
 
 void requireUsualSize(const TriangleMesh& mesh, bool sheet, const std::string& source) {

@@ -219,6 +219,18 @@ struct FileFinder {
   }
 };
 
+/// True if the description of a mesh scales the lengths of its file.
+struct IsScaled {
+  bool operator()(const MeshFile& s) const {
+    return s.scale != 1 || s.stretch != Eigen::Vector3d(1, 1, 1);
+  }
+  bool operator()(const MeshSheet& s) const { return s.scale != 1; }
+  template <class Other>
+  bool operator()(const Other&) const {
+    return false;
+  }
+};
+
 TriangleMesh makeFactMesh(const Shape& shape, int faces, const std::string& source) {
   const ShapeFacts facts = factsOf(shape);
   if (!facts.mesh) throw std::logic_error(source + ": no mesh is made of this kind of shape");
@@ -266,7 +278,8 @@ CheckedMesh scaled(CheckedMesh checked, const ShapeDescription& shape, double sc
   // Shapes are described in metres; what the unit of a file is, is not known.
   const std::filesystem::path file = fileOf(shape);
   if (file.empty()) return checked;
-  const std::string warning = unlikelySizeWarning(checked.mesh, scale != 1, file.string());
+  const bool is_scaled = scale != 1 || std::visit(IsScaled{}, shape.geometry);
+  const std::string warning = unlikelySizeWarning(checked.mesh, is_scaled, file.string());
   if (!warning.empty()) checked.warnings.push_back(warning);
   return checked;
 }

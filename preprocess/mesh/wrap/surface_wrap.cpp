@@ -334,16 +334,21 @@ TriangleMesh hullOf(const TriangleMesh& mesh, const std::string& name) {
   }
 }
 
-/// Refuses a surface that the thickness of thin parts has made larger than the convex hull, unless
-/// the hull itself is about as thin as the default size: a sheet, a rod.
+/// Refuses a surface that the thickness of thin parts has made larger than the convex hull by more
+/// than the error of a wrapped solid. Open triangles reach half of their thickness of 1.5 sizes
+/// farther: such a layer is allowed too, unless it would be more than kLayer of the hull, for which
+/// the size is too large. A hull that is itself about as thin as the default size, of a sheet or a
+/// rod, is no limit.
 void requireWithinHull(const WrapInput& input, const TriangleMesh& surface,
                        const std::string& name) {
-  constexpr double kMost = 1.25;
+  constexpr double kLayer = 0.25, kSolid = 0.02;
   const TriangleMesh hull = hullOf(input.mesh, name);
   if (hull.triangleCount() == 0) return;
   const double volume = tetrahedraVolumeOf(hull), found = tetrahedraVolumeOf(surface);
-  const double thin = kDefaultWrapSize * input.mesh.extents().norm() * areaOf(hull);
-  if (found <= kMost * volume || volume <= thin) return;
+  const double area = areaOf(hull), layer = 0.75 * input.size * area;
+  const double thin = kDefaultWrapSize * input.mesh.extents().norm() * area;
+  const double most = (1 + kSolid) * volume + (layer <= kLayer * volume ? layer : 0);
+  if (found <= most || volume <= thin) return;
   raiseInputError(
       name, "wrapped with a size of ", input.size, " m encloses ", found,
       " m^3, more than its convex hull of ", volume,

@@ -269,7 +269,7 @@ class InputTest(CommandTest):
         mesh = self.write("box.obj", obj_text(box((400, 250, 100), 4)))
         build = self.build_arguments(mesh, "--panels", "0")
         warning = f"warning: {mesh}: its size is 800 x 500 x 200 m; lengths are metres: if the file is in " \
-            "millimetres, --scale 0.001\n"
+            "millimetres, give a scale of 0.001\n"
         for arguments in (build, ["check", mesh]):
             result = self.run_well(*arguments)
             self.assertEqual(result.errors, warning)
@@ -279,7 +279,14 @@ class InputTest(CommandTest):
             self.expect_close(found, expected, 1e-6)
         self.assertEqual(self.run_well(*build, "--scale", "2").errors, "")  # whoever scales knows the unit
         self.assertEqual(self.run_well(*build, "--scale", "1e-8").errors, f"warning: {mesh}: its size is 8e-06 x 5e-06 x "
-                         "2e-06 m; lengths are metres: if the file is in others, --scale FACTOR\n")
+                         "2e-06 m; lengths are metres: if the file is in others, give a scale\n")
+        for kind, faces in (("mesh", box((400, 250, 100), 4)), ("sheet", sheet(900, 600, 8))):  # a scale in a file of JSON, too
+            file = self.write(f"{kind}.obj", obj_text(faces))
+            shape = {"type": kind, "file": file}
+            for scale, expected in ((None, True), (0.9, False)):
+                told = self.run_well(*self.build_arguments(
+                    self.write("s.json", {**shape, **({"scale": scale} if scale else {})}), "--panels", "0")).errors
+                self.assertEqual("give a scale of 0.001" in told, expected, told)
 
     def test_slender_shapes_are_warned_of(self):
         def warnings_of(width):

@@ -324,6 +324,37 @@ TEST(SurfaceWrap, RefusesMoreThanTheConvexHull) {
       << refusal;
 }
 
+// A flap of 18 m x 1.8 m x 11.5 m with holes and with walls inside, aslant: its volume is that of
+// its convex hull, or it is refused.
+TEST(SurfaceWrap, OfAFlapIsNoLargerThanItsHullAtAnySize) {
+  TriangleMesh flap = makeBoxMesh({9, 0.9, 5.75}, 600);
+  const int count = static_cast<int>(flap.triangleCount());
+  for (const int t : {count - 1, count / 2, 0}) flap = withoutTriangle(flap, t);
+  for (const double x : {-4.5, 0.0, 4.5}) {
+    TriangleMesh wall = makeRectangularSheetMesh(1.76, 11.46, 32);
+    const Eigen::Matrix3Xd flat = wall.vertices;
+    wall.vertices.row(0).setConstant(x);
+    wall.vertices.row(1) = flat.row(0);
+    wall.vertices.row(2) = flat.row(1);
+    flap = joinMeshes({flap, wall});
+  }
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(0.9, Eigen::Vector3d(3, 1, 2).normalized()).toRotationMatrix();
+  constexpr double kVolume = 18 * 1.8 * 11.5;
+  for (const Eigen::Matrix3d& rotation : {Eigen::Matrix3d(Eigen::Matrix3d::Identity()), turn})
+    for (const double size : {0.3, 0.6, 0.9, 1.2, 1.8, 2.5, 3.0, 4.0}) {
+      const TriangleMesh mesh = rotated(flap, rotation);
+      try {
+        EXPECT_NEAR(wrappedProperties(mesh, size).volume / kVolume, 1, 0.02) << size;
+      } catch (const std::runtime_error& error) {
+        const std::string refusal = error.what();
+        EXPECT_GT(size, 0.9) << refusal;
+        EXPECT_NE(refusal.find(" m^3, more than its convex hull of 372.6 m^3"), std::string::npos)
+            << size << " " << refusal;
+      }
+    }
+}
+
 // Reference: a rounded slab over a square of side 2, thickness 1.5 sizes.
 TEST(SurfaceWrap, GivesSheetsAThickness) {
   const double size = 0.05, reach = 0.75 * size;
