@@ -75,7 +75,8 @@ class FormLoads final : public ViscousLoads {
         lift_(*body, *shape_, stall_lag),
         density_(settings.density),
         centre_(body->centre_of_volume),
-        still_axis_(axisOfRevolution(*body)) {
+        still_axis_(axisOfRevolution(*body)),
+        is_round_(!still_axis_.isZero(0)) {
     if (!(settings.viscosity > 0) || !body->viscous.isKnown()) return;
     Vector3 own_drag{0, 0, 0};
     if (!body->viscous.separation.smooth_base.isZero(0)) own_drag = LoadTables(body).ownDrag(faces);
@@ -124,11 +125,14 @@ class FormLoads final : public ViscousLoads {
   /// Pressure on the faces. That on a body of revolution neither sees its spin nor changes it,
   /// docs/theory.md eq. (66b).
   Wrench onFaces(const Twist& x, const WetPart* wet) const noexcept {
+    if (!is_round_) return sumOnFaces(x, wet);
     const Vector3 spin = still_axis_.dot(x.angular) * still_axis_;
-    const Twist seen{x.angular - spin, x.linear + spin.cross(centre_)};
-    Wrench load = wet ? on_faces_->wetLoad(seen, *wet) : on_faces_->load(seen);
+    Wrench load = sumOnFaces({x.angular - spin, x.linear + spin.cross(centre_)}, wet);
     load.torque -= still_axis_.dot(load.torque - centre_.cross(load.force)) * still_axis_;
     return load;
+  }
+  Wrench sumOnFaces(const Twist& x, const WetPart* wet) const noexcept {
+    return wet ? on_faces_->wetLoad(x, *wet) : on_faces_->load(x);
   }
   Wrench withWings(Wrench load, const Twist& x, const WetPart* wet) const noexcept {
     for (const auto& wing : on_wings_) load += wet ? wing->wetLoad(x, *wet) : wing->load(x);
@@ -155,6 +159,7 @@ class FormLoads final : public ViscousLoads {
   double density_;
   Vector3 centre_;
   Vector3 still_axis_;             ///< of a body of revolution, unit; else 0
+  bool is_round_;                  ///< there is such an axis
   std::optional<ViscousLaw> law_;  ///< none: no viscosity
   std::optional<WingLift> wings_;  ///< none: the body is one part
   std::vector<std::shared_ptr<const SurfaceLoads>> on_wings_;
