@@ -150,161 +150,77 @@ FormShape formShapeOf(const FluidBody& body, bool borders_count) {
 
 namespace {
 
-/// Corners of a ring around a flat side, one after the other.
-std::vector<int> cornersOf(const std::vector<RimVertex>& outline) {
-  std::vector<int> corners;
-  for (const RimVertex& v : outline)
-    if (v.is_corner) corners.push_back(v.vertex);
-  return corners;
-}
-
-/// Normals at the rims of the flat sides of a mesh.
-class RimNormals {
+/// Normals at the vertices of a mesh.
+class VertexNormals {
  public:
-  RimNormals(const SurfaceTriangles& mesh, const std::vector<FlatSide>& sides)
-      : mesh_(mesh), sides_(sides), stars_(static_cast<std::size_t>(mesh.vertexCount())) {
-    for (std::size_t side = 0; side < sides.size(); ++side)
-      for (const std::vector<RimVertex>& outline : sides[side].outlines) add(side, outline);
+  explicit VertexNormals(const SurfaceTriangles& mesh)
+      : mesh_(mesh), stars_(static_cast<std::size_t>(mesh.vertexCount())) {
+    for (int t = 0; t < mesh.size(); ++t)
+      for (int corner = 0; corner < 3; ++corner)
+        stars_[static_cast<std::size_t>(mesh.vertex(t, corner))].push_back({t, weight(t, corner)});
   }
 
-  /// Weighted mean normal at a vertex, over the adjacent sides that `side` continues smoothly.
-  Vector3 normal(int vertex, const FlatSide& side) const {
+  /// Weighted mean normal at a vertex, over the adjacent faces that `triangle` continues smoothly.
+  Vector3 normal(int vertex, int triangle) const {
     Vector3 sum = Vector3::Zero();
-    for (const Adjacent& next : stars_[static_cast<std::size_t>(vertex)])
-      if (sides_[next.side].normal.dot(side.normal) >= kEdgeCosine)
-        sum += next.weight * sides_[next.side].normal;
+    for (const Face& face : stars_[static_cast<std::size_t>(vertex)])
+      if (mesh_.normal(face.triangle).dot(mesh_.normal(triangle)) >= kEdgeCosine)
+        sum += face.weight * mesh_.normal(face.triangle);
     const double length = sum.norm();
-    return length > 0 ? Vector3(sum / length) : side.normal;
-  }
-
-  /// Returns true for a side that is divided into rows between two smooth rims: all vertices lie on
-  /// its outline, and those between the corners where other sides continue it smoothly.
-  bool isInRows(const FlatSide& side) const {
-    if (side.outlines.size() != 1) return false;
-    const std::vector<RimVertex>& outline = side.outlines.front();
-    if (side.triangles.size() + 2 != outline.size()) return false;
-    std::size_t between = 0;
-    for (const RimVertex& v : outline) {
-      if (v.is_corner) continue;
-      ++between;
-      if (!isSmooth(v.vertex, side)) return false;
-    }
-    return between > 0;
+    return length > 0 ? Vector3(sum / length) : mesh_.normal(triangle);
   }
 
  private:
-  bool isSmooth(int vertex, const FlatSide& side) const {
-    for (const Adjacent& next : stars_[static_cast<std::size_t>(vertex)])
-      if (&sides_[next.side] != &side && sides_[next.side].normal.dot(side.normal) >= kEdgeCosine)
-        return true;
-    return false;
-  }
-
-  struct Adjacent {
-    std::size_t side;
+  struct Face {
+    int triangle;
     double weight;
   };
 
-  void add(std::size_t side, const std::vector<RimVertex>& outline) {
-    const std::vector<int> corners = cornersOf(outline);
-    if (corners.size() < 3) return;  // a side without area
-    std::size_t passed = 0;          // corners before the vertex
-    for (const RimVertex& v : outline) {
-      const int before = corners[(passed + corners.size() - 1) % corners.size()];
-      if (v.is_corner) ++passed;
-      const int after = corners[passed % corners.size()];
-      stars_[static_cast<std::size_t>(v.vertex)].push_back({side, weight(v, before, after)});
-    }
-  }
-
-  /// Weight that makes the mean normal exact for every mesh inscribed in a sphere; Max 1999. It is
-  /// 0 where the rim goes straight on, at a corner of other sides: there the sine of the angle
-  /// counts as 1.
-  double weight(const RimVertex& v, int before, int after) const {
-    const Vector3 a = mesh_.place(after) - mesh_.place(v.vertex),
-                  b = mesh_.place(before) - mesh_.place(v.vertex);
-    const double sine = v.is_corner ? a.cross(b).norm() : a.norm() * b.norm();
-    const double weight = sine / (a.squaredNorm() * b.squaredNorm());
-    return std::isfinite(weight) ? weight : 0;
+  /// Weight that makes the mean normal exact for every mesh inscribed in a sphere; Max 1999.
+  double weight(int t, int corner) const {
+    const auto edgeTo = [&](int other) {
+      return Vector3(mesh_.place(mesh_.vertex(t, (corner + other) % 3)) -
+                     mesh_.place(mesh_.vertex(t, corner)));
+    };
+    const Vector3 a = edgeTo(1), b = edgeTo(2);
+    const double weight = a.cross(b).norm() / (a.squaredNorm() * b.squaredNorm());
+    return std::isfinite(weight) ? weight : 0;  // a triangle without area
   }
 
   const SurfaceTriangles& mesh_;
-  const std::vector<FlatSide>& sides_;
-  std::vector<std::vector<Adjacent>> stars_;
+  std::vector<std::vector<Face>> stars_;
 };
 
 struct Curvatures {
   double smallest = 0, largest = 0;  ///< principal curvatures, positive if convex [1/m]
 };
 
-/// A straight part of the rim of a side, in two axes on its plane.
-struct RimEdge {
-  double u, v;      ///< from corner to corner [m]
-  double x, y;      ///< place of the first corner [m]
-  double n_x, n_y;  ///< mean of the normals at the two corners
-};
-
-/// Returns the straight parts of the rim of a side.
-std::vector<RimEdge> edgesOf(const FlatSide& side, const SurfaceTriangles& mesh,
-                             const RimNormals& normals) {
-  std::vector<RimEdge> edges;
-  Vector3 origin = Vector3::Zero(), x_axis = Vector3::Zero(), y_axis = Vector3::Zero();
-  for (const std::vector<RimVertex>& outline : side.outlines) {
-    const std::vector<int> corners = cornersOf(outline);
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      const int here = corners[i], next = corners[(i + 1) % corners.size()];
-      const Vector3 edge = mesh.place(next) - mesh.place(here);
-      if (edges.empty()) {
-        origin = mesh.place(here);
-        x_axis = edge.normalized();
-        y_axis = side.normal.cross(x_axis);
-      }
-      const Vector3 place = mesh.place(here) - origin;
-      const Vector3 turn =
-          (normals.normal(here, side) + normals.normal(next, side)) / 2 - side.normal;
-      edges.push_back({edge.dot(x_axis), edge.dot(y_axis), place.dot(x_axis), place.dot(y_axis),
-                       turn.dot(x_axis), turn.dot(y_axis)});
-    }
-  }
-  return edges;
-}
-
-/// Eigenvalues of the symmetric 2x2 matrix II with II e = G e along the edges of the rim, by least
-/// squares; G of eq. (45e).
-Curvatures curvaturesOf(const FlatSide& side, const SurfaceTriangles& mesh,
-                        const RimNormals& normals) {
-  const std::vector<RimEdge> edges = edgesOf(side, mesh, normals);
-  double twice_area = 0, gradient[2][2] = {};
-  for (const RimEdge& e : edges) {
-    twice_area += e.x * e.v - e.y * e.u;
-    gradient[0][0] += e.n_x * e.v;
-    gradient[0][1] -= e.n_x * e.u;
-    gradient[1][0] += e.n_y * e.v;
-    gradient[1][1] -= e.n_y * e.u;
-  }
+/// Eigenvalues of the symmetric 2x2 matrix II with dn = II de along the edges, by least squares.
+Curvatures curvaturesOf(const SurfaceTriangles& mesh, const VertexNormals& normals, int t) {
+  const auto place = [&](int corner) { return mesh.place(mesh.vertex(t, corner)); };
+  const Vector3 normal = mesh.normal(t);
+  const Vector3 x_axis = (place(1) - place(0)).normalized();
+  const Vector3 y_axis = normal.cross(x_axis);
   Matrix3 squares = Matrix3::Zero();
   Vector3 right = Vector3::Zero();
-  for (const RimEdge& e : edges) {
-    // Coefficients of (II_xx, II_xy, II_yy).
-    const Vector3 rows[2] = {{e.u, e.v, 0}, {0, e.u, e.v}};
+  for (int corner = 0; corner < 3; ++corner) {
+    const int next = (corner + 1) % 3;
+    const Vector3 edge = place(next) - place(corner);
+    const Vector3 turn =
+        normals.normal(mesh.vertex(t, next), t) - normals.normal(mesh.vertex(t, corner), t);
+    const double u = edge.dot(x_axis), v = edge.dot(y_axis);
+    const Vector3 rows[2] = {{u, v, 0}, {0, u, v}};  // coefficients of (II_xx, II_xy, II_yy)
+    const double values[2] = {turn.dot(x_axis), turn.dot(y_axis)};
     for (int row = 0; row < 2; ++row) {
-      const double turn = 2 * (gradient[row][0] * e.u + gradient[row][1] * e.v) / twice_area;
       squares += rows[row] * rows[row].transpose();
-      right += turn * rows[row];
+      right += values[row] * rows[row];
     }
   }
   const Vector3 form = squares.inverse() * right;
   const double mean = (form[0] + form[2]) / 2;
   const double spread = portable::hypot((form[0] - form[2]) / 2, form[1]);
-  if (!std::isfinite(mean) || !std::isfinite(spread)) return {};  // a side without area
+  if (!std::isfinite(mean) || !std::isfinite(spread)) return {};  // a triangle without area
   return {mean - spread, mean + spread};
-}
-
-/// One triangle of a flat side as a side.
-FlatSide partOf(const FlatSide& side, int t, const SurfaceTriangles& mesh) {
-  FlatSide part{{t}, {{}}, {}, side.normal};
-  for (int k = 0; k < 3; ++k) part.outlines.front().push_back({mesh.vertex(t, k), true});
-  return part;
 }
 
 }  // namespace
@@ -318,23 +234,13 @@ double sharpnessOf(double curvature, double radius) {
 std::vector<double> computeSharpness(const FluidBody& body) {
   if (body.surface.triangles.empty()) return std::vector<double>(body.faces.size(), 1);
   const SurfaceTriangles mesh(body);
-  const std::vector<FlatSide> sides = findFlatSides(mesh);
-  const RimNormals normals(mesh, sides);
+  const VertexNormals normals(mesh);
   const double radius = std::sqrt(body.area / (4 * kPi));
-  const auto count = static_cast<std::size_t>(mesh.size());
-  std::vector<double> front(count), back(mesh.isSheet() ? count : 0);
-  const auto set = [&](const Curvatures& curvatures, int t) {
-    front[static_cast<std::size_t>(t)] = sharpnessOf(curvatures.largest, radius);
-    if (mesh.isSheet())
-      back[static_cast<std::size_t>(t)] = sharpnessOf(-curvatures.smallest, radius);
-  };
-  for (const FlatSide& side : sides) {
-    if (normals.isInRows(side)) {
-      for (const int t : side.triangles) set(curvaturesOf(partOf(side, t, mesh), mesh, normals), t);
-      continue;
-    }
-    const Curvatures curvatures = curvaturesOf(side, mesh, normals);
-    for (const int t : side.triangles) set(curvatures, t);
+  std::vector<double> front, back;
+  for (int t = 0; t < mesh.size(); ++t) {
+    const Curvatures curvatures = curvaturesOf(mesh, normals, t);
+    front.push_back(sharpnessOf(curvatures.largest, radius));
+    if (mesh.isSheet()) back.push_back(sharpnessOf(-curvatures.smallest, radius));
   }
   front.insert(front.end(), back.begin(), back.end());
   return front;

@@ -21,7 +21,7 @@ std::vector<std::int32_t> fewTriangles(const Surface& surface, int count) {
   for (const FlatSide& side : findFlatSides(mesh)) {
     const std::vector<int>& c = side.corners;
     const bool stays = *std::max_element(side.triangles.begin(), side.triangles.end()) >= count;
-    if (stays || c.empty() || c.size() >= side.triangles.size() + 2) continue;
+    if (stays || c.size() >= side.triangles.size() + 2) continue;
     for (std::size_t i = 2; i < c.size(); ++i) add(c[0], c[i - 1], c[i]);
     for (const int t : side.triangles) is_replaced[static_cast<std::size_t>(t)] = true;
   }
@@ -74,8 +74,7 @@ class PointMaker {
   /// `size`: of the body [m].
   explicit PointMaker(double size) : size_(size) {}
 
-  static constexpr double kLongest = 0.2;         ///< edge of a triangle with one point, in sizes
-  static constexpr std::size_t kOfTriangle = 27;  ///< points of a longer one
+  static constexpr double kLongest = 0.2;  ///< edge of a triangle with one point, in sizes
 
   /// Points of a flat side with these corners.
   std::vector<Point> pointsOf(const std::vector<Vector3>& corners, bool few_across) const {
@@ -150,48 +149,42 @@ double sizeOf(const FluidBody& body, const SurfaceTriangles& mesh) {
   return 2 * reach;
 }
 
-/// Length of the longest edge of an outline [m].
-template <typename Corners>
-double longestOf(const Corners& corners) {
-  double longest = 0;
-  for (std::size_t i = 0; i < corners.size(); ++i)
-    longest = std::max(longest, (corners[(i + 1) % corners.size()] - corners[i]).norm());
-  return longest;
+bool isLong(const Corners& corners, double longest) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if ((corners[(k + 1) % 3] - corners[k]).norm() > longest) return true;
+  return false;
 }
 
-/// A flat side and how long and large it is; `too_long`: edge of a triangle that is sampled at more
-/// than one point [m].
-struct SideExtent {
-  SideExtent(const FlatSide& side, const SurfaceTriangles& mesh, const FaceTable& faces,
-             double too_long)
-      : corners(mesh.places(side.corners)), longest(longestOf(corners)) {
-    for (const int t : side.triangles) {
-      points += longestOf(cornersOf(mesh, t)) > too_long ? PointMaker::kOfTriangle : 1;
-      area += faces.area[static_cast<std::size_t>(t)];
-    }
-    is_long = longest > too_long;
-  }
-
-  /// Returns true for a long narrow strip.
-  bool isStrip(double size) const {
-    constexpr double kNarrow = 0.1;
-    return is_long && corners.size() > 3 && area < kNarrow * size * longest;
-  }
-
-  std::vector<Vector3> corners;
-  double longest;          ///< edge of the outline [m]
-  bool is_long;            ///< that edge is too long for one point
-  std::size_t points = 0;  ///< of all triangles, without points of the side
-  double area = 0;         ///< [m^2]
-};
-
 /// Returns true if so many points replace the triangles of a sharp side: it has more triangles, at
-/// least kLarge of the surface's area, or edges around it, one of them too long for one point.
-bool deservesPoints(const FlatSide& side, const SideExtent& extent, std::size_t points,
-                    double whole_area) {
+/// least kLarge of the surface's area, or edges around it and a triangle too long for one point.
+bool deservesPoints(const FlatSide& side, std::size_t points, const SurfaceTriangles& mesh,
+                    const FluidBody& body, double longest) {
   constexpr double kLarge = 0.02;
-  return points < side.triangles.size() || extent.area >= kLarge * whole_area ||
-         (side.has_sharp_rim && extent.is_long);
+  double area = 0;
+  bool has_long = false;
+  for (const int t : side.triangles) {
+    area += body.faces.area[static_cast<std::size_t>(t)];
+    has_long = has_long || (side.has_sharp_rim && isLong(cornersOf(mesh, t), longest));
+  }
+  return points < side.triangles.size() || area >= kLarge * body.area || has_long;
+}
+
+/// Returns true for a narrow strip of a round surface with a triangle too long for one point.
+bool isLongStrip(const FlatSide& side, const SurfaceTriangles& mesh, double size) {
+  constexpr double kNarrow = 0.1;
+  if (side.triangles.size() < 2) return false;
+  double longest = 0, twice_area = 0;
+  bool has_long = false;
+  for (const int t : side.triangles) {
+    const Corners c = cornersOf(mesh, t);
+    twice_area += (c[1] - c[0]).cross(c[2] - c[0]).norm();
+    has_long = has_long || isLong(c, PointMaker::kLongest * size);
+  }
+  for (std::size_t i = 0; i < side.corners.size(); ++i) {
+    const int next = side.corners[(i + 1) % side.corners.size()];
+    longest = std::max(longest, (mesh.place(next) - mesh.place(side.corners[i])).norm());
+  }
+  return has_long && twice_area / 2 < kNarrow * size * longest;
 }
 
 /// Sets the sharpness of the faces of a side; a sheet of as many `triangles` has them on its back,
@@ -239,16 +232,14 @@ FaceTable facesWithPoints(const FluidBody& body) {
   std::vector<bool> is_replaced(static_cast<std::size_t>(mesh.size()));
   for (const FlatSide& side : findFlatSides(mesh)) {
     const std::optional<double> common = commonSharpness(side, faces);
-    if (!common || side.corners.empty()) continue;
+    if (!common) continue;
     const bool is_sharp = *common == 1;
-    if (!is_sharp && side.triangles.size() == 1) continue;
-    const SideExtent extent(side, mesh, faces, longest);
+    if (!is_sharp && !isLongStrip(side, mesh, size)) continue;
+    const std::vector<Vector3> corners = mesh.places(side.corners);
     constexpr std::size_t kDisc = 12;  // corners of a side with a round outline
-    const bool few_across = extent.corners.size() >= kDisc || (!is_sharp && extent.isStrip(size));
-    const std::vector<Point> points = maker.pointsOf(extent.corners, few_across);
-    if (!is_sharp && !extent.is_long && points.size() >= extent.points) continue;
-    const double sharpness = is_sharp ? sharpnessOfSide(extent.corners) : *common;
-    if (is_sharp && !deservesPoints(side, extent, points.size(), body.area)) {
+    const std::vector<Point> points = maker.pointsOf(corners, !is_sharp || corners.size() >= kDisc);
+    const double sharpness = is_sharp ? sharpnessOfSide(corners) : *common;
+    if (is_sharp && !deservesPoints(side, points.size(), mesh, body, longest)) {
       if (side.has_sharp_rim) setSharpness(side, sharpness, mesh.size(), faces);
       continue;
     }
@@ -262,7 +253,7 @@ FaceTable facesWithPoints(const FluidBody& body) {
     const std::size_t t = face % is_replaced.size();
     if (is_replaced[t]) continue;
     const Corners corners = cornersOf(mesh, static_cast<int>(t));
-    if (longestOf(corners) > longest)
+    if (isLong(corners, longest))
       collector.addPointsOf(face, maker.pointsOf({corners.begin(), corners.end()}, false));
     else
       collector.copy(face);

@@ -7,10 +7,9 @@
 namespace ambient {
 
 /// Computes the sharpness of each face, docs/theory.md eq. (45): 0 on a sphere, 1 on flat or hollow
-/// surface and at edges. Triangles of one flat side have one sharpness. Returns one entry per face,
-/// rounded to single precision, in the order of the triangles of `surface`; a sheet has the entries
-/// of its back after those of its front. Scale invariant. Without a surface all faces count as
-/// flat. Cost O(F log F).
+/// surface and at edges. Returns one entry per face, rounded to single precision, in the order of
+/// the triangles of `surface`; a sheet has the entries of its back after those of its front. Scale
+/// invariant. Without a surface all faces count as flat. Cost O(F).
 /// @throws std::invalid_argument in one sentence, if the faces are not these triangles.
 std::vector<double> computeSharpness(const FluidBody& body);
 
@@ -34,10 +33,10 @@ FormShape formShapeOf(const FluidBody& body, bool borders_count = true);
 FluidBody partOf(const FluidBody& body, std::size_t label);
 
 /// Returns the faces that the form law is summed over: those of the body with their sharpness,
-/// except that Gauss points replace the triangles of most flat sides, 16 per four corners, also of
-/// round bodies, and triangles that are long against the body. The form law has no jump at the
-/// edge of the wake: fewer points suffice, docs/accuracy.md. Round faces of a wing are as sharp as
-/// its edges are: s + W (1 - s). Cost O(F log F).
+/// except that Gauss points replace the triangles of most flat sides, 16 per four corners, and
+/// triangles that are long against the body. The form law has no jump at the edge of the wake:
+/// fewer points suffice, docs/accuracy.md. Round faces of a wing are as sharp as its edges are:
+/// s + W (1 - s). Cost O(F).
 /// @throws std::invalid_argument as computeSharpness().
 FaceTable formLawFaces(const FluidBody& body, const FormShape& shape);
 

@@ -42,24 +42,16 @@ class SurfaceTriangles {
   std::vector<Vector3> normals_;  ///< unit, into the fluid, one per triangle
 };
 
-/// A vertex on the outline of a flat side.
-struct RimVertex {
-  int vertex;
-  bool is_corner;  ///< false: the outline goes straight on
-};
-
-/// A flat part of the surface: triangles on one plane that hang together at their edges.
+/// A flat part of the surface with one convex outline.
 struct FlatSide {
   std::vector<int> triangles;  ///< indices into the mesh, one or more
-  /// Rings around the side and its holes, with the side on their left seen from the fluid.
-  std::vector<std::vector<RimVertex>> outlines;
-  std::vector<int> corners;    ///< of a side with one convex outline, 3 or more; else empty
+  std::vector<int> corners;    ///< vertices, counter-clockwise seen from the fluid, 3 or more
   Vector3 normal;              ///< unit, into the fluid
   bool has_sharp_rim = false;  ///< true: an edge to all that it borders on, kEdgeCosine
 };
 
-/// Finds the flat sides. A triangle belongs to one. Two triangles are on one plane as far as
-/// coordinates in single precision tell. Cost O(F log F).
+/// Finds the flat sides. A triangle belongs to at most one side; to none if the outline of its
+/// plane is not convex or has holes. Cost O(F log F).
 std::vector<FlatSide> findFlatSides(const SurfaceTriangles& mesh);
 
 }  // namespace ambient
