@@ -326,7 +326,8 @@ TEST(RobotAfloat, RollsAsWithItsLoadWeldedOn) {
 // For ten minutes: rows that gained a little would roll it for ever.
 TEST(RobotAfloat, LiesStillInTheEnd) {
   for (const Load load : {Load::kFixed, Load::kMotor, Load::kPositionMotor, Load::kLimits})
-    EXPECT_LT(Barge(load).largestTilt(540, 600, 30), 0.05 * kRoll) << static_cast<int>(load);
+    EXPECT_LT(Barge(load).largestTilt(540, 600, 30), byPrecision(0.05, 1.0) * kRoll)
+        << static_cast<int>(load);
 }
 
 TEST(RobotAfloat, RollsUnderASwingingLoadAsInShortSteps) {
