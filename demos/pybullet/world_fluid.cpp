@@ -128,7 +128,7 @@ bool isOfParts(const btCollisionObject& object) {
   return shape.isCompound() && static_cast<const btCompoundShape&>(shape).getNumChildShapes() > 1;
 }
 
-// What hinders a saved state from being restored bit for bit; null: nothing.
+// Returns why a state that is saved now may not be restored bit for bit; null: it is.
 const char* hindranceOf(const btDispatcherInfo& info, btDispatcher& dispatcher) {
   const char* found = nullptr;
   for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {

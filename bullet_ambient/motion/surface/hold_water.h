@@ -85,7 +85,7 @@ struct Passage {
   double atmosphere = 101325;               ///< pressure of the air at the surface [Pa]
   const OpeningChanges* changes = nullptr;  ///< null: none
   const RimRises* rises = nullptr;          ///< null: the sea is a plane at the openings
-  /// Those of the holds at the plane, with the water that they have; null: not known.
+  /// Levels and modes of the holds at the plane, with their present water; null: not known.
   const HoldModes* modes = nullptr;
 };
 

@@ -102,7 +102,7 @@ TEST(FoilsInAWorld, StayWithABodyThatGetsASavedState) {
   for (FluidWorld* world : {&one, &other, &third}) world->step(kWorldStep, 20);
   EXPECT_TRUE(moveAlike(here, there));
   EXPECT_TRUE(moveAlike(here, last));
-  // What the first world turns, the others do not feel.
+  // Each world turns foils of its own.
   foils[0]->turn(1, 0.3);
   for (FluidWorld* world : {&one, &other, &third}) world->step(kWorldStep, 5);
   EXPECT_FALSE(moveAlike(here, there));

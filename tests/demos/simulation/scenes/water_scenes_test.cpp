@@ -388,7 +388,7 @@ std::string turnedMesh(const std::vector<ProfileCorner>& profile, int sides) {
   return text.str();
 }
 
-// The same float, spar and plate as a mesh of 24 sides, which is round to its added mass and to
+// A mesh of 24 sides of that float, spar and plate, which is round to its added mass and to
 // pressure.
 TEST(Buoy, DoesNotSpinInWavesAsAMesh) {
   const TemporaryFolder folder;
