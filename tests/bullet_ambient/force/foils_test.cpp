@@ -37,30 +37,19 @@ Vector3 coefficientsOf(const Foil& foil, const Twist& x) {
   return foils.load(x, 1, nullptr).force / (0.5 * x.linear.squaredNorm() * foil.span * foil.chord);
 }
 
-/// Eq. (43) to (43c) for a thin plate of aspect ratio L >= 1, in closed form.
-double normalForceOf(double aspect, double incidence) {
-  const double s = std::sin(incidence), c_sq = 1 - s * s;
-  const double sigma = 0.18 + (std::sqrt(0.5) - 0.18) * std::pow(aspect, -1.5);
-  const double x = s * s / (2 * sigma * sigma);
-  const double attached = x < 1 ? std::pow(1 - x * x, 2) : 0;
-  const double slope = 2 * kPi * aspect / (2 + std::sqrt(4 + aspect * aspect));
-  const double separated = (1 - attached) * (1.05 * s * s + 2.34 * s * (1 - s)) + 0.12 * s * s;
-  return separated + attached * s * (slope * c_sq + kPi * s);
-}
-
 // The law of wings on faces in single precision: rounding as of WingLoads.
 TEST(Foils, HaveTheLawOfWings) {
   for (const double aspect : {1.0, 3.0, 6.0})
     for (const double degrees : {2.0, 5.0, 10.0, 20.0, 45.0, 90.0}) {
       const double i = degrees * kPi / 180;
       const Vector3 force = coefficientsOf(plainFoil(aspect), alongChord(i));
-      EXPECT_NEAR(force.z(), normalForceOf(aspect, i), 2e-5) << aspect << " " << degrees;
+      EXPECT_NEAR(force.z(), test::normalForceOfPlate(aspect, i), 2e-5) << aspect << " " << degrees;
       EXPECT_NEAR(coefficientsOf(plainFoil(aspect), alongChord(-i)).z(), -force.z(), 2e-5);
     }
   // A fin on a wall has the slope of twice its span.
   Foil fin = plainFoil(2);
   fin.aspect = 4;
-  EXPECT_NEAR(coefficientsOf(fin, alongChord(0.05)).z(), normalForceOf(4, 0.05), 2e-5);
+  EXPECT_NEAR(coefficientsOf(fin, alongChord(0.05)).z(), test::normalForceOfPlate(4, 0.05), 2e-5);
 }
 
 // Munk's moment, which its added mass would have in K, and what stall leaves of it: (49a), (169).
@@ -88,7 +77,8 @@ TEST(Foils, LiftByTheirCamber) {
   foil.camber = -0.04;
   EXPECT_NEAR(coefficientsOf(foil, alongChord(0)).z(), -lift, 1e-12);
   // Broadside no flow is attached.
-  EXPECT_NEAR(coefficientsOf(foil, alongChord(kPi / 2)).z(), normalForceOf(6, kPi / 2), 2e-5);
+  EXPECT_NEAR(coefficientsOf(foil, alongChord(kPi / 2)).z(), test::normalForceOfPlate(6, kPi / 2),
+              2e-5);
 }
 
 TEST(Foils, HaveTheDragOfTheirProfile) {

@@ -46,24 +46,13 @@ double normalForce(const FluidBody& wing, double degrees,
   return -loadsOf(wing, precision)->load(x).force.z() / (0.5 * 1.3 * wing.area / 2);
 }
 
-/// Eq. (43) to (43c) for a thin plate at incidence i, in closed form.
-double closedForm(double aspect, double degrees) {
-  const double s = std::sin(degrees * kPi / 180), c_sq = 1 - s * s;
-  const double sigma = 0.18 + (std::sqrt(0.5) - 0.18) * std::pow(aspect, -1.5);
-  const double x = s * s / (2 * sigma * sigma);
-  const double attached = x < 1 ? std::pow(1 - x * x, 2) : 0;
-  const double slope = 2 * kPi * aspect / (2 + std::sqrt(4 + aspect * aspect));
-  const double separated = (1 - attached) * (1.05 * s * s + 2.34 * s * (1 - s)) + 0.12 * s * s;
-  return separated + attached * s * (slope * c_sq + kPi * s);
-}
-
 TEST(WingLoads, HaveTheClosedFormOfAPlateAtIncidence) {
   for (const double aspect : {1.0, 3.0, 6.0})
     for (const double degrees : {2.0, 5.0, 10.0, 15.0, 20.0, 30.0, 45.0, 60.0, 90.0}) {
       FluidBody wing = test::rectangularWing(aspect);
       // Aspect ratio of the faces' centres, which the law sees.
       const double seen = formShapeOf(wing).aspect;
-      const double expected = closedForm(seen, degrees);
+      const double expected = test::normalForceOfPlate(seen, degrees * kPi / 180);
       EXPECT_NEAR(normalForce(wing, degrees), expected, 1e-12) << aspect << " " << degrees;
       EXPECT_NEAR(normalForce(wing, degrees, LoadPrecision::kSingle), expected, 2e-5);
     }

@@ -12,6 +12,18 @@
 
 namespace ambient::test {
 
+/// C_N of a thin plate of an aspect ratio >= 1 at an incidence [rad], docs/theory.md eq. (43) to
+/// (43c) in closed form.
+inline double normalForceOfPlate(double aspect, double incidence) {
+  const double s = std::sin(incidence), c_sq = 1 - s * s;
+  const double sigma = 0.18 + (std::sqrt(0.5) - 0.18) * std::pow(aspect, -1.5);
+  const double x = s * s / (2 * sigma * sigma);
+  const double attached = x < 1 ? std::pow(1 - x * x, 2) : 0;
+  const double slope = 2 * kPi * aspect / (2 + std::sqrt(4 + aspect * aspect));
+  const double separated = (1 - attached) * (1.05 * s * s + 2.34 * s * (1 - s)) + 0.12 * s * s;
+  return separated + attached * s * (slope * c_sq + kPi * s);
+}
+
 /// A body with the triangles of a mesh as surface and faces, and the mesh's volume.
 inline FluidBody hullBody(const Triangulation& mesh) {
   FluidBody body;
