@@ -129,7 +129,7 @@ Foils::Placed Foils::place(const Foil& foil, std::size_t index) {
   return placed;
 }
 
-Foils::Foils(std::vector<Foil> foils) {
+Foils::Foils(const std::vector<Foil>& foils) {
   for (const Foil& foil : foils) placed_.push_back(place(foil, placed_.size()));
 }
 

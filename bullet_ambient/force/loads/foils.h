@@ -39,7 +39,7 @@ struct Foil {
 class Foils {
  public:
   /// @throws std::invalid_argument, one line that names the number of the foil, value and limit
-  explicit Foils(std::vector<Foil> foils);
+  explicit Foils(const std::vector<Foil>& foils);
 
   std::size_t size() const noexcept { return placed_.size(); }
   const Foil& foil(std::size_t index) const { return placed_.at(index).foil; }
