@@ -231,19 +231,43 @@ double sharpnessOf(double curvature, double radius) {
   return roundedToSingle(root * root);
 }
 
-std::vector<double> computeSharpness(const FluidBody& body) {
-  if (body.surface.triangles.empty()) return std::vector<double>(body.faces.size(), 1);
-  const SurfaceTriangles mesh(body);
+namespace {
+
+/// Sharpness of each triangle, for the back of a sheet after that for its front. `radius`: of the
+/// sphere of the same area [m].
+std::vector<double> sharpnessByTriangle(const SurfaceTriangles& mesh, bool is_sheet,
+                                        double radius) {
   const VertexNormals normals(mesh);
-  const double radius = std::sqrt(body.area / (4 * kPi));
   std::vector<double> front, back;
   for (int t = 0; t < mesh.size(); ++t) {
     const Curvatures curvatures = curvaturesOf(mesh, normals, t);
     front.push_back(sharpnessOf(curvatures.largest, radius));
-    if (mesh.isSheet()) back.push_back(sharpnessOf(-curvatures.smallest, radius));
+    if (is_sheet) back.push_back(sharpnessOf(-curvatures.smallest, radius));
   }
   front.insert(front.end(), back.begin(), back.end());
   return front;
+}
+
+}  // namespace
+
+std::vector<double> computeSharpness(const FluidBody& body) {
+  if (body.surface.triangles.empty()) return std::vector<double>(body.faces.size(), 1);
+  const WholeSides whole(body);
+  const SurfaceTriangles mesh(whole.surface);
+  const std::vector<double> of_whole = sharpnessByTriangle(
+      mesh, body.faces.size() > whole.parts.size(), std::sqrt(body.area / (4 * kPi)));
+  std::vector<double> of_parts;
+  for (auto value = of_whole.begin(); value < of_whole.end();) {
+    std::vector<double> sum(whole.count), area(whole.count);
+    for (std::size_t i = 0; i < whole.side.size(); ++i) {
+      const double weight = mesh.area(static_cast<int>(i));
+      sum[whole.side[i]] += weight * *value++;
+      area[whole.side[i]] += weight;
+    }
+    for (const std::size_t side : whole.parts)
+      of_parts.push_back(area[side] > 0 ? roundedToSingle(sum[side] / area[side]) : 1);
+  }
+  return of_parts;
 }
 
 }  // namespace ambient

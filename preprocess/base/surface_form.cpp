@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <tuple>
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "preprocess/base/surface_triangles.h"
@@ -158,15 +159,15 @@ bool isLong(const Corners& corners, double longest) {
 /// Returns true if so many points replace the triangles of a sharp side: it has more triangles, at
 /// least kLarge of the surface's area, or edges around it and a triangle too long for one point.
 bool deservesPoints(const FlatSide& side, std::size_t points, const SurfaceTriangles& mesh,
-                    const FluidBody& body, double longest) {
+                    double whole_area, double longest) {
   constexpr double kLarge = 0.02;
   double area = 0;
   bool has_long = false;
   for (const int t : side.triangles) {
-    area += body.faces.area[static_cast<std::size_t>(t)];
+    area += mesh.area(t);
     has_long = has_long || (side.has_sharp_rim && isLong(cornersOf(mesh, t), longest));
   }
-  return points < side.triangles.size() || area >= kLarge * body.area || has_long;
+  return points < side.triangles.size() || area >= kLarge * whole_area || has_long;
 }
 
 /// Returns true for a narrow strip of a round surface with a triangle too long for one point.
@@ -185,6 +186,17 @@ bool isLongStrip(const FlatSide& side, const SurfaceTriangles& mesh, double size
     longest = std::max(longest, (mesh.place(next) - mesh.place(side.corners[i])).norm());
   }
   return has_long && twice_area / 2 < kNarrow * size * longest;
+}
+
+/// Turns an outline to a first corner that does not hang on the numbers of vertices.
+void startAtLowest(std::vector<Vector3>& corners) {
+  std::rotate(corners.begin(),
+              std::min_element(corners.begin(), corners.end(),
+                               [](const Vector3& a, const Vector3& b) {
+                                 return std::tie(a.x(), a.y(), a.z()) <
+                                        std::tie(b.x(), b.y(), b.z());
+                               }),
+              corners.end());
 }
 
 /// Sets the sharpness of the faces of a side; a sheet of as many `triangles` has them on its back,
@@ -220,12 +232,39 @@ class FaceCollector {
   const FaceTable& faces_;
 };
 
+/// Faces of whole flat sides with the sharpness of their parts, first those of `whole`, and then
+/// of a sheet those of its back.
+FaceTable facesOf(const WholeSides& whole, const SurfaceTriangles& mesh, const FaceTable& parts) {
+  std::vector<double> sharpness(whole.count);
+  FaceTable faces;
+  const std::size_t count = whole.parts.size();
+  for (std::size_t back = 0; back < parts.size(); back += count) {
+    for (std::size_t t = 0; t < count; ++t) sharpness[whole.parts[t]] = parts.sharpness[back + t];
+    for (int i = 0; i < mesh.size(); ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      if (whole.face[at] != WholeSides::kOfFan) {
+        const std::size_t face = back + static_cast<std::size_t>(whole.face[at]);
+        faces.add(parts.normal(face), parts.centroid(face), parts.area[face]);
+        faces.sharpness.push_back(parts.sharpness[face]);
+      } else {
+        const Corners c = cornersOf(mesh, i);
+        faces.add((back > 0 ? -1 : 1) * mesh.normal(i), (c[0] + c[1] + c[2]) / 3, mesh.area(i));
+        faces.sharpness.push_back(sharpness[whole.side[at]]);
+      }
+    }
+  }
+  return faces;
+}
+
 FaceTable facesWithPoints(const FluidBody& body) {
-  FaceTable faces = body.faces;
-  if (faces.sharpness.empty()) faces.sharpness = computeSharpness(body);
-  AMBIENT_ASSERT(faces.sharpness.size() == faces.size());
-  if (body.surface.triangles.empty()) return faces;
-  const SurfaceTriangles mesh(body);
+  FaceTable parts = body.faces;
+  if (parts.sharpness.empty()) parts.sharpness = computeSharpness(body);
+  AMBIENT_ASSERT(parts.sharpness.size() == parts.size());
+  if (body.surface.triangles.empty()) return parts;
+  const WholeSides whole(body);
+  const SurfaceTriangles mesh(whole.surface);
+  const bool is_sheet = parts.size() > whole.parts.size();
+  FaceTable faces = facesOf(whole, mesh, parts);
   const double size = sizeOf(body, mesh), longest = PointMaker::kLongest * size;
   const PointMaker maker(size);
   FaceCollector collector(faces);
@@ -235,17 +274,18 @@ FaceTable facesWithPoints(const FluidBody& body) {
     if (!common) continue;
     const bool is_sharp = *common == 1;
     if (!is_sharp && !isLongStrip(side, mesh, size)) continue;
-    const std::vector<Vector3> corners = mesh.places(side.corners);
+    std::vector<Vector3> corners = mesh.places(side.corners);
+    if (corners.size() > 4) startAtLowest(corners);
     constexpr std::size_t kDisc = 12;  // corners of a side with a round outline
     const std::vector<Point> points = maker.pointsOf(corners, !is_sharp || corners.size() >= kDisc);
     const double sharpness = is_sharp ? sharpnessOfSide(corners) : *common;
-    if (is_sharp && !deservesPoints(side, points.size(), mesh, body, longest)) {
+    if (is_sharp && !deservesPoints(side, points.size(), mesh, body.area, longest)) {
       if (side.has_sharp_rim) setSharpness(side, sharpness, mesh.size(), faces);
       continue;
     }
     for (const Point& point : points) {
       collector.add(side.normal, point.place, point.area, sharpness);
-      if (mesh.isSheet()) collector.add(-side.normal, point.place, point.area, sharpness);
+      if (is_sheet) collector.add(-side.normal, point.place, point.area, sharpness);
     }
     for (const int t : side.triangles) is_replaced[static_cast<std::size_t>(t)] = true;
   }

@@ -1,12 +1,21 @@
 #include "preprocess/base/surface_triangles.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <limits>
 #include <map>
 #include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
 
 namespace ambient {
+namespace {
+
+constexpr double kFlat = 1e-6;  // tolerance for unit vectors
+constexpr double kSingle =
+    5e-7;  // rounding of a vertex by single precision, of its largest coordinate
+
+}  // namespace
 
 SurfaceTriangles::SurfaceTriangles(const FluidBody& body) {
   const std::size_t count = body.surface.triangles.size() / 3;
@@ -39,6 +48,7 @@ void SurfaceTriangles::weld(const Surface& surface) {
     const double* p = &surface.vertices[3 * vertex];
     const auto [entry, is_new] = seen.insert({{p[0], p[1], p[2]}, vertexCount()});
     if (is_new) places_.emplace_back(p[0], p[1], p[2]);
+    if (is_new) rounding_ = std::max(rounding_, kSingle * places_.back().cwiseAbs().maxCoeff());
     if (is_new) sources_.push_back(surface.triangles[i]);
     return numbers[vertex] = entry->second;
   };
@@ -53,18 +63,30 @@ std::vector<Vector3> SurfaceTriangles::places(const std::vector<int>& vertices) 
   return result;
 }
 
-namespace {
+double SurfaceTriangles::area(int triangle) const {
+  const Vector3& first = place(vertex(triangle, 0));
+  return (place(vertex(triangle, 1)) - first).cross(place(vertex(triangle, 2)) - first).norm() / 2;
+}
 
-constexpr double kFlat = 1e-6;  // tolerance for unit vectors: a mesh in single precision
+double SurfaceTriangles::turnByRounding(int triangle) const {
+  double longest = 0;
+  for (int corner = 0; corner < 3; ++corner) {
+    const int here = vertex(triangle, corner), next = vertex(triangle, (corner + 1) % 3);
+    longest = std::max(longest, (place(next) - place(here)).norm());
+  }
+  return rounding_ * longest / (2 * area(triangle));
+}
+
+namespace {
 
 using Edge = std::pair<int, int>;
 
 class SideFinder {
  public:
   explicit SideFinder(const SurfaceTriangles& mesh)
-      : mesh_(mesh), is_taken_(static_cast<std::size_t>(mesh.size())) {
+      : mesh_(mesh), side_of_(static_cast<std::size_t>(mesh.size()), kNone) {
     first_.resize(static_cast<std::size_t>(mesh.vertexCount()) + 1);
-    ends_.resize(3 * is_taken_.size());
+    ends_.resize(3 * side_of_.size());
     for (int t = 0; t < mesh.size(); ++t)
       for (int corner = 0; corner < 3; ++corner) ++first_[at(mesh.vertex(t, corner))];
     for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
@@ -78,9 +100,11 @@ class SideFinder {
   std::vector<FlatSide> sides() {
     std::vector<FlatSide> found;
     for (int t = 0; t < mesh_.size(); ++t) {
-      if (isTaken(t)) continue;
-      FlatSide side{planeFrom(t), {}, mesh_.normal(t)};
-      side.corners = cornersOf(side);
+      if (side_of_[at(t)] != kNone) continue;
+      FlatSide side = planeFrom(t);
+      const std::vector<int> ring = outlineOf(side);
+      side.corners = cornersOf(ring, side.normal);
+      side.is_in_rows = isInRows(ring, side);
       side.has_sharp_rim = hasSharpRim(side);
       if (side.corners.size() >= 3) found.push_back(std::move(side));
     }
@@ -88,10 +112,11 @@ class SideFinder {
   }
 
  private:
+  static constexpr int kNone = -1;
+
   Edge edge(int t, int corner) const {
     return {mesh_.vertex(t, corner), mesh_.vertex(t, (corner + 1) % 3)};
   }
-  std::vector<bool>::reference isTaken(int t) { return is_taken_[static_cast<std::size_t>(t)]; }
 
   /// Index of the triangle on the other side of an edge, of several the last one; -1: none.
   int beyond(const Edge& edge) const {
@@ -100,29 +125,39 @@ class SideFinder {
       if (ends_[i].vertex == edge.first) triangle = ends_[i].triangle;
     return triangle;
   }
-  bool isOnPlaneOf(int t, const FlatSide& side) const {
-    return t >= 0 && (mesh_.normal(t) - side.normal).cwiseAbs().maxCoeff() <= kFlat;
+  /// True if a triangle belongs to the same side as `t`.
+  bool isBeside(int triangle, int t) const {
+    return triangle >= 0 && side_of_[at(triangle)] == side_of_[at(t)];
   }
 
-  std::vector<int> planeFrom(int first) {  // all connected triangles with the normal of `first`
-    const FlatSide plane{{}, {}, mesh_.normal(first)};
-    std::vector<int> triangles{first};
-    isTaken(first) = true;
-    for (std::size_t i = 0; i < triangles.size(); ++i)
+  /// All triangles that hang together with `first` on its plane. The plane is that of the first
+  /// triangle whose normal rounding leaves as it is, else of the one that it turns least.
+  FlatSide planeFrom(int first) {
+    FlatSide side{{first}, {}, mesh_.normal(first)};
+    double tolerance = std::max(kFlat, mesh_.turnByRounding(first));
+    side_of_[at(first)] = first;
+    for (std::size_t i = 0; i < side.triangles.size(); ++i)
       for (int corner = 0; corner < 3; ++corner) {
-        const int next = beyond(edge(triangles[i], corner));
-        if (!isOnPlaneOf(next, plane) || isTaken(next)) continue;
-        isTaken(next) = true;
-        triangles.push_back(next);
+        const int next = beyond(edge(side.triangles[i], corner));
+        if (next < 0 || side_of_[at(next)] != kNone) continue;
+        const double turn = (mesh_.normal(next) - side.normal).cwiseAbs().maxCoeff();
+        const double own =
+            std::max(kFlat, turn > kFlat || tolerance > kFlat ? mesh_.turnByRounding(next) : 0);
+        if (!(turn <= std::max(tolerance, own))) continue;
+        side_of_[at(next)] = first;
+        side.triangles.push_back(next);
+        if (own >= tolerance) continue;
+        tolerance = own;
+        side.normal = mesh_.normal(next);
       }
-    return triangles;
+    return side;
   }
 
   bool hasSharpRim(const FlatSide& side) const {
     for (const int t : side.triangles)
       for (int corner = 0; corner < 3; ++corner) {
         const int next = beyond(edge(t, corner));
-        if (next < 0 || isOnPlaneOf(next, side)) continue;
+        if (next < 0 || isBeside(next, t)) continue;
         if (mesh_.normal(next).dot(side.normal) >= kEdgeCosine) return false;
       }
     return true;
@@ -135,7 +170,7 @@ class SideFinder {
     for (const int t : side.triangles)
       for (int corner = 0; corner < 3; ++corner) {
         const Edge e = edge(t, corner);
-        if (isOnPlaneOf(beyond(e), side)) continue;
+        if (isBeside(beyond(e), t)) continue;
         next[e.first] = e.second;
         ++edges;
       }
@@ -150,17 +185,29 @@ class SideFinder {
     return ring.size() == edges ? ring : std::vector<int>{};
   }
 
-  /// Returns the corners of the outline; empty if the outline is not convex.
-  std::vector<int> cornersOf(const FlatSide& side) const {
-    const std::vector<int> ring = outlineOf(side);
+  bool isInRows(const std::vector<int>& ring, const FlatSide& side) const {
+    if (side.triangles.size() + 2 > ring.size() || side.corners.size() == ring.size()) return false;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const int here = ring[i];
+      if (std::find(side.corners.begin(), side.corners.end(), here) != side.corners.end()) continue;
+      const int next = beyond({here, ring[(i + 1) % ring.size()]});
+      if (next < 0 || mesh_.normal(next).dot(side.normal) < kEdgeCosine) return false;
+    }
+    return true;
+  }
+
+  /// Returns the corners of an outline; empty if it is not convex.
+  std::vector<int> cornersOf(const std::vector<int>& ring, const Vector3& normal) const {
     std::vector<int> corners;
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const Vector3& here = mesh_.place(ring[i]);
       const Vector3 in = here - mesh_.place(ring[(i + ring.size() - 1) % ring.size()]);
       const Vector3 out = mesh_.place(ring[(i + 1) % ring.size()]) - here;
-      const double sine = side.normal.dot(in.normalized().cross(out.normalized()));
-      if (sine < -kFlat) return {};
-      if (sine > kFlat) corners.push_back(ring[i]);
+      const double turn = normal.dot(in.cross(out));
+      const double straight =
+          std::max(kFlat * in.norm() * out.norm(), mesh_.rounding() * (in + out).norm());
+      if (turn < -straight) return {};
+      if (turn > straight) corners.push_back(ring[i]);
     }
     return corners;
   }
@@ -174,13 +221,42 @@ class SideFinder {
   const SurfaceTriangles& mesh_;
   std::vector<std::size_t> first_;  ///< place in ends_ of the first edge that begins at a vertex
   std::vector<End> ends_;           ///< of edges by their first vertex, then by triangle
-  std::vector<bool> is_taken_;
+  std::vector<int> side_of_;        ///< of each triangle: the first one of its side, or kNone
 };
 
 }  // namespace
 
 std::vector<FlatSide> findFlatSides(const SurfaceTriangles& mesh) {
   return SideFinder(mesh).sides();
+}
+
+WholeSides::WholeSides(const FluidBody& body) : surface{body.surface.vertices, {}} {
+  const SurfaceTriangles mesh(body);
+  constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+  parts.assign(static_cast<std::size_t>(mesh.size()), kNone);
+  std::vector<bool> is_replaced(parts.size());
+  const auto add = [&](int a, int b, int c, int from, std::size_t of) {
+    for (const int vertex : {a, b, c}) surface.triangles.push_back(mesh.source(vertex));
+    face.push_back(from);
+    side.push_back(of);
+  };
+  for (const FlatSide& flat : findFlatSides(mesh)) {
+    if (flat.is_in_rows) continue;
+    const std::vector<int>& c = flat.corners;
+    const bool is_divided = c.size() < flat.triangles.size() + 2;
+    for (const int t : flat.triangles) {
+      parts[static_cast<std::size_t>(t)] = count;
+      is_replaced[static_cast<std::size_t>(t)] = is_divided;
+    }
+    for (std::size_t i = 2; is_divided && i < c.size(); ++i)
+      add(c[0], c[i - 1], c[i], kOfFan, count);
+    ++count;
+  }
+  for (std::size_t t = 0; t < parts.size(); ++t) {
+    if (parts[t] == kNone) parts[t] = count++;
+    const auto i = static_cast<int>(t);
+    if (!is_replaced[t]) add(mesh.vertex(i, 0), mesh.vertex(i, 1), mesh.vertex(i, 2), i, parts[t]);
+  }
 }
 
 }  // namespace ambient

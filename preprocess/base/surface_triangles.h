@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -30,12 +31,19 @@ class SurfaceTriangles {
   /// Index of a vertex among those of the surface; of several at one place the first one.
   std::int32_t source(int vertex) const { return sources_[index(vertex)]; }
   const Vector3& normal(int triangle) const { return normals_[index(triangle)]; }
+  /// Area of a triangle [m^2].
+  double area(int triangle) const;
+  /// Turn of the normal of a triangle, at most, by rounding of its corners to single precision.
+  double turnByRounding(int triangle) const;
+  /// Distance by which that rounding moves a vertex, at most [m].
+  double rounding() const { return rounding_; }
 
  private:
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
   void weld(const Surface& surface);
 
   bool is_sheet_ = false;
+  double rounding_ = 0;
   std::vector<Vector3> places_;
   std::vector<std::int32_t> sources_;  ///< of the vertices
   std::vector<std::array<int, 3>> corners_;
@@ -47,11 +55,28 @@ struct FlatSide {
   std::vector<int> triangles;  ///< indices into the mesh, one or more
   std::vector<int> corners;    ///< vertices, counter-clockwise seen from the fluid, 3 or more
   Vector3 normal;              ///< unit, into the fluid
+  bool is_in_rows =
+      false;  ///< true: vertices between corners lie where it goes on smoothly, and none inside
   bool has_sharp_rim = false;  ///< true: an edge to all that it borders on, kEdgeCosine
 };
 
 /// Finds the flat sides. A triangle belongs to at most one side; to none if the outline of its
 /// plane is not convex or has holes. Cost O(F log F).
 std::vector<FlatSide> findFlatSides(const SurfaceTriangles& mesh);
+
+/// The surface of a body, on which fans of few triangles replace those of divided flat sides.
+/// Sides in rows stay: those of a cone in rings tell how its curvature changes.
+struct WholeSides {
+  /// @throws std::invalid_argument as SurfaceTriangles()
+  explicit WholeSides(const FluidBody& body);
+
+  Surface surface;                 ///< vertices are those of the body
+  std::vector<int> face;           ///< for each triangle that of the body; kOfFan: a new one
+  std::vector<std::size_t> side;   ///< for each triangle the number of its side
+  std::vector<std::size_t> parts;  ///< for each triangle of the body the number of its side
+  std::size_t count = 0;           ///< of sides
+
+  static constexpr int kOfFan = -1;
+};
 
 }  // namespace ambient
