@@ -256,16 +256,20 @@ std::vector<double> computeSharpness(const FluidBody& body) {
   const SurfaceTriangles mesh(whole.surface);
   const std::vector<double> of_whole = sharpnessByTriangle(
       mesh, body.faces.size() > whole.parts.size(), std::sqrt(body.area / (4 * kPi)));
+  const auto count = static_cast<std::size_t>(whole.count);
   std::vector<double> of_parts;
+  of_parts.reserve(body.faces.size());
   for (auto value = of_whole.begin(); value < of_whole.end();) {
-    std::vector<double> sum(whole.count), area(whole.count);
-    for (std::size_t i = 0; i < whole.side.size(); ++i) {
-      const double weight = mesh.area(static_cast<int>(i));
-      sum[whole.side[i]] += weight * *value++;
-      area[whole.side[i]] += weight;
+    std::vector<double> sum(count), area(count);
+    for (int t = 0; t < mesh.size(); ++t) {
+      const auto side = static_cast<std::size_t>(whole.side[static_cast<std::size_t>(t)]);
+      sum[side] += mesh.area(t) * *value++;
+      area[side] += mesh.area(t);
     }
-    for (const std::size_t side : whole.parts)
+    for (const int part : whole.parts) {
+      const auto side = static_cast<std::size_t>(part);
       of_parts.push_back(area[side] > 0 ? roundedToSingle(sum[side] / area[side]) : 1);
+    }
   }
   return of_parts;
 }

@@ -235,11 +235,13 @@ class FaceCollector {
 /// Faces of whole flat sides with the sharpness of their parts, first those of `whole`, and then
 /// of a sheet those of its back.
 FaceTable facesOf(const WholeSides& whole, const SurfaceTriangles& mesh, const FaceTable& parts) {
-  std::vector<double> sharpness(whole.count);
+  std::vector<double> sharpness(static_cast<std::size_t>(whole.count));
   FaceTable faces;
+  faces.reserve(whole.face.size());
   const std::size_t count = whole.parts.size();
   for (std::size_t back = 0; back < parts.size(); back += count) {
-    for (std::size_t t = 0; t < count; ++t) sharpness[whole.parts[t]] = parts.sharpness[back + t];
+    for (std::size_t t = 0; t < count; ++t)
+      sharpness[static_cast<std::size_t>(whole.parts[t])] = parts.sharpness[back + t];
     for (int i = 0; i < mesh.size(); ++i) {
       const auto at = static_cast<std::size_t>(i);
       if (whole.face[at] != WholeSides::kOfFan) {
@@ -249,7 +251,7 @@ FaceTable facesOf(const WholeSides& whole, const SurfaceTriangles& mesh, const F
       } else {
         const Corners c = cornersOf(mesh, i);
         faces.add((back > 0 ? -1 : 1) * mesh.normal(i), (c[0] + c[1] + c[2]) / 3, mesh.area(i));
-        faces.sharpness.push_back(sharpness[whole.side[at]]);
+        faces.sharpness.push_back(sharpness[static_cast<std::size_t>(whole.side[at])]);
       }
     }
   }

@@ -8,8 +8,9 @@ namespace ambient {
 
 /// Computes the sharpness of each face, docs/theory.md eq. (45): 0 on a sphere, 1 on flat or hollow
 /// surface and at edges. Returns one entry per face, rounded to single precision, in the order of
-/// the triangles of `surface`; a sheet has the entries of its back after those of its front. Scale
-/// invariant. Without a surface all faces count as flat. Cost O(F).
+/// the triangles of `surface`; a sheet has the entries of its back after those of its front. The
+/// triangles of one flat side have one sharpness. Scale invariant. Without a surface all faces
+/// count as flat. Cost O(F log F).
 /// @throws std::invalid_argument in one sentence, if the faces are not these triangles.
 std::vector<double> computeSharpness(const FluidBody& body);
 

@@ -2,8 +2,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <limits>
-#include <map>
+#include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
@@ -39,18 +39,33 @@ SurfaceTriangles::SurfaceTriangles(const Surface& surface) {
 void SurfaceTriangles::weld(const Surface& surface) {
   AMBIENT_ASSERT(surface.triangles.size() % 3 == 0 && surface.vertices.size() % 3 == 0);
   constexpr int kUnknown = -1;
-  std::map<std::array<double, 3>, int> seen;
-  std::vector<int> numbers(surface.vertices.size() / 3, kUnknown);
-  const auto corner = [&](std::size_t i) {
-    const auto vertex = static_cast<std::size_t>(surface.triangles[i]);
-    AMBIENT_ASSERT(surface.triangles[i] >= 0 && vertex < numbers.size());
-    if (numbers[vertex] != kUnknown) return numbers[vertex];
+  const std::size_t count = surface.vertices.size() / 3;
+  places_.reserve(count);
+  sources_.reserve(count);
+  const auto at = [&](std::size_t vertex) {
     const double* p = &surface.vertices[3 * vertex];
-    const auto [entry, is_new] = seen.insert({{p[0], p[1], p[2]}, vertexCount()});
-    if (is_new) places_.emplace_back(p[0], p[1], p[2]);
-    if (is_new) rounding_ = std::max(rounding_, kSingle * places_.back().cwiseAbs().maxCoeff());
-    if (is_new) sources_.push_back(surface.triangles[i]);
-    return numbers[vertex] = entry->second;
+    return std::tie(p[0], p[1], p[2]);
+  };
+  std::vector<std::uint32_t> sorted(count), first(count);  // by place; the first one at each place
+  std::iota(sorted.begin(), sorted.end(), 0U);
+  std::sort(sorted.begin(), sorted.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return at(a) < at(b); });
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool is_new = i == 0 || at(sorted[i - 1]) < at(sorted[i]);
+    first[sorted[i]] = is_new ? sorted[i] : first[sorted[i - 1]];
+  }
+  std::vector<int> numbers(count, kUnknown);
+  const auto corner = [&](std::size_t i) {
+    const std::int32_t vertex = surface.triangles[i];
+    AMBIENT_ASSERT(vertex >= 0 && static_cast<std::size_t>(vertex) < count);
+    int& number = numbers[first[static_cast<std::size_t>(vertex)]];
+    if (number != kUnknown) return number;
+    number = vertexCount();
+    const auto [x, y, z] = at(static_cast<std::size_t>(vertex));
+    places_.emplace_back(x, y, z);
+    sources_.push_back(vertex);
+    rounding_ = std::max(rounding_, kSingle * places_.back().cwiseAbs().maxCoeff());
+    return number;
   };
   corners_.reserve(surface.triangles.size() / 3);
   for (std::size_t t = 0; t < surface.triangles.size() / 3; ++t)
@@ -102,7 +117,7 @@ class SideFinder {
     for (int t = 0; t < mesh_.size(); ++t) {
       if (side_of_[at(t)] != kNone) continue;
       FlatSide side = planeFrom(t);
-      const std::vector<int> ring = outlineOf(side);
+      const std::vector<int>& ring = outlineOf(side);
       side.corners = cornersOf(ring, side.normal);
       side.is_in_rows = isInRows(ring, side);
       side.has_sharp_rim = hasSharpRim(side);
@@ -164,27 +179,26 @@ class SideFinder {
   }
 
   /// Vertices around the side in order; empty if they do not form a single ring.
-  std::vector<int> outlineOf(const FlatSide& side) const {
-    std::map<int, int> next;
-    std::size_t edges = 0;
+  const std::vector<int>& outlineOf(const FlatSide& side) {
+    rim_.clear();
+    ring_.clear();
     for (const int t : side.triangles)
-      for (int corner = 0; corner < 3; ++corner) {
-        const Edge e = edge(t, corner);
-        if (isBeside(beyond(e), t)) continue;
-        next[e.first] = e.second;
-        ++edges;
-      }
-    std::vector<int> ring;
-    for (int at = next.begin()->first; ring.size() < edges;) {
-      ring.push_back(at);
-      const auto found = next.find(at);
-      if (found == next.end()) return {};
-      at = found->second;
-      if (at == ring.front()) break;
+      for (int corner = 0; corner < 3; ++corner)
+        if (!isBeside(beyond(edge(t, corner)), t)) rim_.push_back(edge(t, corner));
+    std::sort(rim_.begin(), rim_.end());
+    for (auto next = rim_.begin(); next != rim_.end() && ring_.size() < rim_.size();) {
+      ring_.push_back(next->first);
+      if (next->second == ring_.front()) break;
+      const int end = next->second;
+      next = std::lower_bound(rim_.begin(), rim_.end(), Edge{end, 0});
+      if (next != rim_.end() && next->first != end) next = rim_.end();
     }
-    return ring.size() == edges ? ring : std::vector<int>{};
+    if (ring_.size() != rim_.size()) ring_.clear();
+    return ring_;
   }
 
+  /// True if no vertex lies inside an outline, and other sides continue this one smoothly at all
+  /// that lie on it between corners.
   bool isInRows(const std::vector<int>& ring, const FlatSide& side) const {
     if (side.triangles.size() + 2 > ring.size() || side.corners.size() == ring.size()) return false;
     for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -199,6 +213,7 @@ class SideFinder {
   /// Returns the corners of an outline; empty if it is not convex.
   std::vector<int> cornersOf(const std::vector<int>& ring, const Vector3& normal) const {
     std::vector<int> corners;
+    corners.reserve(ring.size());
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const Vector3& here = mesh_.place(ring[i]);
       const Vector3 in = here - mesh_.place(ring[(i + ring.size() - 1) % ring.size()]);
@@ -222,6 +237,8 @@ class SideFinder {
   std::vector<std::size_t> first_;  ///< place in ends_ of the first edge that begins at a vertex
   std::vector<End> ends_;           ///< of edges by their first vertex, then by triangle
   std::vector<int> side_of_;        ///< of each triangle: the first one of its side, or kNone
+  std::vector<Edge> rim_;           ///< of the side whose outline is sought
+  std::vector<int> ring_;           ///< its outline
 };
 
 }  // namespace
@@ -232,10 +249,11 @@ std::vector<FlatSide> findFlatSides(const SurfaceTriangles& mesh) {
 
 WholeSides::WholeSides(const FluidBody& body) : surface{body.surface.vertices, {}} {
   const SurfaceTriangles mesh(body);
-  constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+  constexpr int kNone = -1;
+  surface.triangles.reserve(body.surface.triangles.size());
   parts.assign(static_cast<std::size_t>(mesh.size()), kNone);
   std::vector<bool> is_replaced(parts.size());
-  const auto add = [&](int a, int b, int c, int from, std::size_t of) {
+  const auto add = [&](int a, int b, int c, int from, int of) {
     for (const int vertex : {a, b, c}) surface.triangles.push_back(mesh.source(vertex));
     face.push_back(from);
     side.push_back(of);

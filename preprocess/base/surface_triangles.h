@@ -70,11 +70,11 @@ struct WholeSides {
   /// @throws std::invalid_argument as SurfaceTriangles()
   explicit WholeSides(const FluidBody& body);
 
-  Surface surface;                 ///< vertices are those of the body
-  std::vector<int> face;           ///< for each triangle that of the body; kOfFan: a new one
-  std::vector<std::size_t> side;   ///< for each triangle the number of its side
-  std::vector<std::size_t> parts;  ///< for each triangle of the body the number of its side
-  std::size_t count = 0;           ///< of sides
+  Surface surface;         ///< vertices are those of the body
+  std::vector<int> face;   ///< for each triangle that of the body; kOfFan: a new one
+  std::vector<int> side;   ///< for each triangle the number of its side
+  std::vector<int> parts;  ///< for each triangle of the body the number of its side
+  int count = 0;           ///< of sides
 
   static constexpr int kOfFan = -1;
 };
