@@ -221,6 +221,7 @@ BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& se
   if (!fileOf(shape).empty())
     build.warn = [&](const std::string& text) { checked.warnings.push_back(text); };
   FluidBody body = makeFluidBody(checked.mesh, build);
+  body.provenance.said = checked.warnings;
   return {std::move(body), checked.warnings};
 }
 

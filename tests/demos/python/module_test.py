@@ -260,10 +260,11 @@ class FluidBodyTest(Temporary):
 
     def test_doubts_are_warnings(self):
         vertices, faces = box([1, 1, 1])
-        with warnings.catch_warnings(record=True) as caught:
-            warnings.simplefilter("always")
-            ba.FluidBody.from_mesh(vertices, faces[:, ::-1], panels=200, name="brick")
-        self.assertTrue(any("brick" in str(w.message) for w in caught))
+        for source in "made", "read from the cache":
+            with warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter("always")
+                ba.FluidBody.from_mesh(vertices, faces[:, ::-1], panels=200, name="brick", cache=self.folder)
+            self.assertTrue(any("brick" in str(w.message) for w in caught), source)
         dart = Path(__file__).resolve().parents[3] / "data/meshes/dart.obj"  # fins cross in its axis
         body = ba.FluidBody.from_shape({"type": "mesh", "file": str(dart)})
         body.write(self.folder / "dart.ambient")
