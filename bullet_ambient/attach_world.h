@@ -40,7 +40,7 @@ class FluidBodySource {
   virtual std::shared_ptr<const FluidBody> fluidBody(const btCollisionShape& shape) = 0;
 
   /// Returns fluidBody() for a body of a world. `whose` names the body and says how many more there
-  /// are, for lines about work that takes long: "body 2 'crane', 3 of 14".
+  /// are, for lines about work that takes long: "body 'crane', 3 of 14".
   virtual std::shared_ptr<const FluidBody> fluidBodyOf(const std::function<std::string()>& whose,
                                                        const btCollisionShape& shape) {
     static_cast<void>(whose);

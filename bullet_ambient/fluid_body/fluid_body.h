@@ -240,10 +240,11 @@ constexpr std::size_t kMostWings = 255;
 
 /// Record of how a fluid body was made.
 struct Provenance {
-  std::string source;             ///< file name or shape description, without directories
-  std::uint64_t source_hash = 0;  ///< FNV-1a of the source's bytes
-  std::string settings;           ///< solver settings, as text
-  std::string generator;          ///< program and version that made the fluid body
+  std::string source;                  ///< file name or shape description, without directories
+  std::uint64_t source_hash = 0;       ///< FNV-1a of the source's bytes
+  std::string settings;                ///< solver settings, as text
+  std::string generator;               ///< program and version that made the fluid body
+  std::vector<std::string> said = {};  ///< what a user should know of it, one line each
 };
 
 /// Largest measured drag coefficient; keeps its products with the motion finite.

@@ -110,15 +110,15 @@ btMultiBodyDynamicsWorld& requireLayout(btMultiBodyDynamicsWorld& world) {
   return world;
 }
 
-// Returns the name of an object in reports, such as "PyBullet's body 3, link 2 elbow": PyBullet's
-// numbers and the name in the URDF file.
+// Returns the name of an object in reports, such as "PyBullet 3, link 2 elbow": PyBullet's numbers
+// and the name in the URDF file.
 std::string nameOf(const btCollisionObject& object) {
   const auto* collider = btMultiBodyLinkCollider::upcast(&object);
-  if (!collider) return "PyBullet's body " + std::to_string(object.getUserIndex2());
+  if (!collider) return "PyBullet " + std::to_string(object.getUserIndex2());
   const btMultiBody& multi_body = *collider->m_multiBody;
   const int link = collider->m_link;
   const char* given = link < 0 ? multi_body.getBaseName() : multi_body.getLink(link).m_linkName;
-  std::string name = "PyBullet's body " + std::to_string(multi_body.getUserIndex2());
+  std::string name = "PyBullet " + std::to_string(multi_body.getUserIndex2());
   if (link >= 0) name += ", link " + std::to_string(link);
   return given ? name + " " + given : name;
 }
@@ -198,9 +198,10 @@ void WorldFluid::sayHulls() {
     if (!collider || members_.count(key) == 0 || !isLoneHull(*collider->getCollisionShape()))
       continue;
     if (!printed_.insert(kHulls).second) return;
-    return say(kOurs + nameOf(*collider) +
-               " displaces the convex hull that PyBullet has made of its mesh or cylinder, without "
-               "hollows and gaps; Fluid.body() gives a link another fluid body");
+    return say(
+        std::string(kOurs) + "body '" + nameOf(*collider) +
+        "' displaces the convex hull that PyBullet has made of its mesh or cylinder, without "
+        "hollows and gaps; Fluid.body() gives a link another fluid body");
   }
 }
 

@@ -45,17 +45,12 @@ namespace fs = std::filesystem;
 
 /// Returns the fluid body from the cache if its provenance agrees, else the result of `build`.
 template <class Build>
-BuiltBody buildOnce(const SourceSettings& settings, const Provenance& provenance,
+FluidBody buildOnce(const SourceSettings& settings, const Provenance& provenance,
                     const Build& build) {
   BodyMaker maker(settings.cache, printReport);
-  std::vector<std::string> warnings;
-  const BodyMaker::Made made = maker.get(settings.name, provenance, [&](const auto& begin) {
-    BuiltBody built = build(begin);
-    warnings = std::move(built.warnings);
-    return std::move(built.body);
-  });
+  const BodyMaker::Made made = maker.get(settings.name, provenance, build);
   maker.keep(made);
-  return {*made.body, std::move(warnings)};
+  return *made.body;
 }
 
 template <class Matrix>
@@ -88,12 +83,12 @@ Provenance provenanceOf(const TriangleMesh& mesh, bool sheet, const SourceSettin
 
 /// Builds a fluid body of a mesh in memory; `sheet`: the mesh is a sheet of zero thickness.
 /// @throws std::runtime_error in one line that begins with settings.name
-BuiltBody buildFromMesh(const TriangleMesh& mesh, bool sheet, const SourceSettings& settings) {
+FluidBody buildFromMesh(const TriangleMesh& mesh, bool sheet, const SourceSettings& settings) {
   BuildSettings build;
   static_cast<CommonBuildSettings&>(build) = settings;
   build.flow.sheet = sheet;
   build.provenance = provenanceOf(mesh, sheet, settings);
-  return buildOnce(settings, build.provenance, [&](const auto& begin) -> BuiltBody {
+  return buildOnce(settings, build.provenance, [&](const auto& begin) {
     build.begin = begin;
     CheckedMesh checked = sheet
                               ? requireSound(checkMesh(mesh, settings.name, {true}), settings.name)
@@ -105,23 +100,24 @@ BuiltBody buildFromMesh(const TriangleMesh& mesh, bool sheet, const SourceSettin
     }
     build.warn = [&](const std::string& text) { checked.warnings.push_back(text); };
     FluidBody body = makeFluidBody(checked.mesh, build);
-    return {std::move(body), std::move(checked.warnings)};
+    body.provenance.said = std::move(checked.warnings);
+    return body;
   });
 }
 
 /// Builds a fluid body of a shape in JSON, see shape.schema.json. Relative paths of files are
 /// relative to `folder`. @throws std::runtime_error as buildShape().
-BuiltBody buildFromShape(const std::string& json, const fs::path& folder,
+FluidBody buildFromShape(const std::string& json, const fs::path& folder,
                          const SourceSettings& settings) {
   ShapeDescription shape = readShape(parseJson(json, settings.name), folder, settings.name);
   if (auto* mesh = std::get_if<MeshFile>(&shape.geometry))
     mesh->strict = mesh->strict || settings.strict;
   ShapeBuildSettings build;
   static_cast<CommonBuildSettings&>(build) = settings;
-  if (std::holds_alternative<FluidBodyFile>(shape.geometry)) return buildShape(shape, build);
+  if (std::holds_alternative<FluidBodyFile>(shape.geometry)) return buildShape(shape, build).body;
   return buildOnce(settings, describeShape(shape, build), [&](const auto& begin) {
     build.begin = begin;
-    return buildShape(shape, build);
+    return buildShape(shape, build).body;
   });
 }
 
@@ -217,14 +213,14 @@ SourceSettings settingsFrom(const std::string& name, const py::kwargs& given) {
 /// warnings of the build as Python warnings.
 template <class Make>
 FluidBodyPtr build(const Make& make) {
-  BuiltBody built;
+  FluidBody built;
   {
     const py::gil_scoped_release others_run;
     built = make();
   }
-  for (const std::string& warning : built.warnings)
+  for (const std::string& warning : built.provenance.said)
     if (PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 2) != 0) throw py::error_already_set();
-  return std::make_shared<FluidBody>(std::move(built.body));
+  return std::make_shared<FluidBody>(std::move(built));
 }
 
 FluidBodyPtr fromMesh(const py::object& mesh, const py::object& faces, bool sheet,

@@ -229,6 +229,11 @@ void bindBody(py::module_& module) {
           "twist", [](const PythonBody& b) { return arrayOf(b.sample().twist.vector()); },
           "Twist (6,): angular velocity [rad/s], then velocity of the centre of mass [m/s].")
       .def_property_readonly(
+          "kinetic_energy",
+          [](const PythonBody& b) { return b.world->simulation().vessel(b.index).kineticEnergy(); },
+          "Kinetic energy [J] of the body and of the fluid that it moves, which is relative to the "
+          "flow. Raises ValueError without a fluid.")
+      .def_property_readonly(
           "work", &workOf,
           "Counts of the fluid's work so far, and the energy that bounds have removed [J].")
       .def(

@@ -32,6 +32,7 @@ std::shared_ptr<const FluidBody> SceneBodyCache::readOr(const std::string& name,
                                                         const Provenance& provenance,
                                                         const BodyMaker::Make& make) {
   unsaved_.push_back(maker_.get(name, provenance, make, whose_));
+  warn(unsaved_.back().body->provenance.said);
   return unsaved_.back().body;
 }
 
@@ -45,9 +46,7 @@ std::shared_ptr<const FluidBody> SceneBodyCache::readOrBuild(const ShapeDescript
   settings.flow.threads = threads_;
   const auto build = [&](const auto& begin) {
     settings.begin = begin;
-    BuiltBody built = buildShape(shape, settings);
-    warn(built.warnings);
-    return std::move(built.body);
+    return buildShape(shape, settings).body;
   };
   if (std::holds_alternative<FluidBodyFile>(shape.geometry))
     return std::make_shared<const FluidBody>(buildShape(shape, settings).body);

@@ -309,7 +309,7 @@ std::vector<HoldWater> Simulation::holds(std::size_t body) const {
 
 const Immersed& Simulation::vessel(std::size_t body) const {
   const WorldBody& of = bodies_.at(body);
-  if (!of.immersed) throw std::invalid_argument(of.name + " has no holds: no fluid acts on it");
+  if (!of.immersed) throw std::invalid_argument("no fluid acts on body '" + of.name + "'");
   return *of.immersed;
 }
 

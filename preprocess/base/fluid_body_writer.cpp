@@ -34,7 +34,9 @@ Offset<file::Provenance> pack(FlatBufferBuilder& builder, const Provenance& prov
   const auto source = builder.CreateString(provenance.source);
   const auto settings = builder.CreateString(provenance.settings);
   const auto generator = builder.CreateString(provenance.generator);
-  return file::CreateProvenance(builder, source, provenance.source_hash, settings, generator);
+  Offset<flatbuffers::Vector<Offset<flatbuffers::String>>> said;
+  if (!provenance.said.empty()) said = builder.CreateVectorOfStrings(provenance.said);
+  return file::CreateProvenance(builder, source, provenance.source_hash, settings, generator, said);
 }
 
 /// `has_sharpness`: false leaves that column out.
@@ -226,6 +228,7 @@ std::size_t payloadBound(const FluidBody& body) {
   for (const Hold& hold : body.holds) level_bytes += boundOf(hold);
   for (const Wing& wing : body.wings)
     level_bytes += kFixedPart / 8 + wing.name.size() + Wing::kNumbers * sizeof(double);
+  for (const std::string& line : body.provenance.said) level_bytes += line.size() + kFixedPart / 64;
   level_bytes += body.part_of_triangle.size() + body.form.part_of_face.size();
   return kFixedPart + level_bytes + sizeof(double) * doubles +
          sizeof(std::int32_t) * (body.surface.triangles.size() + body.form.hull.size()) +

@@ -74,7 +74,7 @@ class BodyMaker {
 
   /// Reads the body with this name and provenance, or makes it where the folder has none, or a
   /// file that is damaged, foreign or outdated. `whose`: what lines about the work say of it
-  /// besides, such as "body 2 'crane', 3 of 14"; empty: nothing.
+  /// besides, such as "body 'crane', 3 of 14"; empty: nothing.
   Made get(const std::string& name, const Provenance& provenance, const Make& make,
            const std::string& whose = {});
   /// Writes a body into the folder, whole or not at all: other processes may read and write there.

@@ -18,7 +18,7 @@
 namespace ambient {
 namespace {
 
-// Below this the faces, not the model, decide about the loads.
+// Below this the faces, not the model, decide about the loads on what is round.
 constexpr Eigen::Index kCoarse = 100;
 
 // Panels are cut from triangles and keep their aspect: an elliptic sheet of 1000 : 1 is 7 % off in
@@ -56,13 +56,19 @@ std::ostringstream warningOf(const ShapeDescription& shape) {
   return text;
 }
 
-void warnOfFaces(CheckedMesh& checked, const ShapeDescription& shape, int least_faces) {
+/// True if the form law takes all of the surface as flat sides with edges, as they are.
+bool isFlatSided(const FluidBody& body) {
+  const std::vector<double>& sharpness = body.form.faces.sharpness;
+  return std::all_of(sharpness.begin(), sharpness.end(), [](double s) { return s >= 1; });
+}
+
+void warnOfFaces(CheckedMesh& checked, const ShapeDescription& shape, const FluidBody& body) {
   const Eigen::Index faces = checked.mesh.triangleCount();
-  if (std::max<Eigen::Index>(faces, least_faces) >= kCoarse) return;
+  if (faces >= kCoarse || isFlatSided(body)) return;
   std::ostringstream text = warningOf(shape);
   text << faces
-       << " triangles are few: each has one sample of the slip velocity, so that loads in "
-          "rotation may be off by half; divide them (least faces 400)";
+       << " triangles are few for a round surface: loads may be off by a fifth; by the published "
+          "law, which takes one sample of each, those in rotation by half";
   checked.warnings.push_back(text.str());
 }
 
@@ -192,7 +198,6 @@ BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& se
   if (settings.begin) settings.begin("reading and checking the mesh");
   CheckedMesh checked = makeShapeMesh(shape, settings.scale);
   const ShapeFacts facts = factsOf(shape.geometry);
-  if (facts.sphere_radius == 0) warnOfFaces(checked, shape, settings.least_faces);
   BuildSettings build;
   static_cast<CommonBuildSettings&>(build) = settings;
   build.source = shape.source;
@@ -221,6 +226,8 @@ BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& se
   if (!fileOf(shape).empty())
     build.warn = [&](const std::string& text) { checked.warnings.push_back(text); };
   FluidBody body = makeFluidBody(checked.mesh, build);
+  warnOfFaces(checked, shape, body);
+  body.provenance.said = checked.warnings;
   return {std::move(body), checked.warnings};
 }
 

@@ -278,7 +278,10 @@ ShapeForm readForm(const btCollisionShape& shape, const CollisionShapeSettings& 
 }
 
 FluidBody makeFluidBody(const btCollisionShape& shape, const CollisionShapeSettings& settings) {
-  return makeFormBody(recognised(readForm(shape, settings)), settings);
+  FluidBody body = makeFormBody(recognised(readForm(shape, settings)), settings);
+  if (settings.report)
+    for (const std::string& line : body.provenance.said) settings.report(line);
+  return body;
 }
 
 Provenance describeCollisionShape(const btCollisionShape& shape,

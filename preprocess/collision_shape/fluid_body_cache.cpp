@@ -1,13 +1,10 @@
 #include "preprocess/collision_shape/fluid_body_cache.h"
 
-#include <cstdint>
 #include <deque>
-#include <map>
 #include <mutex>
 #include <string>
 #include <unordered_map>
 #include <utility>
-#include <vector>
 
 #include "bullet_ambient/base/fnv1a.h"
 #include "preprocess/builder/body_maker.h"
@@ -18,13 +15,6 @@ AMBIENT_BEGIN
 namespace {
 
 using SharedBody = SharedBodies::Body;
-
-// Tells forms apart, in scaled bodies too: the kind of shape and a hash of its numbers.
-using FormKey = std::pair<std::string, std::uint64_t>;
-
-FormKey formOf(const FluidBody& body) {
-  return {body.provenance.source, body.provenance.source_hash};
-}
 
 std::string withSize(std::string content, double size) {
   return content.append(reinterpret_cast<const char*>(&size), sizeof size);
@@ -43,25 +33,17 @@ struct FluidBodyCache::Store {
   std::mutex mutex;                   // of this:
   std::deque<std::string> soon_made;  // what such forms were made of
   std::unordered_map<std::string, SharedBody> by_name;
-  std::map<FormKey, std::vector<std::string>> said;  // of forms of which something was said
 
   SharedBody get(const ShapeForm& form, const std::string& whose) {
     const std::string& name = settings.name.empty() ? form.kind : settings.name;
     const auto make = [&](const auto& begin) {
       CollisionShapeSettings shown = settings;
       shown.begin = begin;
-      std::vector<std::string> lines;
-      shown.report = [&](const std::string& line) {
-        lines.push_back(line);
-        maker.say(line);
-      };
-      FluidBody body = makeFormBody(form, shown);
-      const std::lock_guard<std::mutex> lock(mutex);
-      if (!lines.empty()) said[formOf(body)] = std::move(lines);
-      return body;
+      return makeFormBody(form, shown);
     };
     const BodyMaker::Made made = maker.get(name, describeForm(form, settings), make, whose);
     maker.keep(made);
+    for (const std::string& line : made.body->provenance.said) maker.say(line);
     return made.body;
   }
 
@@ -121,12 +103,6 @@ SharedBody FluidBodyCache::find(const std::string& name) const {
   const std::lock_guard<std::mutex> lock(store_->mutex);
   const auto found = store_->by_name.find(name);
   return found == store_->by_name.end() ? nullptr : found->second;
-}
-
-std::vector<std::string> FluidBodyCache::said(const FluidBody& body) const {
-  const std::lock_guard<std::mutex> lock(store_->mutex);
-  const auto found = store_->said.find(formOf(body));
-  return found == store_->said.end() ? std::vector<std::string>() : found->second;
 }
 
 FluidBodyCache::Counts FluidBodyCache::counts() const { return store_->maker.counts(); }

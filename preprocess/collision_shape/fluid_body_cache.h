@@ -42,9 +42,9 @@ class FluidBodyCache : public FluidBodySource {
   std::shared_ptr<const FluidBody> find(const std::string& name) const;
 
   /// Returns what settings.report was told, or would have been, of the form of a result of
-  /// fluidBody() while this object made it, in the metres of the shape that it was made for; none
-  /// if it was read from the folder. Lines about the work itself are not in it.
-  std::vector<std::string> said(const FluidBody& body) const;
+  /// fluidBody(), in the metres of the shape that it was made for. Lines about the work itself are
+  /// not in it.
+  std::vector<std::string> said(const FluidBody& body) const { return body.provenance.said; }
 
   Counts counts() const;
 

@@ -70,20 +70,22 @@ std::vector<Solid> solidsOf(const ShapeForm& form, const CollisionShapeSettings&
   return makeSolids(form.parts, resolution);
 }
 
-/// Reports warnings about the body and its solids, one line each.
-void reportSolids(const std::vector<Solid>& solids, const FluidBody& body,
-                  const CollisionShapeSettings& settings) {
+/// Returns warnings about the body and its solids, one line each.
+std::vector<std::string> warningsOf(const std::vector<Solid>& solids, const FluidBody& body,
+                                    const CollisionShapeSettings& settings) {
+  std::vector<std::string> lines;
   for (const Solid& solid : solids)
-    for (const std::string& warning : solid.warnings) settings.report(warning);
+    lines.insert(lines.end(), solid.warnings.begin(), solid.warnings.end());
   const auto unknown = std::count_if(solids.begin(), solids.end(),
                                      [](const Solid& solid) { return !solid.added_mass; });
   if (areMany(solids, settings) && unknown > 0) {
-    settings.report(inputMessage(body.name, unknown, " of its ", solids.size(),
+    lines.push_back(inputMessage(body.name, unknown, " of its ", solids.size(),
                                  " parts have neither a closed form nor a table and share ",
                                  body.faces.size(),
                                  " faces with all: the added mass may be some per cent off; give "
                                  "more faces (CollisionShapeSettings::faces)"));
   }
+  return lines;
 }
 
 /// One surface of all solids, or of all cavities.
@@ -308,10 +310,8 @@ FluidBody bodyOf(const std::vector<Solid>& solids, const ShapeForm& form,
   }
   FluidBody body = makeFluidBody(mesh, build);
   takeFewFaces(form, settings, body);
-  if (settings.report) {
-    reportSolids(solids, body, settings);
-    for (const std::string& line : lines) settings.report(line);
-  }
+  body.provenance.said = warningsOf(solids, body, settings);
+  body.provenance.said.insert(body.provenance.said.end(), lines.begin(), lines.end());
   return body;
 }
 

@@ -35,12 +35,14 @@ struct CollisionShapeSettings {
   bool strict = false;
   /// Called with the name of each stage of the work that may take long; null: no calls.
   std::function<void(const std::string& stage)> begin = nullptr;
-  /// Receives one line for everything a user should know about a body that was made: triangles that
-  /// were turned round, children that could not be united. Default: standard error; null: nobody.
+  /// Receives one line for everything a user should know about a body that was made, or read from a
+  /// folder: triangles that were turned round, children that could not be united. Default: standard
+  /// error; null: nobody.
   BodyMaker::Report report = printReport;
 };
 
-/// Makes the fluid body of a form at size 1, in the shape's frame.
+/// Makes the fluid body of a form at size 1, in the shape's frame. What settings.report should be
+/// told stands in provenance.said.
 /// @throws std::runtime_error as makeFluidBody() of a collision shape.
 FluidBody makeFormBody(const ShapeForm& form, const CollisionShapeSettings& settings);
 

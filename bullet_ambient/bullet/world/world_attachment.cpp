@@ -46,14 +46,14 @@ bool canJoin(const btCollisionObject* object) {
 }
 
 std::string nameOf(int index, const btCollisionObject& object, const AmbientBodies& bodies) {
-  const std::string name = "body " + std::to_string(index);
   if (bodies.naming) {
     try {
       const std::string given = bodies.naming(object);
-      if (!given.empty()) return name + " '" + given + "'";
+      if (!given.empty()) return "body '" + given + "'";
     } catch (...) {  // then by its shape
     }
   }
+  const std::string name = "body " + std::to_string(index);
   const btCollisionShape* shape = object.getCollisionShape();
   return shape ? name + " (" + shape->getName() + ")" : name;
 }

@@ -44,8 +44,11 @@ MassDistribution unpack(const file::MassDistribution& packed) {
 }
 
 Provenance unpack(const file::Provenance& packed) {
-  return {packed.source()->str(), packed.source_hash(), packed.settings()->str(),
-          packed.generator()->str()};
+  Provenance provenance{packed.source()->str(), packed.source_hash(), packed.settings()->str(),
+                        packed.generator()->str()};
+  if (packed.said())
+    for (const flatbuffers::String* line : *packed.said()) provenance.said.push_back(line->str());
+  return provenance;
 }
 
 FaceTable unpack(const file::FaceTable& packed) {

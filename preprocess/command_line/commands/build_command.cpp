@@ -95,8 +95,6 @@ FluidBody buildAndWrite(const ShapeDescription& shape, ShapeBuildSettings settin
     built.body.form_levels = buildFormLevels(built.body, arguments.levels);
     built.body.provenance.settings = describeBody(shape, settings, arguments).settings;
   }
-  for (const std::string& warning : built.warnings)
-    std::cerr << "warning: " << plainLine(warning) << "\n";
   const BlockedSignals until_renamed;
   writeFluidBody(built.body, arguments.output);
   return built.body;
@@ -132,6 +130,8 @@ int runBuild(const BuildArguments& arguments) {
   }
   const bool is_reused = body.has_value();
   if (!body) body = buildAndWrite(shape, settings, arguments);
+  for (const std::string& warning : body->provenance.said)
+    std::cerr << "warning: " << plainLine(warning) << "\n";
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   if (is_reused && !arguments.json) {
     std::cerr << plainLine(arguments.output) << ": nothing has changed since it was built\n";

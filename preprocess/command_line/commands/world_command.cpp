@@ -376,9 +376,8 @@ ordered_json buildShapeFile(const WorldShape& shape, CollisionShapeSettings sett
   const fs::path file = fs::path(arguments.output) / (shape.name + ".ambient");
   std::optional<FluidBody> kept, body;
   std::string failure;
-  std::vector<std::string> warnings;
   settings.name = shape.name;
-  settings.report = [&](const std::string& text) { warnings.push_back(text); };
+  settings.report = nullptr;
   try {
     const ElapsedDisplay display("building " + shape.name);
     const Provenance provenance = describeCollisionShape(*shape.shape, settings);
@@ -390,8 +389,9 @@ ordered_json buildShapeFile(const WorldShape& shape, CollisionShapeSettings sett
   }
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   const std::string input = plainLine(arguments.input) + ": ";
-  for (const std::string& warning : warnings)
-    std::cerr << "warning: " << input << plainLine(warning) << "\n";
+  if (body)
+    for (const std::string& warning : body->provenance.said)
+      std::cerr << "warning: " << input << plainLine(warning) << "\n";
   if (!failure.empty()) std::cerr << input << plainLine(failure) << "\n";
   ordered_json facts{{"name", shape.name},
                      {"file", file.string()},

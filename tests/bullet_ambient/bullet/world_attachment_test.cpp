@@ -93,7 +93,7 @@ TEST_F(WorldInFluid, TellsTheSourceWhichOfHowManyBodiesItIs) {
   });
   fluid.addAll(shapes, water());
   EXPECT_EQ(shapes.asked_for,
-            (std::vector<std::string>{"body 1 (SPHERE), 1 of 2", "body 2 'crane', 2 of 2"}));
+            (std::vector<std::string>{"body 1 (SPHERE), 1 of 2", "body 'crane', 2 of 2"}));
   EXPECT_TRUE(isAttached(first));
 }
 

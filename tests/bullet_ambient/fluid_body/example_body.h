@@ -13,7 +13,11 @@ inline FluidBody exampleBody(int level = 1) {
   const Triangulation mesh = geodesicEllipsoid({1, 0.5, 0.25}, level);
   FluidBody body;
   body.name = "example";
-  body.provenance = {"example.obj", 0xfedcba9876543210u, "faces 80, scale 1", "tests 0"};
+  body.provenance = {"example.obj",
+                     0xfedcba9876543210u,
+                     "faces 80, scale 1",
+                     "tests 0",
+                     {"it has holds", "it was wrapped"}};
   for (int row = 0; row < 6; ++row)
     for (int col = 0; col < 6; ++col)
       body.added_mass(row, col) = row == col ? 1 + row : 0.01 * (row + col);

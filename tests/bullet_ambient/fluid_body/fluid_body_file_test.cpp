@@ -18,13 +18,14 @@ using test::refusalOf;
 
 auto fieldsOf(const FluidBody& b) {
   return std::tie(b.name, b.provenance.source, b.provenance.source_hash, b.provenance.settings,
-                  b.provenance.generator, b.added_mass, b.asymmetry, b.volume, b.area,
-                  b.centre_of_volume, b.origin, b.uniform_mass.centre, b.uniform_mass.inertia,
-                  b.surface_mass.centre, b.surface_mass.inertia, b.faces.normal_x, b.faces.normal_y,
-                  b.faces.normal_z, b.faces.centroid_x, b.faces.centroid_y, b.faces.centroid_z,
-                  b.faces.area, b.faces.sharpness, b.surface.vertices, b.surface.triangles,
-                  b.form.hull, b.form.faces.sharpness, b.waterline.subdivisions,
-                  b.waterline.immersions, b.waterline.corrections, b.viscous.is_primitive);
+                  b.provenance.generator, b.provenance.said, b.added_mass, b.asymmetry, b.volume,
+                  b.area, b.centre_of_volume, b.origin, b.uniform_mass.centre,
+                  b.uniform_mass.inertia, b.surface_mass.centre, b.surface_mass.inertia,
+                  b.faces.normal_x, b.faces.normal_y, b.faces.normal_z, b.faces.centroid_x,
+                  b.faces.centroid_y, b.faces.centroid_z, b.faces.area, b.faces.sharpness,
+                  b.surface.vertices, b.surface.triangles, b.form.hull, b.form.faces.sharpness,
+                  b.waterline.subdivisions, b.waterline.immersions, b.waterline.corrections,
+                  b.viscous.is_primitive);
 }
 
 void expectSame(const FluidBody& a, const FluidBody& b) {

@@ -537,7 +537,7 @@ class LifeTest(Case):
                                         physicsClientId=self.client)
         body = p.createMultiBody(1, corner, physicsClientId=self.client)
         self.steps(1)
-        self.assertTrue(any(f"PyBullet's body {body}" in said for said in self.fluid.status()["said"]), self.fluid.status())
+        self.assertTrue(any(f"body 'PyBullet {body}" in said for said in self.fluid.status()["said"]), self.fluid.status())
 
 
 if __name__ == "__main__":

@@ -260,10 +260,11 @@ class FluidBodyTest(Temporary):
 
     def test_doubts_are_warnings(self):
         vertices, faces = box([1, 1, 1])
-        with warnings.catch_warnings(record=True) as caught:
-            warnings.simplefilter("always")
-            ba.FluidBody.from_mesh(vertices, faces[:, ::-1], panels=200, name="brick")
-        self.assertTrue(any("brick" in str(w.message) for w in caught))
+        for source in "made", "read from the cache":
+            with warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter("always")
+                ba.FluidBody.from_mesh(vertices, faces[:, ::-1], panels=200, name="brick", cache=self.folder)
+            self.assertTrue(any("brick" in str(w.message) for w in caught), source)
         dart = Path(__file__).resolve().parents[3] / "data/meshes/dart.obj"  # fins cross in its axis
         body = ba.FluidBody.from_shape({"type": "mesh", "file": str(dart)})
         body.write(self.folder / "dart.ambient")
@@ -396,6 +397,15 @@ class WorldTest(Temporary):
         np.testing.assert_allclose(ball.position, [5.1, 6, 7])
         with self.assertRaisesRegex(ValueError, "twist must be six numbers"):
             ball.set_twist([1, 2, 3])
+
+    def test_the_kinetic_energy_is_that_of_the_body_and_its_water(self):
+        world = ba.World(ba.Scene(STILL, {"medium.density": 998}))
+        ball = world.bodies["ball"]
+        ball.set_twist([0, 0, 0, 3, 0, 4])
+        wet_mass = BALL["mass"] + 998 * 2 / 3 * np.pi * BALL["shape"]["radius"]**3  # with half of what it displaces
+        self.assertAlmostEqual(ball.kinetic_energy / (wet_mass * 25 / 2), 1, delta=1e-12)
+        with self.assertRaisesRegex(ValueError, "ball"):
+            ba.World(ba.Scene(STILL, {"model": "vacuum"})).bodies["ball"].kinetic_energy  # noqa: B018
 
     def test_another_medium_may_be_set(self):
         world = ba.World(ba.Scene(STILL, {"bodies.0.linear_velocity": [1, 0, 0]}))
@@ -629,6 +639,9 @@ class RobotTest(Temporary):
         np.testing.assert_allclose(arm.pose("turntable")[:3, 3], [1, 2, 3], atol=1e-12)
         with self.assertRaisesRegex(ValueError, "fixed base"):
             arm.set_twist([0, 0, 0, 1, 0, 0])
+        swimmer = ba.World(ba.Scene("three_link_swimmer"), cache=self.cache)
+        swimmer.robots["swimmer"].set_twist([0, 0, 2, 1, 0, 0])
+        np.testing.assert_allclose(swimmer.bodies["swimmer/front"].twist, [0, 0, 2, 1, 2.4, 0], atol=1e-12)  # 1.2 m ahead of the base
 
     def test_torques_act_for_one_step(self):
         arm = self.arm()

@@ -1,11 +1,9 @@
 // The bits of the scenes of data/scenes do not hang on the processor's variants of the C library's
-// sine and cosine. `processor_test --run FOLDER [SECONDS]` prints a hash for each body of each
-// scene in its first seconds; FOLDER keeps the fluid bodies. The C library chooses its variants
-// when a program starts.
+// sine and cosine. `processor_test --run FOLDER` prints a hash for each body of each scene, run to
+// its end; FOLDER keeps the fluid bodies. The C library chooses its variants when a program starts.
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -21,8 +19,6 @@
 namespace ambient::test {
 namespace {
 
-constexpr double kMostTime = 1.5;  // [s]: the toy propeller's spin has fallen, balls have landed
-
 std::string bytesOf(const MotionSample& sample) {
   std::string bytes = bitsOf(sample.time);
   for (int i = 0; i < 3; ++i) bytes += bitsOf(sample.position[i]);
@@ -31,9 +27,8 @@ std::string bytesOf(const MotionSample& sample) {
   return bytes;
 }
 
-void printHashes(const std::filesystem::path& file, double most_time, SceneBodyCache& cache) {
-  Scene scene = readScene(file);
-  scene.duration = std::min(scene.duration, most_time);
+void printHashes(const std::filesystem::path& file, SceneBodyCache& cache) {
+  const Scene scene = readScene(file);
   const RunRecord run = runPrepared(scene, prepareBodies(scene, cache));
   for (std::size_t i = 0; i < run.motion.size(); ++i) {
     std::string bytes;
@@ -43,10 +38,10 @@ void printHashes(const std::filesystem::path& file, double most_time, SceneBodyC
   }
 }
 
-void printAll(const std::filesystem::path& folder, double most_time) {
+void printAll(const std::filesystem::path& folder) {
   SceneBodyCache cache(folder);
   for (const auto& file : listScenes({std::filesystem::path(AMBIENT_DATA) / "scenes"}))
-    printHashes(file, most_time, cache);
+    printHashes(file, cache);
   cache.save();
 }
 
@@ -75,6 +70,6 @@ int main(int argc, char** argv) {
   ::testing::InitGoogleTest(&argc, argv);
   if (argc < 3) return RUN_ALL_TESTS();
   using namespace ambient::test;
-  printAll(argv[2], argc > 3 ? std::strtod(argv[3], nullptr) : kMostTime);
+  printAll(argv[2]);
   return 0;
 }

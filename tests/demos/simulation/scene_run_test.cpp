@@ -264,6 +264,26 @@ TEST(SceneRun, ABodysOwnFluidDensityCounts) {
   EXPECT_GT(largestDistance(fall, run(sceneFrom(text)).motion[0]), 0.1);
 }
 
+// A ball that floats on water is as meant, one that would float in air is not.
+TEST(SceneRun, InWaterAloneABodyLighterThanAirIsToldOf) {
+  json text = ballScene();
+  text.erase("medium");
+  text["water"] = {{"level", 0}};
+  text["duration"] = 0.05;
+  json& ball = text["bodies"][0];
+  ball["shape"]["radius"] = 3;
+  for (const char* motion : {"linear_velocity", "angular_velocity"}) ball.erase(motion);
+  const double volume = 36 * 3.14159265358979;
+  const auto saidOf = [&](double mass) {
+    ball["mass"] = mass;
+    return run(sceneFrom(text)).warning;
+  };
+  EXPECT_EQ(saidOf(0.1 * water().density * volume), "");
+  const std::string said = saidOf(8.3);
+  EXPECT_NE(said.find("'ball' has a mass of 8.3 kg and displaces 136 kg"), std::string::npos)
+      << said;
+}
+
 TEST(SceneRun, MassesThatCannotBeNameFileAndBody) {
   json text = ballScene();
   text["bodies"][0]["mass"] = 1e-300;

@@ -159,6 +159,21 @@ TEST(SceneBodyCache, ReadsInTheNextRunWhatThisOneSolved) {
   EXPECT_EQ(next.solved(), 1);
 }
 
+TEST(SceneBodyCache, SaysOfABodyThatItReadsWhatWasSaidOfIt) {
+  const TemporaryFolder folder;
+  const ShapeDescription few = readShape(
+      {{"type", "ellipsoid"}, {"semi_axes", {1, 1, 0.9}}, {"faces", 80}}, "", "scene.json");
+  for (const int made : {1, 0}) {
+    std::vector<std::string> lines;
+    SceneBodyCache cache(folder.path(), 0, [&](const std::string& text) { lines.push_back(text); });
+    cache.get(few, "a");
+    EXPECT_EQ(cache.solved(), made);
+    ASSERT_EQ(lines.size(), 1u) << made;
+    EXPECT_EQ(lines[0].rfind("scene.json: 80 triangles are few", 0), 0u) << lines[0];
+    cache.save();
+  }
+}
+
 TEST(SceneBodyCache, ReplacesADamagedFile) {
   const TemporaryFolder folder;
   SceneBodyCache cache(folder.path());

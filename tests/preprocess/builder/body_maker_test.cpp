@@ -96,10 +96,10 @@ TEST(BodyMaker, SaysAfterASecondWhatItMakes) {
 
 TEST(BodyMaker, SaysForWhichBodyItWorksAndHowManyThereAre) {
   Said said;
-  said.make("Convex", 1500, "body 2 'crane', 3 of 14");
+  said.make("Convex", 1500, "body 'crane', 3 of 14");
   ASSERT_FALSE(said.lines.empty());
   EXPECT_EQ(said.lines[0],
-            "making the fluid body of 'Convex' for body 2 'crane', 3 of 14: solving the flow, 1 s");
+            "making the fluid body of 'Convex' for body 'crane', 3 of 14: solving the flow, 1 s");
 }
 
 // A robot has many links.

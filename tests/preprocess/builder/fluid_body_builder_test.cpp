@@ -240,6 +240,8 @@ TEST(ShapeBuilder, CoarseMeshesAreWarnedAbout) {
   const BuiltBody round = buildText(R"({"type":"ellipsoid","semi_axes":[1,1,0.9],"faces":80})");
   ASSERT_EQ(round.warnings.size(), 1u);
   EXPECT_EQ(round.warnings[0].find("shape.json: 80 triangles are few"), 0u) << round.warnings[0];
+  const BuiltBody box = buildText(R"({"type":"box","size":[1,0.7,0.5],"faces":12})");
+  EXPECT_TRUE(box.warnings.empty()) << "flat sides are taken as they are";
   const BuiltBody ball = buildText(R"({"type":"sphere","radius":1,"faces":80})");
   EXPECT_TRUE(ball.warnings.empty()) << "loads on balls have a closed form";
 }

@@ -1,9 +1,12 @@
 #include "preprocess/collision_shape/fluid_body_cache.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <thread>
@@ -253,6 +256,50 @@ TEST(FluidBodyCache, AnotherRunReadsWhatThisOneMade) {
   usual.fluidBody(box);
   again.fluidBody(box);
   EXPECT_EQ(again.counts().made, 0) << "default settings";
+}
+
+std::string bytesOfBoxes(FluidBodyCache& cache) {
+  std::string bytes;
+  for (int i = 0; i < 40; ++i)
+    bytes += encodeFluidBody(*cache.fluidBody(btBoxShape(sizes(1, 1 + 0.05 * i, 3))), "");
+  return bytes;
+}
+
+/// Starts a process that fills the user's folder below `home` as soon as `start` is closed. It ends
+/// with 0 if it gets what is expected and nothing is said.
+pid_t startFilling(const fs::path& home, const int* start, const std::string& expected) {
+  const pid_t child = fork();
+  if (child != 0) return child;
+  setenv("XDG_CACHE_HOME", home.c_str(), 1);
+  unsetenv("BULLET_AMBIENT_CACHE");
+  int said = 0;
+  CollisionShapeSettings settings = coarse();
+  settings.report = [&said](const std::string&) { ++said; };
+  FluidBodyCache cache(settings, userBodyFolder().path);
+  char none = 0;
+  close(start[1]);
+  const bool has_begun = read(start[0], &none, 1) == 0;
+  _exit(has_begun && bytesOfBoxes(cache) == expected && said == 0 ? 0 : 1);
+}
+
+TEST(FluidBodyCache, TwoProcessesFillOneFolderAtOnce) {
+  const TemporaryFolder home;
+  FluidBodyCache alone(coarse());
+  const std::string expected = bytesOfBoxes(alone);
+  int start[2], status = 0;
+  ASSERT_EQ(pipe(start), 0);
+  const pid_t children[] = {startFilling(home.path(), start, expected),
+                            startFilling(home.path(), start, expected)};
+  close(start[0]);
+  close(start[1]);
+  for (const pid_t child : children) {
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
+  }
+  FluidBodyCache later(coarse(), home / "bullet_ambient");
+  EXPECT_EQ(bytesOfBoxes(later), expected);
+  EXPECT_EQ(later.counts().read, 40);
+  EXPECT_EQ(filesIn(home / "bullet_ambient").size(), 40u);
 }
 
 TEST(FluidBodyCache, KeepsOnlyWhatTookLong) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
 
 #include "demos/simulation/output/run_files.h"
 #include "demos/simulation/simulation.h"
@@ -153,6 +155,25 @@ TEST(RobotScenes, WaderTrotsAheadUpright) {
   const MotionSample& end = record.motion[trunk - scene.bodies.begin()].back();
   EXPECT_GT(end.position.x(), 0.6);
   EXPECT_LT(std::abs(end.position.y()), 0.3);
+}
+
+// The middles of links are 0.6 m from their hinges: v = v_base + w x r.
+TEST(RobotScenes, MayBeginInMotion) {
+  const Scene scene =
+      readNamedScene("three_link_swimmer", {{"duration", "0.04"},
+                                            {"robots.0.linear_velocity", "[1, 0, 0]"},
+                                            {"robots.0.angular_velocity", "[0, 0, 2]"},
+                                            {"robots.0.joint_positions", R"({"hip": 0})"},
+                                            {"robots.0.joint_velocities", R"({"hip": 3})"}});
+  const std::map<std::string, Twist> expected{
+      {"swimmer/middle", {Vector3(0, 0, 2), Vector3(1, 0, 0)}},
+      {"swimmer/front", {Vector3(0, 0, 2), Vector3(1, 2.4, 0)}},
+      {"swimmer/tail", {Vector3(0, 0, 5), Vector3(1, -4.2, 0)}}};
+  const RunRecord record = runSharing(scene);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vector6 begin = record.motion[i].front().twist.vector();
+    EXPECT_LT((begin - expected.at(scene.bodies[i].name).vector()).norm(), 1e-12) << i;
+  }
 }
 
 TEST(RobotScenes, ForcesActOnLinks) {
