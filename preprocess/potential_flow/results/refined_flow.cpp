@@ -228,7 +228,7 @@ constexpr int kPanelsPerTriangle = 5;  // where triangles are to be divided
 /// sides, or details that they do not show. Panels that are cut from them are fewer and more exact:
 /// links of robots, as hulls on 600 panels, are 0.5 % off in translation and 1.9 % in rotation in
 /// the mean, against 6000; unions of prisms of 32 sides come out up to 12 % too light in rotation
-/// on 1500 panels of their own strips, a robot's torso of 16 shapes 35 %. Unions whose mesh,
+/// on 1500 panels of their own strips, a robot's torso of 16 shapes 38 %. Unions whose mesh,
 /// divided for the loads, cannot be coarsened so far often can from their sides alone. Else those
 /// of more sides than 4/3 settings.max_panels get so many triangles.
 std::optional<TriangleMesh> inCompactTriangles(const TriangleMesh& mesh, const TriangleMesh& sides,
