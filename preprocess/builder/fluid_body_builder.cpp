@@ -17,6 +17,7 @@
 #include "preprocess/potential_flow/results/refined_flow.h"
 #include "preprocess/potential_flow/surface/surface_refinement.h"
 #include "preprocess/resistance/separation.h"
+#include "preprocess/resistance/stokes_resistance.h"
 #include "preprocess/waterline/waterline_builder.h"
 
 namespace ambient {
@@ -166,6 +167,11 @@ void takeFlow(const TriangleMesh& mesh, const BuildSettings& settings, FluidBody
   body.added_mass_parts = flow.parts;
   body.asymmetry = flow.asymmetry;
   if (settings.flow.sheet) return;
+  // Strips of so many sides take longer than their flow.
+  if (settings.flow.polyhedron && !viscous_flow.resistance &&
+      mesh.triangleCount() > 2 * settings.flow.max_panels)
+    viscous_flow.resistance = computeStokesResistance(
+        flow.surface, {false, StokesSettings().panels, settings.flow.threads});
   const MeshSeparation found = computeSeparation(flow.surface, flow.potential.rightCols<3>(),
                                                  translationAxes(flow.added_mass));
   viscous_flow.separation = found.separation;

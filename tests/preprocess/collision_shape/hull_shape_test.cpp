@@ -13,6 +13,7 @@
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/shapes/convex_hull.h"
 #include "preprocess/potential_flow/results/refined_flow.h"
+#include "preprocess/potential_flow/surface/flat_merging.h"
 #include "tests/preprocess/collision_shape/shape_fixtures.h"
 #include "tests/reference/body_added_mass.h"
 
@@ -228,6 +229,32 @@ TEST(HullShape, UnionsOfDrumsAreSolvedOnCompactPanels) {
   EXPECT_GT(many.panels, 2000);
   EXPECT_LT(test::rotationError(body.added_mass, many.added_mass), 3e-2);
   EXPECT_LT(test::translationError(body.added_mass, many.added_mass), 1e-2);
+}
+
+// Rods that cross in strips. Measured 1.1 and 0.5 % off what their own strips give, undivided.
+TEST(HullShape, UnionsOfManySidesAreSolvedOnFewerTriangles) {
+  constexpr int kRods = 16;
+  btConvexHullShape rod = drum(32);
+  rod.setLocalScaling(btVector3(4, btScalar(0.4), btScalar(0.4)));
+  btCompoundShape star;
+  for (int i = 0; i < kRods; ++i) {
+    const btQuaternion turn(btVector3(0, btScalar(0.6), btScalar(0.8)), btScalar(i * kPi / kRods));
+    star.addChildShape(btTransform(turn, btVector3(0, 0, btScalar(0.05 * i))), &rod);
+  }
+  const FluidBody body = makeFluidBody(star);
+  const TriangleMesh mesh = surfaceMeshOf(body), sides = mergePolyhedronSides(mesh);
+  PotentialFlowSettings settings;
+  settings.polyhedron = true;
+  settings.max_panels = 1500;
+  const int most = 2000;
+  ASSERT_GT(sides.triangleCount(), most + 500);
+  const RefinedFlow few = solveRefinedFlow(mesh, settings);
+  EXPECT_LE(few.panels, most);
+  EXPECT_LE(few.surface.triangleCount(), most) << "the resistance is solved on it";
+  EXPECT_LT(test::rotationError(body.added_mass, few.added_mass), 1e-9) << "these are the body's";
+  const PotentialFlow own = solvePotentialFlow(sides);
+  EXPECT_LT(test::rotationError(few.added_mass, own.added_mass), 2e-2);
+  EXPECT_LT(test::translationError(few.added_mass, own.added_mass), 1e-2);
 }
 
 // A robot's foot of two capsules.
