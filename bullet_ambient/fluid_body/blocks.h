@@ -33,37 +33,47 @@ struct alignas(64) FaceBlock {
   float area[kFaces];         ///< in [0, 1]
 };
 
-/// Bounds of all faces of a block, for sixteen blocks: of their 6-vectors (c x n, n), whose product
-/// with the twist is the normal velocity of a face, and of their places. Bounds are rounded
-/// outwards.
-struct alignas(64) FaceBounds {
+/// Bounds of the places of all faces of a block, for sixteen blocks, rounded outwards.
+struct alignas(64) FacePlaces {
   static constexpr int kBlocks = 16;
-  float middle[6][kBlocks];
-  float reach[6][kBlocks];                     ///< largest distance from the middle
   float centre[3][kBlocks], half[3][kBlocks];  ///< box around the centroids: centre, half sides
   float radius[kBlocks];                       ///< of the largest disc with the area of a face
 };
 
-/// FormFactors of the faces of one block, for the form law; their arms in pitching,
-/// FormShape::pitchingArm(), in units of length, 0 unless the shape is a wing.
-struct alignas(64) FormBlock {
-  float by_normal[FaceBlock::kFaces];
-  float by_speed[FaceBlock::kFaces];
-  float by_lee[FaceBlock::kFaces];
-  float arm[FaceBlock::kFaces];
+/// Bounds of the 6-vectors (c x n, n) of all faces of a block, whose product with the twist is the
+/// normal velocity of a face, for sixteen blocks, rounded outwards.
+struct alignas(64) FaceBounds {
+  static constexpr int kBlocks = FacePlaces::kBlocks;
+  float middle[6][kBlocks];
+  float reach[6][kBlocks];  ///< largest distance from the middle
+};
+
+/// One number of each face of a block.
+struct alignas(64) FaceColumn {
+  float of[FaceBlock::kFaces];
 };
 
 /// Blocks of a shape with their bounds.
 struct FaceBlocks {
-  const FaceBlock* blocks;
-  const FaceBounds* bounds;
-  std::size_t count;                ///< number of blocks
-  const FormBlock* form = nullptr;  ///< one per block; null: the published law
-  const double* lee = nullptr;      ///< 6 x 21, lee side of the form law: see addEvenPart()
+  /// Of fewer blocks all are summed: to choose costs more than it saves.
+  static constexpr std::size_t kFewestChosen = 12;
 
-  /// Returns the blocks from number `block` on, without bounds.
+  const FaceBlock* blocks;
+  const FacePlaces* places;
+  std::size_t count;                      ///< number of blocks
+  const FaceBounds* bounds = nullptr;     ///< null: the blocks are too few
+  const FaceColumn* sharpness = nullptr;  ///< one per block; null: the published law
+  /// One per block: arms in pitching, FormShape::pitchingArm(), in units of length; null: no wing.
+  const FaceColumn* arms = nullptr;
+  /// 6 x 21, lee side of the form law, see addEvenPart(); null: the blocks are too few.
+  const double* lee = nullptr;
+
+  /// Returns the blocks from number `block` on, without places and bounds.
   FaceBlocks from(std::size_t block) const {
-    return {blocks + block, nullptr, count - block, form ? form + block : nullptr, lee};
+    const auto after = [block](const FaceColumn* columns) {
+      return columns ? columns + block : nullptr;
+    };
+    return {blocks + block, nullptr, count - block, nullptr, after(sharpness), after(arms), lee};
   }
 };
 

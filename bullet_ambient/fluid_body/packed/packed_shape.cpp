@@ -43,31 +43,33 @@ std::vector<std::uint32_t> orderOf(const FaceTable& faces, double length_unit) {
 
 }  // namespace
 
-PackedFaces::PackedFaces(const FaceTable& faces)
-    : length_unit_(unitFor(std::max({largestOf(faces.centroid_x), largestOf(faces.centroid_y),
+PackedFaces::PackedFaces(const FaceTable& faces, const FormShape* shape)
+    : size_(faces.size()),
+      length_unit_(unitFor(std::max({largestOf(faces.centroid_x), largestOf(faces.centroid_y),
                                      largestOf(faces.centroid_z)}))),
       area_unit_(unitFor(largestOf(faces.area))) {
-  order_ = orderOf(faces, length_unit_);
   AMBIENT_ASSERT(length_unit_ > 0 && area_unit_ > 0);
+  const Order order = orderOf(faces, length_unit_);
   const std::size_t count = (size() + FaceBlock::kFaces - 1) / FaceBlock::kFaces;
+  const std::size_t groups = (count + FacePlaces::kBlocks - 1) / FacePlaces::kBlocks;
+  const bool are_chosen = count >= FaceBlocks::kFewestChosen;
   blocks_.reserve(count);
-  for (std::size_t block = 0; block < count; ++block) blocks_.push_back(packBlock(faces, block));
-  bounds_.resize((count + FaceBounds::kBlocks - 1) / FaceBounds::kBlocks);  // all zero
+  for (std::size_t block = 0; block < count; ++block)
+    blocks_.push_back(packBlock(faces, order, block));
+  places_.resize(groups);  // all zero
+  if (are_chosen) bounds_.resize(groups);
   for (std::size_t block = 0; block < count; ++block) {
-    setBounds(block);
     setPlace(block);
+    if (are_chosen) setBounds(block);
   }
+  if (shape) packForm(faces, order, *shape);
 }
 
-PackedFaces::PackedFaces(const FaceTable& faces, const FormShape& shape) : PackedFaces(faces) {
-  packForm(faces, shape);
-}
-
-FaceBlock PackedFaces::packBlock(const FaceTable& faces, std::size_t block) const {
-  constexpr std::size_t kFaces = FaceBlock::kFaces;
+FaceBlock PackedFaces::packBlock(const FaceTable& faces, const Order& order,
+                                 std::size_t block) const {
   FaceBlock packed = {};
-  for (std::size_t i = 0; i < std::min(kFaces, size() - block * kFaces); ++i) {
-    const std::size_t face = order_[block * kFaces + i];
+  for (std::size_t i = 0; i < sizeOf(block); ++i) {
+    const std::size_t face = order[block * FaceBlock::kFaces + i];
     const Vector3 normal = faces.normal(face);
     const Vector3 centroid = faces.centroid(face) / length_unit_;
     setColumn(packed.normal, i, normal);
@@ -78,22 +80,25 @@ FaceBlock PackedFaces::packBlock(const FaceTable& faces, std::size_t block) cons
   return packed;
 }
 
-void PackedFaces::packForm(const FaceTable& faces, const FormShape& shape) {
+std::size_t PackedFaces::sizeOf(std::size_t block) const {
+  constexpr std::size_t kFaces = FaceBlock::kFaces;
+  return std::min(kFaces, size() - block * kFaces);
+}
+
+void PackedFaces::packForm(const FaceTable& faces, const Order& order, const FormShape& shape) {
   AMBIENT_ASSERT(faces.sharpness.size() == size());
-  form_.resize(blocks_.size());  // all zero
-  lee_.resize(6 * 21);
+  sharpness_.resize(blocks_.size());  // all zero
+  if (shape.isWing()) arms_.resize(blocks_.size());
+  if (!bounds_.empty()) lee_.resize(6 * 21);
   for (std::size_t i = 0; i < size(); ++i) {
-    const std::size_t face = order_[i], at = i % FaceBlock::kFaces;
-    const FormFactors<float> factors =
-        formFactors<float>(static_cast<float>(faces.sharpness[face]));
-    FormBlock& block = form_[i / FaceBlock::kFaces];
-    block.by_normal[at] = factors.by_normal;
-    block.by_speed[at] = factors.by_speed;
-    block.by_lee[at] = factors.by_lee;
-    addLee(faces, face, static_cast<double>(factors.by_lee));
+    const std::size_t face = order[i], block = i / FaceBlock::kFaces, at = i % FaceBlock::kFaces;
+    const auto sharpness = static_cast<float>(faces.sharpness[face]);
+    sharpness_[block].of[at] = sharpness;
+    if (!lee_.empty())
+      addLee(faces, face, static_cast<double>(formFactors<float>(sharpness).by_lee));
     if (!shape.isWing()) continue;
     const double arm = shape.pitchingArm(faces.normal(face), faces.centroid(face));
-    block.arm[at] = static_cast<float>(arm / length_unit_);
+    arms_[block].of[at] = static_cast<float>(arm / length_unit_);
   }
 }
 
@@ -108,11 +113,10 @@ void PackedFaces::addLee(const FaceTable& faces, std::size_t face, double by_lee
 }
 
 void PackedFaces::setBounds(std::size_t block) {
-  constexpr std::size_t kFaces = FaceBlock::kFaces;
   // Rounding of a normal velocity in single precision; its terms are at most 1 and sqrt(3).
   constexpr float kRounding = 4e-6f;
   const FaceBlock& of = blocks_[block];
-  const auto size = static_cast<std::ptrdiff_t>(std::min(kFaces, order_.size() - block * kFaces));
+  const auto size = static_cast<std::ptrdiff_t>(sizeOf(block));
   FaceBounds& bounds = bounds_[block / FaceBounds::kBlocks];
   for (int row = 0; row < 6; ++row) {
     const float* values = row < 3 ? of.moment[row] : of.normal[row - 3];
@@ -123,23 +127,22 @@ void PackedFaces::setBounds(std::size_t block) {
 }
 
 void PackedFaces::setPlace(std::size_t block) {
-  constexpr std::size_t kFaces = FaceBlock::kFaces;
   // Rounding of a depth in single precision, and the addition to the disc in eq. (59).
   constexpr float kRounding = 4e-6f;
   constexpr double kWider = 1 + 1e-4;
   const FaceBlock& of = blocks_[block];
-  const auto size = static_cast<std::ptrdiff_t>(std::min(kFaces, order_.size() - block * kFaces));
-  FaceBounds& bounds = bounds_[block / FaceBounds::kBlocks];
-  const std::size_t lane = block % FaceBounds::kBlocks;
+  const auto size = static_cast<std::ptrdiff_t>(sizeOf(block));
+  FacePlaces& places = places_[block / FacePlaces::kBlocks];
+  const std::size_t lane = block % FacePlaces::kBlocks;
   for (int axis = 0; axis < 3; ++axis) {
     const float* values = of.centroid[axis];
     const auto [low, high] = std::minmax_element(values, values + size);
-    bounds.centre[axis][lane] = 0.5f * (*low + *high);
-    bounds.half[axis][lane] = 0.5f * (*high - *low) + kRounding;
+    places.centre[axis][lane] = 0.5f * (*low + *high);
+    places.half[axis][lane] = 0.5f * (*high - *low) + kRounding;
   }
   const double largest = static_cast<double>(*std::max_element(of.area, of.area + size));
   const double radius = kWider * std::sqrt(largest * area_unit_ / kPi) / length_unit_;
-  bounds.radius[lane] = static_cast<float>(radius) + kRounding;
+  places.radius[lane] = static_cast<float>(radius) + kRounding;
 }
 
 namespace {
