@@ -18,8 +18,12 @@ struct AddedMassPart {
   Matrix6 inertia = Matrix6::Zero();   ///< -sym int g phi^T dA about F's origin
 };
 
+/// Returns the image of a part whose axes, as bits, are turned.
+AddedMassPart imageOf(AddedMassPart part, int turned);
+
 /// Parts of a shape's added mass, kept in the blocks that kernels read: rounded to single
-/// precision, 128 bytes per part.
+/// precision, 128 bytes per part. Of parts that planes across axes through F's origin mirror, to
+/// the last bit, one of all images is kept.
 class AddedMassParts {
  public:
   AddedMassParts() = default;
@@ -27,18 +31,23 @@ class AddedMassParts {
   AddedMassParts(const std::vector<AddedMassPart>& parts);
 
   bool empty() const { return places_.empty(); }
-  std::size_t size() const { return places_.size(); }
-  /// Returns a part, in the order of those that were given.
-  AddedMassPart operator[](std::size_t i) const;
+  std::size_t size() const { return size_; }
+  AddedMassPart operator[](std::size_t i) const { return all()[i]; }
+  /// Returns all parts, images one after the other, else in the order of those that were given.
   std::vector<AddedMassPart> all() const;
   /// Sum of all parts: the added mass up to discretisation.
   Matrix6 sum() const;
-  PartBlocks blocks() const { return {blocks_.data(), blocks_.size()}; }
+  PartBlocks blocks() const { return {blocks_.data(), blocks_.size(), mirrors_}; }
   /// Returns those of the shape enlarged about F's origin. Cost: that of making them.
   AddedMassParts scaled(double factor) const;
 
  private:
-  std::vector<std::uint32_t> places_;  ///< of each part: block and lane
+  void pack(const std::vector<AddedMassPart>& parts);
+  std::vector<AddedMassPart> packed() const;
+
+  std::size_t size_ = 0;               ///< number of parts, with images
+  int mirrors_ = 0;                    ///< as PartBlocks::mirrors
+  std::vector<std::uint32_t> places_;  ///< of each part that is kept: block and lane
   std::vector<PartBlock> blocks_;
 };
 

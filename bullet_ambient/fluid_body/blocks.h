@@ -16,11 +16,33 @@ struct alignas(64) PartBlock {
   float inertia[kEntries][kParts];  ///< symmetric 6x6: upper triangle, row by row
 };
 
+/// Axes, as bits, along which a mirror turns the sign of a component of a motion, rotation first.
+constexpr int kTurnedBy[6] = {6, 5, 3, 1, 2, 4};
+
 struct PartBlocks {
   const PartBlock* blocks;
   std::size_t count;
-  const double* shares = nullptr;  ///< of the parts of one block that are in a pool; null: all
+  /// Axes, as bits: planes through the origin across them mirror the body; the blocks hold one part
+  /// of all images.
+  int mirrors = 0;
+  /// Of the parts of one block that are in a pool, image by image, see imageOf(); null: all.
+  const double* shares = nullptr;
+
+  [[gnu::always_inline]] int images() const {
+    return (1 + (mirrors & 1)) * (1 + (mirrors >> 1 & 1)) * (1 + (mirrors >> 2));
+  }
 };
+
+/// Returns the axes, as bits, that image number `image` of a body with mirrors turns.
+[[gnu::always_inline]] constexpr int imageOf(int mirrors, int image) {
+  int turned = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(mirrors >> axis & 1)) continue;
+    turned |= (image & 1) << axis;
+    image /= 2;
+  }
+  return turned;
+}
 
 /// Sixteen faces in single precision, component by component: input of the load kernels. Plain
 /// data only, because the kernels are compiled once per instruction set. Units of length and area:

@@ -126,7 +126,8 @@ AddedMass addedMassOf(const Solid& solid, const CollisionShapeSettings& settings
                       const std::string& name) {
   if (solid.sphere_radius > 0) return {*solid.added_mass, {}};
   if (solid.added_mass)
-    return {*solid.added_mass, estimateParts(solid.mesh, *solid.added_mass), solid.viscous_flow};
+    return {*solid.added_mass, mirrored(estimateParts(solid.mesh, *solid.added_mass)),
+            solid.viscous_flow};
   const auto solve = [&](const TriangleMesh& mesh) {
     return solved(settings, name, [&] { return solvePotentialFlow(mesh, settings.flow); });
   };
