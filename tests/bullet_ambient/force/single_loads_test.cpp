@@ -312,8 +312,8 @@ TEST(LoadTables, KeepTheDragOfEachSetOfFaces) {
 TEST(LoadTables, PackTheSharpnessForTheFormLawOnly) {
   const auto body = closedSphere();
   const LoadTables tables(body);
-  EXPECT_EQ(tables.packedFaces({body, &body->faces}, nullptr)->blocks().form, nullptr);
-  EXPECT_NE(tables.packedFaces({body, &body->form.faces}, tables.shape().get())->blocks().form,
+  EXPECT_EQ(tables.packedFaces({body, &body->faces}, nullptr)->blocks().sharpness, nullptr);
+  EXPECT_NE(tables.packedFaces({body, &body->form.faces}, tables.shape().get())->blocks().sharpness,
             nullptr);
 }
 
