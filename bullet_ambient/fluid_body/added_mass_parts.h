@@ -31,9 +31,9 @@ class AddedMassParts {
   AddedMassParts(const std::vector<AddedMassPart>& parts);
 
   bool empty() const { return places_.empty(); }
-  std::size_t size() const { return size_; }
-  AddedMassPart operator[](std::size_t i) const { return all()[i]; }
-  /// Returns all parts, images one after the other, else in the order of those that were given.
+  std::size_t size() const { return places_.size(); }
+  /// Returns a part, in the order of those that were given.
+  AddedMassPart operator[](std::size_t i) const;
   std::vector<AddedMassPart> all() const;
   /// Sum of all parts: the added mass up to discretisation.
   Matrix6 sum() const;
@@ -42,12 +42,14 @@ class AddedMassParts {
   AddedMassParts scaled(double factor) const;
 
  private:
+  /// Packs the parts that are kept, whose numbers stand in `places_`.
   void pack(const std::vector<AddedMassPart>& parts);
-  std::vector<AddedMassPart> packed() const;
+  AddedMassPart unpacked(std::uint32_t place) const;
 
-  std::size_t size_ = 0;               ///< number of parts, with images
-  int mirrors_ = 0;                    ///< as PartBlocks::mirrors
-  std::vector<std::uint32_t> places_;  ///< of each part that is kept: block and lane
+  int mirrors_ = 0;  ///< as PartBlocks::mirrors
+  /// Of each part: eight times the place of the one that is kept, plus the axes that its image
+  /// turns.
+  std::vector<std::uint32_t> places_;
   std::vector<PartBlock> blocks_;
 };
 

@@ -252,12 +252,6 @@ std::vector<AddedMassPart> joinPanels(const std::vector<PanelInertia>& panels) {
 
 namespace {
 
-Matrix6 sumOf(const std::vector<AddedMassPart>& parts) {
-  Matrix6 sum = Matrix6::Zero();
-  for (const AddedMassPart& part : parts) sum += part.inertia;
-  return sum;
-}
-
 /// Returns the parts in the first octant, or what the turned axes leave of one, with all images.
 std::vector<AddedMassPart> imagesOfFirst(const std::vector<AddedMassPart>& parts, int mirrors,
                                          double rounding) {
@@ -287,15 +281,16 @@ std::vector<AddedMassPart> mirrored(const std::vector<AddedMassPart>& parts) {
   constexpr double kRounding = 1e-5;
   double size = 0;
   for (const AddedMassPart& part : parts) size = std::max(size, part.centre.cwiseAbs().maxCoeff());
-  const Matrix6 sum = sumOf(parts);
-  Vector6 scale;
-  scale << size, size, size, 1, 1, 1;
-  const double largest = sum.bottomRightCorner<3, 3>().cwiseAbs().maxCoeff();
+  const auto isThere = [&](const AddedMassPart& image) {
+    return std::any_of(parts.begin(), parts.end(), [&](const AddedMassPart& part) {
+      return (image.centre - part.centre).norm() <= kRounding * size &&
+             (image.inertia - part.inertia).norm() <= kRounding * part.inertia.norm();
+    });
+  };
   for (const int mirrors : {7, 3, 5, 6, 1, 2, 4}) {
     std::vector<AddedMassPart> images = imagesOfFirst(parts, mirrors, kRounding * size);
-    if (images.size() != parts.size()) continue;
-    const Matrix6 error = (sumOf(images) - sum).cwiseQuotient(scale * scale.transpose());
-    if (error.cwiseAbs().maxCoeff() <= kRounding * largest) return images;
+    if (images.size() == parts.size() && std::all_of(images.begin(), images.end(), isThere))
+      return images;
   }
   return parts;
 }

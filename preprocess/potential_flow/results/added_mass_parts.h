@@ -21,7 +21,7 @@ struct PanelInertia {
 std::vector<AddedMassPart> joinPanels(const std::vector<PanelInertia>& panels);
 
 /// Makes parts that planes across axes through the origin mirror, but for rounding, mirror each
-/// other to the last bit: then AddedMassParts keeps few. Others stay as they are. Cost: O(parts).
+/// other to the last bit: then AddedMassParts keeps few. Others stay as they are.
 std::vector<AddedMassPart> mirrored(const std::vector<AddedMassPart>& parts);
 
 /// Converts parts to another unit of length and another origin: z = length z' + centre, where z'

@@ -104,18 +104,18 @@ TEST(DifferentShapes, SpheresCostNextToNothing) {
              {12.5, 20, 96});
 }
 
-std::unique_ptr<btCollisionShape> boxOf(const Sizes& s) {
+std::unique_ptr<btCollisionShape> boxShapeOf(const Sizes& s) {
   return std::make_unique<btBoxShape>(btVector3(toScalar(s.x()), toScalar(s.y()), toScalar(s.z())));
 }
 
 constexpr double kBox = 69.5;  // [kB]
 
-TEST(DifferentShapes, BoxesCostLittle) { expectCost(boxOf, {kBox, 1208, 3230}); }
+TEST(DifferentShapes, BoxesCostLittle) { expectCost(boxShapeOf, {kBox, 1208, 3230}); }
 
 TEST(DifferentShapes, AThousandBoxesCostNoMoreEach) {
   if (!isCounted()) GTEST_SKIP() << "this allocator does not say what is in use";
   constexpr int kMany = 1000;
-  const double each = costOfAttaching(boxOf, kMany).kept / kMany;
+  const double each = costOfAttaching(boxShapeOf, kMany).kept / kMany;
   ::testing::Test::RecordProperty("kept_kB", std::to_string(each));
   EXPECT_LT(each, kBox);
 }
