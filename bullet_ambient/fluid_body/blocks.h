@@ -107,27 +107,29 @@ struct alignas(64) HullBlock {
   double corner[3][3][kTriangles];  ///< corner by corner, counter-clockwise from outside [m]
 };
 
-/// Moments of eight blocks: per block an axis-aligned box around the triangles, and integrals over
-/// the triangles, docs/theory.md eq. (57).
-struct alignas(64) HullMoments {
+/// Axis-aligned boxes around the triangles of eight blocks.
+struct alignas(64) HullBoxes {
   static constexpr int kBlocks = 8;
-  static constexpr int kNumbers = 30;
-  static constexpr double kNoBlock = -1;
-  double centre[3][kBlocks];          ///< centre of the box [m]
-  double half[3][kBlocks];            ///< half sides of the box [m]; kNoBlock in unused lanes
-  double moments[kNumbers][kBlocks];  ///< N_j; M_jk, row by row; Q_jkl, k <= l
+  double centre[3][kBlocks], half[3][kBlocks];  ///< centres, half sides [m]
 };
 
-/// Blocks of a hull with their moments.
+/// Integrals over the triangles of one block, docs/theory.md eq. (57).
+struct HullMoments {
+  static constexpr int kNumbers = 10;
+  double of[3][kNumbers];  ///< for each j: N_j; M_jk; Q_jkl, k <= l
+};
+
+/// Blocks of a hull with their boxes and moments.
 struct HullBlocks {
   const HullBlock* blocks;
+  const HullBoxes* boxes;
   const HullMoments* moments;
   std::size_t count;  ///< number of blocks
 };
 
 /// Corners of a hull in an axis-aligned box; unused lanes repeat the last corner.
 struct alignas(64) HullPoints {
-  static constexpr int kPoints = 32;
+  static constexpr int kPoints = 16;
   double place[3][kPoints];   ///< [m]
   double centre[3], half[3];  ///< centre and half sides of the box [m]
 };

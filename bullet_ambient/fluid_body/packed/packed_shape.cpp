@@ -199,22 +199,20 @@ Box boxAround(const Vector3* points, std::size_t count) {
 
 Vector3 areaNormal(const Triangle& t) { return (t[1] - t[0]).cross(t[2] - t[0]) / 2; }
 
-using Moments = std::array<double, HullMoments::kNumbers>;
-
 /// Adds to N = sum A n, M = sum A n c^T, Q_jkl = sum int n_j z_k z_l dA; docs/theory.md eq. (57).
-void add(const Triangle& t, Moments& moments) {
+void add(const Triangle& t, HullMoments& moments) {
   const Vector3 normal = areaNormal(t);
   const Vector3 c = (t[0] + t[1] + t[2]) / 3;
   const Matrix3 second = (t[0] * t[0].transpose() + t[1] * t[1].transpose() +
                           t[2] * t[2].transpose() + 9 * c * c.transpose()) /
                          12;
-  double* to = moments.data();
-  for (int j = 0; j < 3; ++j) *to++ += normal[j];
-  for (int j = 0; j < 3; ++j)
+  for (int j = 0; j < 3; ++j) {
+    double* to = moments.of[j];
+    *to++ += normal[j];
     for (int k = 0; k < 3; ++k) *to++ += normal[j] * c[k];
-  for (int j = 0; j < 3; ++j)
     for (int k = 0; k < 3; ++k)
       for (int l = k; l < 3; ++l) *to++ += normal[j] * second(k, l);
+  }
 }
 
 HullBlock blockOf(const Triangle* triangles, std::size_t count) {
@@ -263,28 +261,20 @@ void PackedHull::packInBlocks(const std::vector<Triangle>& triangles) {
 }
 
 void PackedHull::packTriangles(const std::vector<Triangle>& triangles) {
-  constexpr std::size_t kTriangles = HullBlock::kTriangles, kBlocks = HullMoments::kBlocks;
-  blocks_.reserve((triangles.size() + kTriangles - 1) / kTriangles);
-  moments_.reserve((blocks_.capacity() + kBlocks - 1) / kBlocks);
-  for (std::size_t begin = 0; begin < triangles.size(); begin += kTriangles) {
-    const std::size_t count = std::min(kTriangles, triangles.size() - begin);
-    const std::size_t lane = blocks_.size() % kBlocks;
-    if (lane == 0) {
-      moments_.push_back({});
-      for (auto& half : moments_.back().half)
-        for (double& entry : half) entry = HullMoments::kNoBlock;
-    }
-    blocks_.push_back(blockOf(&triangles[begin], count));
-    HullMoments& group = moments_.back();
-    const Box box = boxAround(triangles[begin].data(), 3 * count);
+  constexpr std::size_t kTriangles = HullBlock::kTriangles, kBlocks = HullBoxes::kBlocks;
+  const std::size_t count = (triangles.size() + kTriangles - 1) / kTriangles;
+  blocks_.reserve(count);
+  boxes_.resize((count + kBlocks - 1) / kBlocks);  // all zero
+  moments_.resize(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t begin = k * kTriangles, size = std::min(kTriangles, triangles.size() - begin);
+    blocks_.push_back(blockOf(&triangles[begin], size));
+    const Box box = boxAround(triangles[begin].data(), 3 * size);
     for (int axis = 0; axis < 3; ++axis) {
-      group.centre[axis][lane] = box.centre[axis];
-      group.half[axis][lane] = box.half[axis];
+      boxes_[k / kBlocks].centre[axis][k % kBlocks] = box.centre[axis];
+      boxes_[k / kBlocks].half[axis][k % kBlocks] = box.half[axis];
     }
-    Moments moments = {};
-    for (std::size_t i = begin; i < begin + count; ++i) add(triangles[i], moments);
-    for (std::size_t number = 0; number < moments.size(); ++number)
-      group.moments[number][lane] = moments[number];
+    for (std::size_t i = begin; i < begin + size; ++i) add(triangles[i], moments_[k]);
   }
 }
 

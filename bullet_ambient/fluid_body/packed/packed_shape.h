@@ -64,7 +64,9 @@ class PackedHull {
   /// Packs the triangles of a closed surface, such as that of a hold.
   explicit PackedHull(const Surface& surface);
 
-  HullBlocks blocks() const { return {blocks_.data(), moments_.data(), blocks_.size()}; }
+  HullBlocks blocks() const {
+    return {blocks_.data(), boxes_.data(), moments_.data(), blocks_.size()};
+  }
   HullCorners corners() const { return {points_.data(), points_.size()}; }
   /// FluidBody::volume over the volume inside the triangles; above 1 for meshes of round bodies.
   double volumeFactor() const { return volume_factor_; }
@@ -76,6 +78,7 @@ class PackedHull {
   void packPoints(const std::vector<Vector3>& points);
 
   std::vector<HullBlock> blocks_;
+  std::vector<HullBoxes> boxes_;
   std::vector<HullMoments> moments_;
   std::vector<HullPoints> points_;
   double volume_factor_ = 1;

@@ -153,8 +153,8 @@ TEST(PackedHull, HoldsEachTriangleOnceInBoxesThatHoldIt) {
   Vector3 sum(0, 0, 0);
   double area = 0;
   for (std::size_t i = 0; i < blocks.count; ++i) {
-    const HullMoments& group = blocks.moments[i / HullMoments::kBlocks];
-    const std::size_t lane = i % HullMoments::kBlocks;
+    const HullBoxes& group = blocks.boxes[i / HullBoxes::kBlocks];
+    const std::size_t lane = i % HullBoxes::kBlocks;
     for (int k = 0; k < HullBlock::kTriangles; ++k) {
       const Vector3 normal = areaNormal(blocks.blocks[i], k);
       sum += normal;
