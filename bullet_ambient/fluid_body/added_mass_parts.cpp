@@ -12,6 +12,7 @@ namespace ambient {
 namespace {
 
 constexpr std::size_t kParts = PartBlock::kParts;
+constexpr std::uint32_t kImages = 8;
 
 /// Neighbours in one half of a block: the water covers them together.
 std::vector<std::uint32_t> orderByPlace(const std::vector<AddedMassPart>& parts) {
@@ -43,16 +44,82 @@ Matrix6 inertiaOf(const PartBlock& block, std::size_t lane) {
   return inertia;
 }
 
+double signIn(int turned, int of) { return __builtin_popcount(turned & of) % 2 == 0 ? 1 : -1; }
+
+bool areEqual(const AddedMassPart& a, const AddedMassPart& b) {
+  return a.centre == b.centre && a.spread == b.spread && a.inertia == b.inertia;
+}
+
+/// Returns the axes whose mirrors map the parts onto themselves.
+int mirrorsOf(const std::vector<AddedMassPart>& parts) {
+  constexpr std::size_t kMost = 256;  // the cost is quadratic
+  if (parts.size() > kMost) return 0;
+  const auto countOf = [&](const AddedMassPart& part) {
+    return std::count_if(parts.begin(), parts.end(),
+                         [&](const AddedMassPart& other) { return areEqual(part, other); });
+  };
+  int mirrors = 0;
+  for (const int turned : {1, 2, 4})
+    if (std::all_of(parts.begin(), parts.end(), [&](const AddedMassPart& part) {
+          const auto count = countOf(part);  // 0: it is not finite
+          return count > 0 && countOf(imageOf(part, turned)) == count;
+        }))
+      mirrors |= turned;
+  return mirrors;
+}
+
+/// Returns how many of the axes have their plane through the centre of a part.
+int planesThrough(const AddedMassPart& part, int axes) {
+  int planes = 0;
+  for (int axis = 0; axis < 3; ++axis) planes += (axes >> axis & 1) && part.centre[axis] == 0;
+  return planes;
+}
+
 }  // namespace
 
+AddedMassPart imageOf(AddedMassPart part, int turned) {
+  constexpr int kSpreads[6] = {0, 0, 0, 3, 5, 6};  // axes of xx, yy, zz, xy, xz, yz that count
+  for (int axis = 0; axis < 3; ++axis) part.centre[axis] *= signIn(turned, 1 << axis);
+  for (int k = 0; k < 6; ++k) part.spread[k] *= signIn(turned, kSpreads[k]);
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j) part.inertia(i, j) *= signIn(turned, kTurnedBy[i] ^ kTurnedBy[j]);
+  return part;
+}
+
 AddedMassParts::AddedMassParts(const std::vector<AddedMassPart>& parts)
-    : places_(parts.size()), blocks_((parts.size() + kParts - 1) / kParts) {  // all zero
-  std::uint32_t place = 0;
-  for (const std::uint32_t part : orderByPlace(parts)) places_[part] = place++;
-  for (std::size_t i = 0; i < size(); ++i) {
+    : mirrors_(mirrorsOf(parts)) {
+  places_.reserve(parts.size());
+  std::vector<int> turned;
+  std::vector<AddedMassPart> kept;
+  for (const AddedMassPart& part : parts) {
+    turned.push_back(0);
+    for (int axis = 0; axis < 3; ++axis)
+      if ((mirrors_ >> axis & 1) && part.centre[axis] < 0) turned.back() |= 1 << axis;
+    if (turned.back() == 0) kept.push_back(part);
+  }
+  std::uint32_t next = 0;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const AddedMassPart image = imageOf(parts[i], turned[i]);
+    const auto same = [&](const AddedMassPart& part) { return areEqual(part, image); };
+    const auto first =
+        turned[i] == 0 ? next++ : std::find_if(kept.begin(), kept.end(), same) - kept.begin();
+    places_.push_back(kImages * static_cast<std::uint32_t>(first) + turned[i]);
+  }
+  for (AddedMassPart& part : kept)  // images coincide
+    part.inertia *= std::ldexp(1.0, -planesThrough(part, mirrors_));
+  pack(kept);
+}
+
+void AddedMassParts::pack(const std::vector<AddedMassPart>& parts) {
+  std::vector<std::uint32_t> places(parts.size());
+  blocks_.assign((parts.size() + kParts - 1) / kParts, {});  // all zero
+  std::uint32_t next = 0;
+  for (const std::uint32_t part : orderByPlace(parts)) places[part] = next++;
+  for (std::uint32_t& place : places_) place = kImages * places[place / kImages] + place % kImages;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
     const AddedMassPart& part = parts[i];
-    PartBlock& block = blocks_[places_[i] / kParts];
-    const std::size_t lane = places_[i] % kParts;
+    PartBlock& block = blocks_[places[i] / kParts];
+    const std::size_t lane = places[i] % kParts;
     for (int axis = 0; axis < 3; ++axis)
       block.centre[axis][lane] = static_cast<float>(part.centre[axis]);
     block.reach[lane] = static_cast<float>(reachOf(part));
@@ -64,15 +131,21 @@ AddedMassParts::AddedMassParts(const std::vector<AddedMassPart>& parts)
   }
 }
 
-AddedMassPart AddedMassParts::operator[](std::size_t i) const {
-  const PartBlock& block = blocks_[places_[i] / kParts];
-  const std::size_t lane = places_[i] % kParts;
+AddedMassPart AddedMassParts::unpacked(std::uint32_t place) const {
+  const PartBlock& block = blocks_[place / kParts];
+  const std::size_t lane = place % kParts;
   AddedMassPart part;
   for (int axis = 0; axis < 3; ++axis)
     part.centre[axis] = static_cast<double>(block.centre[axis][lane]);
   for (int k = 0; k < 6; ++k) part.spread[k] = static_cast<double>(block.spread[k][lane]);
   part.inertia = inertiaOf(block, lane);
   return part;
+}
+
+AddedMassPart AddedMassParts::operator[](std::size_t i) const {
+  AddedMassPart part = unpacked(places_[i] / kImages);
+  part.inertia *= std::ldexp(1.0, planesThrough(part, mirrors_));
+  return imageOf(part, static_cast<int>(places_[i] % kImages));
 }
 
 std::vector<AddedMassPart> AddedMassParts::all() const {
@@ -86,17 +159,31 @@ Matrix6 AddedMassParts::sum() const {
   Matrix6 sum = Matrix6::Zero();
   for (const PartBlock& block : blocks_)
     for (std::size_t lane = 0; lane < kParts; ++lane) sum += inertiaOf(block, lane);
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j)
+      sum(i, j) *= (kTurnedBy[i] ^ kTurnedBy[j]) & mirrors_ ? 0 : blocks().images();
   return sum;
 }
 
 AddedMassParts AddedMassParts::scaled(double factor) const {
-  std::vector<AddedMassPart> parts = all();
-  for (AddedMassPart& part : parts) {
+  AddedMassParts result;
+  result.mirrors_ = mirrors_;
+  std::vector<AddedMassPart> parts;
+  std::vector<std::uint32_t> numbers(kParts * blocks_.size());  // of the parts, by place
+  for (const std::uint32_t place : places_) {
+    if (place % kImages != 0) continue;
+    numbers[place / kImages] = static_cast<std::uint32_t>(parts.size());
+    AddedMassPart part = unpacked(place / kImages);
     part.centre *= factor;
     part.spread *= factor * factor;
     part.inertia = scaleShape(part.inertia, factor);
+    parts.push_back(part);
   }
-  return parts;
+  result.places_.reserve(size());
+  for (const std::uint32_t place : places_)
+    result.places_.push_back(kImages * numbers[place / kImages] + place % kImages);
+  result.pack(parts);
+  return result;
 }
 
 }  // namespace ambient

@@ -18,8 +18,12 @@ struct AddedMassPart {
   Matrix6 inertia = Matrix6::Zero();   ///< -sym int g phi^T dA about F's origin
 };
 
+/// Returns the image of a part whose axes, as bits, are turned.
+AddedMassPart imageOf(AddedMassPart part, int turned);
+
 /// Parts of a shape's added mass, kept in the blocks that kernels read: rounded to single
-/// precision, 128 bytes per part.
+/// precision, 128 bytes per part. Of parts that planes across axes through F's origin mirror, to
+/// the last bit, one of all images is kept.
 class AddedMassParts {
  public:
   AddedMassParts() = default;
@@ -33,12 +37,19 @@ class AddedMassParts {
   std::vector<AddedMassPart> all() const;
   /// Sum of all parts: the added mass up to discretisation.
   Matrix6 sum() const;
-  PartBlocks blocks() const { return {blocks_.data(), blocks_.size()}; }
+  PartBlocks blocks() const { return {blocks_.data(), blocks_.size(), mirrors_}; }
   /// Returns those of the shape enlarged about F's origin. Cost: that of making them.
   AddedMassParts scaled(double factor) const;
 
  private:
-  std::vector<std::uint32_t> places_;  ///< of each part: block and lane
+  /// Packs the parts that are kept, whose numbers stand in `places_`.
+  void pack(const std::vector<AddedMassPart>& parts);
+  AddedMassPart unpacked(std::uint32_t place) const;
+
+  int mirrors_ = 0;  ///< as PartBlocks::mirrors
+  /// Of each part: eight times the place of the one that is kept, plus the axes that its image
+  /// turns.
+  std::vector<std::uint32_t> places_;
   std::vector<PartBlock> blocks_;
 };
 

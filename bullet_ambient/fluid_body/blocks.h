@@ -16,11 +16,33 @@ struct alignas(64) PartBlock {
   float inertia[kEntries][kParts];  ///< symmetric 6x6: upper triangle, row by row
 };
 
+/// Axes, as bits, along which a mirror turns the sign of a component of a motion, rotation first.
+constexpr int kTurnedBy[6] = {6, 5, 3, 1, 2, 4};
+
 struct PartBlocks {
   const PartBlock* blocks;
   std::size_t count;
-  const double* shares = nullptr;  ///< of the parts of one block that are in a pool; null: all
+  /// Axes, as bits: planes through the origin across them mirror the body; the blocks hold one part
+  /// of all images.
+  int mirrors = 0;
+  /// Of the parts of one block that are in a pool, image by image, see imageOf(); null: all.
+  const double* shares = nullptr;
+
+  [[gnu::always_inline]] int images() const {
+    return (1 + (mirrors & 1)) * (1 + (mirrors >> 1 & 1)) * (1 + (mirrors >> 2));
+  }
 };
+
+/// Returns the axes, as bits, that image number `image` of a body with mirrors turns.
+[[gnu::always_inline]] constexpr int imageOf(int mirrors, int image) {
+  int turned = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(mirrors >> axis & 1)) continue;
+    turned |= (image & 1) << axis;
+    image /= 2;
+  }
+  return turned;
+}
 
 /// Sixteen faces in single precision, component by component: input of the load kernels. Plain
 /// data only, because the kernels are compiled once per instruction set. Units of length and area:
@@ -33,37 +55,47 @@ struct alignas(64) FaceBlock {
   float area[kFaces];         ///< in [0, 1]
 };
 
-/// Bounds of all faces of a block, for sixteen blocks: of their 6-vectors (c x n, n), whose product
-/// with the twist is the normal velocity of a face, and of their places. Bounds are rounded
-/// outwards.
-struct alignas(64) FaceBounds {
+/// Bounds of the places of all faces of a block, for sixteen blocks, rounded outwards.
+struct alignas(64) FacePlaces {
   static constexpr int kBlocks = 16;
-  float middle[6][kBlocks];
-  float reach[6][kBlocks];                     ///< largest distance from the middle
   float centre[3][kBlocks], half[3][kBlocks];  ///< box around the centroids: centre, half sides
   float radius[kBlocks];                       ///< of the largest disc with the area of a face
 };
 
-/// FormFactors of the faces of one block, for the form law; their arms in pitching,
-/// FormShape::pitchingArm(), in units of length, 0 unless the shape is a wing.
-struct alignas(64) FormBlock {
-  float by_normal[FaceBlock::kFaces];
-  float by_speed[FaceBlock::kFaces];
-  float by_lee[FaceBlock::kFaces];
-  float arm[FaceBlock::kFaces];
+/// Bounds of the 6-vectors (c x n, n) of all faces of a block, whose product with the twist is the
+/// normal velocity of a face, for sixteen blocks, rounded outwards.
+struct alignas(64) FaceBounds {
+  static constexpr int kBlocks = FacePlaces::kBlocks;
+  float middle[6][kBlocks];
+  float reach[6][kBlocks];  ///< largest distance from the middle
+};
+
+/// One number of each face of a block.
+struct alignas(64) FaceColumn {
+  float of[FaceBlock::kFaces];
 };
 
 /// Blocks of a shape with their bounds.
 struct FaceBlocks {
-  const FaceBlock* blocks;
-  const FaceBounds* bounds;
-  std::size_t count;                ///< number of blocks
-  const FormBlock* form = nullptr;  ///< one per block; null: the published law
-  const double* lee = nullptr;      ///< 6 x 21, lee side of the form law: see addEvenPart()
+  /// Of fewer blocks all are summed: to choose costs more than it saves.
+  static constexpr std::size_t kFewestChosen = 12;
 
-  /// Returns the blocks from number `block` on, without bounds.
+  const FaceBlock* blocks;
+  const FacePlaces* places;
+  std::size_t count;                      ///< number of blocks
+  const FaceBounds* bounds = nullptr;     ///< null: the blocks are too few
+  const FaceColumn* sharpness = nullptr;  ///< one per block; null: the published law
+  /// One per block: arms in pitching, FormShape::pitchingArm(), in units of length; null: no wing.
+  const FaceColumn* arms = nullptr;
+  /// 6 x 21, lee side of the form law, see addEvenPart(); null: the blocks are too few.
+  const double* lee = nullptr;
+
+  /// Returns the blocks from number `block` on, without places and bounds.
   FaceBlocks from(std::size_t block) const {
-    return {blocks + block, nullptr, count - block, form ? form + block : nullptr, lee};
+    const auto after = [block](const FaceColumn* columns) {
+      return columns ? columns + block : nullptr;
+    };
+    return {blocks + block, nullptr, count - block, nullptr, after(sharpness), after(arms), lee};
   }
 };
 
@@ -75,27 +107,29 @@ struct alignas(64) HullBlock {
   double corner[3][3][kTriangles];  ///< corner by corner, counter-clockwise from outside [m]
 };
 
-/// Moments of eight blocks: per block an axis-aligned box around the triangles, and integrals over
-/// the triangles, docs/theory.md eq. (57).
-struct alignas(64) HullMoments {
+/// Axis-aligned boxes around the triangles of eight blocks.
+struct alignas(64) HullBoxes {
   static constexpr int kBlocks = 8;
-  static constexpr int kNumbers = 30;
-  static constexpr double kNoBlock = -1;
-  double centre[3][kBlocks];          ///< centre of the box [m]
-  double half[3][kBlocks];            ///< half sides of the box [m]; kNoBlock in unused lanes
-  double moments[kNumbers][kBlocks];  ///< N_j; M_jk, row by row; Q_jkl, k <= l
+  double centre[3][kBlocks], half[3][kBlocks];  ///< centres, half sides [m]
 };
 
-/// Blocks of a hull with their moments.
+/// Integrals over the triangles of one block, docs/theory.md eq. (57).
+struct HullMoments {
+  static constexpr int kNumbers = 10;
+  double of[3][kNumbers];  ///< for each j: N_j; M_jk; Q_jkl, k <= l
+};
+
+/// Blocks of a hull with their boxes and moments.
 struct HullBlocks {
   const HullBlock* blocks;
+  const HullBoxes* boxes;
   const HullMoments* moments;
   std::size_t count;  ///< number of blocks
 };
 
 /// Corners of a hull in an axis-aligned box; unused lanes repeat the last corner.
 struct alignas(64) HullPoints {
-  static constexpr int kPoints = 32;
+  static constexpr int kPoints = 16;
   double place[3][kPoints];   ///< [m]
   double centre[3], half[3];  ///< centre and half sides of the box [m]
 };

@@ -128,7 +128,8 @@ AddedMass addedMassOf(const Solid& solid, const CollisionShapeSettings& settings
                       const std::string& name) {
   if (solid.sphere_radius > 0) return {*solid.added_mass, {}};
   if (solid.added_mass)
-    return {*solid.added_mass, estimateParts(solid.mesh, *solid.added_mass), solid.viscous_flow};
+    return {*solid.added_mass, mirrored(estimateParts(solid.mesh, *solid.added_mass)),
+            solid.viscous_flow};
   const auto solve = [&](const TriangleMesh& mesh) {
     return solved(settings, name, [&] { return solvePotentialFlow(mesh, settings.flow); });
   };
@@ -241,11 +242,12 @@ CollisionShapeSettings withFaces(CollisionShapeSettings settings, const ShapeFor
   return settings;
 }
 
-/// Makes the faces of the form law of round shapes that have a rule for them; none of others.
-struct RoundFaces {
+/// Makes the faces of the form law of shapes that have a rule for them; none of others.
+struct FacesByRule {
   const FrameOffset pose;
   const FluidBody& body;
 
+  std::optional<FaceTable> operator()(const Box& s) const { return boxFaces(s.half_sizes, pose); }
   std::optional<FaceTable> operator()(const Cylinder& s) const {
     return cylinderFaces(s.radius, s.height, pose, body);
   }
@@ -268,12 +270,7 @@ void takeFewFaces(const ShapeForm& form, const CollisionShapeSettings& settings,
   if (form.parts.size() == 1 && settings.load_error >= kRuleError) {
     const PlacedShape& part = form.parts.front();
     const FrameOffset pose{part.pose.linear(), part.pose.translation()};
-    if (const Box* box = std::get_if<Box>(&part.shape)) {
-      FormLevel level = boxLevel(box->half_sizes, pose);
-      if (level.faces.size() < body.form.faces.size()) body.form_levels.push_back(std::move(level));
-      return;
-    }
-    if (auto faces = std::visit(RoundFaces{pose, body}, part.shape)) {
+    if (auto faces = std::visit(FacesByRule{pose, body}, part.shape)) {
       body.form.faces = *std::move(faces);
       return;
     }

@@ -109,16 +109,16 @@ class Rings {
 
 }  // namespace
 
-FormLevel boxLevel(const Vector3& half_sizes, const FrameOffset& pose) {
+FaceTable boxFaces(const Vector3& half_sizes, const FrameOffset& pose) {
   const double longest = half_sizes.maxCoeff();
-  // Error measured over boxes of 1 : 1 to 1 : 50: 0.98 % at most, 0.2 % in the mean.
+  // Error measured over boxes of 1 : 1 to 1 : 50: 0.98 % at most, 0.2 % in the mean; of what a
+  // surface of water cuts that of 4 x 4 points or less, but 1.1 % for 0.7 % up to 1 : 2.
   const bool is_compact = half_sizes.minCoeff() >= 0.5 * longest;
   const auto ruleFor = [&](double half_size) -> const GaussRule& {
     const double ratio = half_size / longest;
     return kGaussRules[ratio <= 0.02 ? 0 : ratio <= 0.08 ? 1 : ratio <= 0.2 || is_compact ? 2 : 3];
   };
-  FormLevel level;
-  level.p99_error = kRuleError;
+  FaceTable faces;
   for (int side = 0; side < 6; ++side) {
     const int axis = side / 2, along = (axis + 1) % 3, across = (axis + 2) % 3;
     const Vector3 outward = (side % 2 == 0 ? 1 : -1) * Vector3::Unit(axis);
@@ -132,12 +132,12 @@ FormLevel boxLevel(const Vector3& half_sizes, const FrameOffset& pose) {
         Vector3 point = half_sizes[axis] * outward;
         point[along] = (2 * u.place[i] - 1) * half_sizes[along];
         point[across] = (2 * v.place[j] - 1) * half_sizes[across];
-        level.faces.add(normal, pose.rotation * point + pose.translation,
-                        4 * half_sizes[along] * half_sizes[across] * u.weight[i] * v.weight[j]);
-        level.faces.sharpness.push_back(sharpness);
+        faces.add(normal, pose.rotation * point + pose.translation,
+                  4 * half_sizes[along] * half_sizes[across] * u.weight[i] * v.weight[j]);
+        faces.sharpness.push_back(sharpness);
       }
   }
-  return level;
+  return faces;
 }
 
 namespace {

@@ -43,31 +43,33 @@ std::vector<std::uint32_t> orderOf(const FaceTable& faces, double length_unit) {
 
 }  // namespace
 
-PackedFaces::PackedFaces(const FaceTable& faces)
-    : length_unit_(unitFor(std::max({largestOf(faces.centroid_x), largestOf(faces.centroid_y),
+PackedFaces::PackedFaces(const FaceTable& faces, const FormShape* shape)
+    : size_(faces.size()),
+      length_unit_(unitFor(std::max({largestOf(faces.centroid_x), largestOf(faces.centroid_y),
                                      largestOf(faces.centroid_z)}))),
       area_unit_(unitFor(largestOf(faces.area))) {
-  order_ = orderOf(faces, length_unit_);
   AMBIENT_ASSERT(length_unit_ > 0 && area_unit_ > 0);
+  const Order order = orderOf(faces, length_unit_);
   const std::size_t count = (size() + FaceBlock::kFaces - 1) / FaceBlock::kFaces;
+  const std::size_t groups = (count + FacePlaces::kBlocks - 1) / FacePlaces::kBlocks;
+  const bool are_chosen = count >= FaceBlocks::kFewestChosen;
   blocks_.reserve(count);
-  for (std::size_t block = 0; block < count; ++block) blocks_.push_back(packBlock(faces, block));
-  bounds_.resize((count + FaceBounds::kBlocks - 1) / FaceBounds::kBlocks);  // all zero
+  for (std::size_t block = 0; block < count; ++block)
+    blocks_.push_back(packBlock(faces, order, block));
+  places_.resize(groups);  // all zero
+  if (are_chosen) bounds_.resize(groups);
   for (std::size_t block = 0; block < count; ++block) {
-    setBounds(block);
     setPlace(block);
+    if (are_chosen) setBounds(block);
   }
+  if (shape) packForm(faces, order, *shape);
 }
 
-PackedFaces::PackedFaces(const FaceTable& faces, const FormShape& shape) : PackedFaces(faces) {
-  packForm(faces, shape);
-}
-
-FaceBlock PackedFaces::packBlock(const FaceTable& faces, std::size_t block) const {
-  constexpr std::size_t kFaces = FaceBlock::kFaces;
+FaceBlock PackedFaces::packBlock(const FaceTable& faces, const Order& order,
+                                 std::size_t block) const {
   FaceBlock packed = {};
-  for (std::size_t i = 0; i < std::min(kFaces, size() - block * kFaces); ++i) {
-    const std::size_t face = order_[block * kFaces + i];
+  for (std::size_t i = 0; i < sizeOf(block); ++i) {
+    const std::size_t face = order[block * FaceBlock::kFaces + i];
     const Vector3 normal = faces.normal(face);
     const Vector3 centroid = faces.centroid(face) / length_unit_;
     setColumn(packed.normal, i, normal);
@@ -78,22 +80,25 @@ FaceBlock PackedFaces::packBlock(const FaceTable& faces, std::size_t block) cons
   return packed;
 }
 
-void PackedFaces::packForm(const FaceTable& faces, const FormShape& shape) {
+std::size_t PackedFaces::sizeOf(std::size_t block) const {
+  constexpr std::size_t kFaces = FaceBlock::kFaces;
+  return std::min(kFaces, size() - block * kFaces);
+}
+
+void PackedFaces::packForm(const FaceTable& faces, const Order& order, const FormShape& shape) {
   AMBIENT_ASSERT(faces.sharpness.size() == size());
-  form_.resize(blocks_.size());  // all zero
-  lee_.resize(6 * 21);
+  sharpness_.resize(blocks_.size());  // all zero
+  if (shape.isWing()) arms_.resize(blocks_.size());
+  if (!bounds_.empty()) lee_.resize(6 * 21);
   for (std::size_t i = 0; i < size(); ++i) {
-    const std::size_t face = order_[i], at = i % FaceBlock::kFaces;
-    const FormFactors<float> factors =
-        formFactors<float>(static_cast<float>(faces.sharpness[face]));
-    FormBlock& block = form_[i / FaceBlock::kFaces];
-    block.by_normal[at] = factors.by_normal;
-    block.by_speed[at] = factors.by_speed;
-    block.by_lee[at] = factors.by_lee;
-    addLee(faces, face, static_cast<double>(factors.by_lee));
+    const std::size_t face = order[i], block = i / FaceBlock::kFaces, at = i % FaceBlock::kFaces;
+    const auto sharpness = static_cast<float>(faces.sharpness[face]);
+    sharpness_[block].of[at] = sharpness;
+    if (!lee_.empty())
+      addLee(faces, face, static_cast<double>(formFactors<float>(sharpness).by_lee));
     if (!shape.isWing()) continue;
     const double arm = shape.pitchingArm(faces.normal(face), faces.centroid(face));
-    block.arm[at] = static_cast<float>(arm / length_unit_);
+    arms_[block].of[at] = static_cast<float>(arm / length_unit_);
   }
 }
 
@@ -108,11 +113,10 @@ void PackedFaces::addLee(const FaceTable& faces, std::size_t face, double by_lee
 }
 
 void PackedFaces::setBounds(std::size_t block) {
-  constexpr std::size_t kFaces = FaceBlock::kFaces;
   // Rounding of a normal velocity in single precision; its terms are at most 1 and sqrt(3).
   constexpr float kRounding = 4e-6f;
   const FaceBlock& of = blocks_[block];
-  const auto size = static_cast<std::ptrdiff_t>(std::min(kFaces, order_.size() - block * kFaces));
+  const auto size = static_cast<std::ptrdiff_t>(sizeOf(block));
   FaceBounds& bounds = bounds_[block / FaceBounds::kBlocks];
   for (int row = 0; row < 6; ++row) {
     const float* values = row < 3 ? of.moment[row] : of.normal[row - 3];
@@ -123,23 +127,22 @@ void PackedFaces::setBounds(std::size_t block) {
 }
 
 void PackedFaces::setPlace(std::size_t block) {
-  constexpr std::size_t kFaces = FaceBlock::kFaces;
   // Rounding of a depth in single precision, and the addition to the disc in eq. (59).
   constexpr float kRounding = 4e-6f;
   constexpr double kWider = 1 + 1e-4;
   const FaceBlock& of = blocks_[block];
-  const auto size = static_cast<std::ptrdiff_t>(std::min(kFaces, order_.size() - block * kFaces));
-  FaceBounds& bounds = bounds_[block / FaceBounds::kBlocks];
-  const std::size_t lane = block % FaceBounds::kBlocks;
+  const auto size = static_cast<std::ptrdiff_t>(sizeOf(block));
+  FacePlaces& places = places_[block / FacePlaces::kBlocks];
+  const std::size_t lane = block % FacePlaces::kBlocks;
   for (int axis = 0; axis < 3; ++axis) {
     const float* values = of.centroid[axis];
     const auto [low, high] = std::minmax_element(values, values + size);
-    bounds.centre[axis][lane] = 0.5f * (*low + *high);
-    bounds.half[axis][lane] = 0.5f * (*high - *low) + kRounding;
+    places.centre[axis][lane] = 0.5f * (*low + *high);
+    places.half[axis][lane] = 0.5f * (*high - *low) + kRounding;
   }
   const double largest = static_cast<double>(*std::max_element(of.area, of.area + size));
   const double radius = kWider * std::sqrt(largest * area_unit_ / kPi) / length_unit_;
-  bounds.radius[lane] = static_cast<float>(radius) + kRounding;
+  places.radius[lane] = static_cast<float>(radius) + kRounding;
 }
 
 namespace {
@@ -196,22 +199,20 @@ Box boxAround(const Vector3* points, std::size_t count) {
 
 Vector3 areaNormal(const Triangle& t) { return (t[1] - t[0]).cross(t[2] - t[0]) / 2; }
 
-using Moments = std::array<double, HullMoments::kNumbers>;
-
 /// Adds to N = sum A n, M = sum A n c^T, Q_jkl = sum int n_j z_k z_l dA; docs/theory.md eq. (57).
-void add(const Triangle& t, Moments& moments) {
+void add(const Triangle& t, HullMoments& moments) {
   const Vector3 normal = areaNormal(t);
   const Vector3 c = (t[0] + t[1] + t[2]) / 3;
   const Matrix3 second = (t[0] * t[0].transpose() + t[1] * t[1].transpose() +
                           t[2] * t[2].transpose() + 9 * c * c.transpose()) /
                          12;
-  double* to = moments.data();
-  for (int j = 0; j < 3; ++j) *to++ += normal[j];
-  for (int j = 0; j < 3; ++j)
+  for (int j = 0; j < 3; ++j) {
+    double* to = moments.of[j];
+    *to++ += normal[j];
     for (int k = 0; k < 3; ++k) *to++ += normal[j] * c[k];
-  for (int j = 0; j < 3; ++j)
     for (int k = 0; k < 3; ++k)
       for (int l = k; l < 3; ++l) *to++ += normal[j] * second(k, l);
+  }
 }
 
 HullBlock blockOf(const Triangle* triangles, std::size_t count) {
@@ -260,28 +261,20 @@ void PackedHull::packInBlocks(const std::vector<Triangle>& triangles) {
 }
 
 void PackedHull::packTriangles(const std::vector<Triangle>& triangles) {
-  constexpr std::size_t kTriangles = HullBlock::kTriangles, kBlocks = HullMoments::kBlocks;
-  blocks_.reserve((triangles.size() + kTriangles - 1) / kTriangles);
-  moments_.reserve((blocks_.capacity() + kBlocks - 1) / kBlocks);
-  for (std::size_t begin = 0; begin < triangles.size(); begin += kTriangles) {
-    const std::size_t count = std::min(kTriangles, triangles.size() - begin);
-    const std::size_t lane = blocks_.size() % kBlocks;
-    if (lane == 0) {
-      moments_.push_back({});
-      for (auto& half : moments_.back().half)
-        for (double& entry : half) entry = HullMoments::kNoBlock;
-    }
-    blocks_.push_back(blockOf(&triangles[begin], count));
-    HullMoments& group = moments_.back();
-    const Box box = boxAround(triangles[begin].data(), 3 * count);
+  constexpr std::size_t kTriangles = HullBlock::kTriangles, kBlocks = HullBoxes::kBlocks;
+  const std::size_t count = (triangles.size() + kTriangles - 1) / kTriangles;
+  blocks_.reserve(count);
+  boxes_.resize((count + kBlocks - 1) / kBlocks);  // all zero
+  moments_.resize(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t begin = k * kTriangles, size = std::min(kTriangles, triangles.size() - begin);
+    blocks_.push_back(blockOf(&triangles[begin], size));
+    const Box box = boxAround(triangles[begin].data(), 3 * size);
     for (int axis = 0; axis < 3; ++axis) {
-      group.centre[axis][lane] = box.centre[axis];
-      group.half[axis][lane] = box.half[axis];
+      boxes_[k / kBlocks].centre[axis][k % kBlocks] = box.centre[axis];
+      boxes_[k / kBlocks].half[axis][k % kBlocks] = box.half[axis];
     }
-    Moments moments = {};
-    for (std::size_t i = begin; i < begin + count; ++i) add(triangles[i], moments);
-    for (std::size_t number = 0; number < moments.size(); ++number)
-      group.moments[number][lane] = moments[number];
+    for (std::size_t i = begin; i < begin + size; ++i) add(triangles[i], moments_[k]);
   }
 }
 

@@ -133,13 +133,12 @@ struct HullRows {
 };
 
 constexpr int kGroups = 32;  ///< number of groups of eight blocks per pass
-static_assert(HullMoments::kBlocks == kLanes, "a group has one block per lane");
+static_assert(HullBoxes::kBlocks == kLanes, "a group has one block per lane");
 
 /// Blocks of one pass, sorted into wholly wet, cut and dry ones.
 struct Choice {
-  double wet[kGroups][kLanes];  ///< 1: wholly wet, else 0
-  int cut[kGroups * kLanes];    ///< indices of cut blocks
-  int cut_count = 0;
+  int wet[kGroups * kLanes], cut[kGroups * kLanes];  ///< indices of wholly wet and of cut blocks
+  int wet_count = 0, cut_count = 0;
 };
 
 enum class Side { kDry, kCut, kWet };
@@ -158,26 +157,26 @@ inline Side sideOf(const HullBlock& block, const Planes& planes) {
   return any_dry ? Side::kCut : Side::kWet;
 }
 
-/// Sorts the blocks of `count` groups by their bounding boxes. Blocks whose box meets the plane are
-/// sorted by their corners.
-inline void choose(const HullMoments* groups, int count, const HullBlock* blocks,
-                   const Planes& planes, Choice& choice) {
-  choice.cut_count = 0;
+/// Sorts `count` blocks by their bounding boxes. Blocks whose box meets the plane are sorted by
+/// their corners.
+inline void choose(const HullBoxes* boxes, int count, const HullBlock* blocks, const Planes& planes,
+                   Choice& choice) {
+  choice.wet_count = choice.cut_count = 0;
   const Doubles zero = {}, one = zero + 1.0;
-  for (int group = 0; group < count; ++group) {
-    double open[kLanes];
+  for (int first = 0; first < count; first += kLanes) {
+    double above_box[kLanes], meets_box[kLanes];
+    const HullBoxes& group = boxes[first / kLanes];
     for (int lane = 0; lane < kLanes; lane += kWidth) {
-      const Doubles depth = planes.depth(load(groups[group].centre, lane));
-      const Doubles reach = dot(planes.size, load(groups[group].half, lane));
-      const Mask is_wet = depth > reach;
-      store(choice.wet[group] + lane, is_wet ? one : zero);
-      store(open + lane, is_wet ? zero : (depth >= -reach ? one : zero));
+      const Doubles depth = planes.depth(load(group.centre, lane));
+      const Doubles reach = dot(planes.size, load(group.half, lane));
+      store(above_box + lane, depth > reach ? one : zero);
+      store(meets_box + lane, depth >= -reach ? one : zero);
     }
-    for (int lane = 0; lane < kLanes; ++lane) {
-      if (!(open[lane] > 0)) continue;
-      const int block = group * kLanes + lane;
-      const Side side = sideOf(blocks[block], planes);
-      choice.wet[group][lane] = side == Side::kWet ? 1 : 0;
+    for (int lane = 0; lane < kLanes && first + lane < count; ++lane) {
+      if (!(meets_box[lane] > 0)) continue;
+      const int block = first + lane;
+      const Side side = above_box[lane] > 0 ? Side::kWet : sideOf(blocks[block], planes);
+      if (side == Side::kWet) choice.wet[choice.wet_count++] = block;
       if (side == Side::kCut) choice.cut[choice.cut_count++] = block;
     }
   }
@@ -194,41 +193,33 @@ inline void addCut(const HullBlock* blocks, const Choice& choice, const Planes& 
   }
 }
 
-/// Rows of partial sums over wholly wet blocks: s.N, s.M, s.Q of eq. (57).
+/// Rows of sums over wholly wet blocks: s.N, s.M, s.Q of eq. (57).
 enum WetRow { kFlux, kFluxMoment, kFluxSecond = kFluxMoment + 3, kWetRows = 10 };
+static_assert(kWetRows == HullMoments::kNumbers, "each number has a row");
+
+/// Partial sums, lane by lane.
 struct WetRows {
-  Doubles rows[kWetRows] = {};
+  double lanes[kLanes][kWetRows] = {};
+
+  /// Adds the moments of wholly wet blocks.
+  void add(const HullMoments* moments, const Choice& choice, const double (&s)[3]) {
+    for (int i = 0; i < choice.wet_count; ++i) {
+      const double(&m)[3][kWetRows] = moments[choice.wet[i]].of;
+      double(&sums)[kWetRows] = lanes[choice.wet[i] % kLanes];
+      for (int row = 0; row < kWetRows; ++row)
+        sums[row] += s[0] * m[0][row] + s[1] * m[1][row] + s[2] * m[2][row];
+    }
+  }
+  double sumOf(int row) const {
+    double of_row[kLanes];
+    for (int lane = 0; lane < kLanes; ++lane) of_row[lane] = lanes[lane][row];
+    return sumLanes(of_row);
+  }
 };
 
-/// Adds the moments of wholly wet blocks.
-inline void addWet(const HullMoments* groups, int count, const Choice& choice, const Planes& planes,
-                   WetRows (&sums)[kLanes / kWidth]) {
-  for (int part = 0; part < kLanes / kWidth; ++part) {
-    const int lane = part * kWidth;
-    WetRows rows = sums[part];
-    for (int group = 0; group < count; ++group) {
-      const Doubles wet = load(choice.wet[group] + lane);
-      if (!anyOf(wet > Doubles{})) continue;
-      const auto& moments = groups[group].moments;
-      const Vectors s = wet * planes.normal;
-      const auto along = [&](int number, int stride) {
-        return s.x * load(moments[number] + lane) + s.y * load(moments[number + stride] + lane) +
-               s.z * load(moments[number + 2 * stride] + lane);
-      };
-      rows.rows[kFlux] = rows.rows[kFlux] + along(0, 1);
-      for (int k = 0; k < 3; ++k)
-        rows.rows[kFluxMoment + k] = rows.rows[kFluxMoment + k] + along(3 + k, 3);
-      for (int k = 0; k < 6; ++k)
-        rows.rows[kFluxSecond + k] = rows.rows[kFluxSecond + k] + along(12 + k, 6);
-    }
-    sums[part] = rows;
-  }
-}
-
 /// Adds the lanes of each row.
-template <class Rows, int kCount>
-inline void sumRows(const Rows (&parts)[kLanes / kWidth], double (&sums)[kCount]) {
-  for (int row = 0; row < kCount; ++row) {
+inline void sumRows(const HullRows (&parts)[kLanes / kWidth], double (&sums)[kRows]) {
+  for (int row = 0; row < kRows; ++row) {
     double lanes[kLanes];
     for (int part = 0; part < kLanes / kWidth; ++part)
       store(lanes + part * kWidth, parts[part].rows[row]);
@@ -268,20 +259,19 @@ inline void addWetTo(HullSums& sums, const double (&wet)[kWetRows], const HullPl
 HullSums sumHull(const HullBlocks& hull, const HullPlane& plane) noexcept {
   const Planes planes(plane);
   HullRows cut[kLanes / kWidth];
-  WetRows wet[kLanes / kWidth];
+  WetRows wet;
   Choice choice;
-  const std::size_t groups = (hull.count + kLanes - 1) / kLanes;
-  for (std::size_t begin = 0; begin < groups; begin += kGroups) {
-    const std::size_t left = groups - begin;
-    const int count = left < kGroups ? static_cast<int>(left) : kGroups;
-    const HullBlock* const blocks = hull.blocks + begin * kLanes;
-    choose(hull.moments + begin, count, blocks, planes, choice);
-    addCut(blocks, choice, planes, cut);
-    addWet(hull.moments + begin, count, choice, planes, wet);
+  constexpr std::size_t kPass = kGroups * kLanes;
+  for (std::size_t begin = 0; begin < hull.count; begin += kPass) {
+    const std::size_t left = hull.count - begin;
+    const int count = static_cast<int>(left < kPass ? left : kPass);
+    choose(hull.boxes + begin / kLanes, count, hull.blocks + begin, planes, choice);
+    addCut(hull.blocks + begin, choice, planes, cut);
+    wet.add(hull.moments + begin, choice, plane.normal);
   }
   double of_cut[kRows], of_wet[kWetRows];
   sumRows(cut, of_cut);
-  sumRows(wet, of_wet);
+  for (int row = 0; row < kWetRows; ++row) of_wet[row] = wet.sumOf(row);
   HullSums sums = sumsOf(of_cut);
   addWetTo(sums, of_wet, plane);
   return sums;

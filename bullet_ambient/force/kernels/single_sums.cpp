@@ -15,7 +15,7 @@ namespace {
 constexpr int kRun = 16;      ///< number of blocks summed in single precision
 constexpr int kChoice = 256;  ///< number of blocks per pass of chooseBlocks()
 static_assert(FaceBlock::kFaces == kLanes, "a block has one face per lane");
-static_assert(FaceBounds::kBlocks == kLanes, "bounds are those of one block per lane");
+static_assert(FacePlaces::kBlocks == kLanes, "bounds are those of one block per lane");
 static_assert(kRun == kLanes, "a run has its own bounds");
 
 /// Returns `strength` if the flow is attached, n.u > cos(alpha) |u|, else 0. Test without a root,
@@ -91,13 +91,13 @@ struct Sides {
   std::int32_t of[kChoice];
 
   /// Finds them for `size` blocks. @pre size is at most kChoice
-  Sides(const FaceBounds* bounds, int size, const SingleCut& cut) {
+  Sides(const FacePlaces* places, int size, const SingleCut& cut) {
     const Cuts cuts(&cut);
     const Vectors& s = cuts.normal;
     const Vectors slope = {magnitude(s.x), magnitude(s.y), magnitude(s.z)};
     for (int first = 0; first < size; first += kLanes)
       for (int lane = 0; lane < kLanes; lane += kFloatWidth) {
-        const FaceBounds& at = bounds[first / kLanes];
+        const FacePlaces& at = places[first / kLanes];
         const Floats depth = cuts.height - dot(s, load(at.centre, lane));
         const Floats reach = dot(slope, load(at.half, lane)) + load(at.radius + lane);
         const Ints dry = depth<-reach, wet = depth> reach, side = dry - wet;
@@ -147,12 +147,10 @@ template <class Law, bool kRightAngle>
     return speedAcross(normal_speed, across_sq, whole);
   };
   const auto factors = [&] {
-    const FormBlock& form = run.faces.form[block];
-    return FormFactors<Floats>{load(form.by_normal + lane), load(form.by_speed + lane),
-                               load(form.by_lee + lane)};
+    return formFactors<float>(load(run.faces.sharpness[block].of + lane));
   };
   const auto wing = [&](const auto& law) {
-    const Floats arm = load(run.faces.form[block].arm + lane);
+    const Floats arm = load(run.faces.arms[block].of + lane);
     const Floats facing = dot(wings.facing, u);
     const Floats stalling = Law::kIsPart ? wings.stalling_share * facing : facing;
     const WingFlow<FusedArithmetic> flow{facing,
@@ -298,9 +296,9 @@ void sumRuns(const FaceBlocks& faces, const Chosen& chosen, const SingleMotion& 
 
 /// Returns the sides of blocks if the water cuts the body.
 template <bool kCut>
-inline auto sidesOf(const FaceBounds* bounds, int size, const SingleMotion& motion) {
+inline auto sidesOf(const FacePlaces* places, int size, const SingleMotion& motion) {
   if constexpr (kCut)
-    return Sides(bounds, size, *motion.cut);
+    return Sides(places, size, *motion.cut);
   else
     return WhollyWet{};
 }
@@ -322,9 +320,8 @@ LoadSums sumWhereAttached(const FaceBlocks& faces, const SingleMotion& motion) {
   for (std::size_t begin = 0; begin < faces.count; begin += kChoice) {
     const int size = atMost(faces.count - begin, kChoice);
     const FaceBlocks blocks = faces.from(begin);
-    const FaceBounds* const bounds = faces.bounds + begin / kLanes;
-    const auto sides = sidesOf<kCut>(bounds, size, motion);
-    chooseBlocks<kRest, Law::kLifts>(bounds, size, motion, choice);
+    const auto sides = sidesOf<kCut>(faces.places + begin / kLanes, size, motion);
+    chooseBlocks<kRest, Law::kLifts>(faces.bounds + begin / kLanes, size, motion, choice);
     sumRuns<Run, kFriction, kCut>(blocks, {choice.attached, choice.count, sides.of}, motion, total);
     if (kRest)
       sumRuns<Law, false, kCut>(blocks, {choice.rest, size - choice.count, sides.of}, motion,
@@ -346,7 +343,7 @@ LoadSums sumAll(const FaceBlocks& faces, const SingleMotion& motion) {
   WrenchTotal<Law::kLifts> total;
   for (std::size_t begin = 0; begin < faces.count; begin += kRun) {
     const int size = atMost(faces.count - begin, kRun);
-    const auto sides = sidesOf<kCut>(faces.bounds + begin / kLanes, size, motion);
+    const auto sides = sidesOf<kCut>(faces.places + begin / kLanes, size, motion);
     sumChosen<Law, kRightAngle, kFriction, kCut>(faces.from(begin), {kAll, size, sides.of}, motion,
                                                  total);
   }
@@ -355,13 +352,13 @@ LoadSums sumAll(const FaceBlocks& faces, const SingleMotion& motion) {
 
 template <class Law, bool kFriction, bool kCut>
 LoadSums sumBlocks(const FaceBlocks& faces, const SingleMotion& motion) {
-  constexpr std::size_t kFewest = 12;  // with fewer blocks, choosing costs more than it saves
   if constexpr (Law::kHasFriction) {
     // Beyond a right angle the flow is attached to nearly all faces.
     if (motion.signed_cosine_sq != 0) return sumAll<Law, false, kFriction, kCut>(faces, motion);
   }
-  return faces.count < kFewest ? sumAll<Law, true, kFriction, kCut>(faces, motion)
-                               : sumWhereAttached<Law, kFriction, kCut>(faces, motion);
+  return faces.count < FaceBlocks::kFewestChosen
+             ? sumAll<Law, true, kFriction, kCut>(faces, motion)
+             : sumWhereAttached<Law, kFriction, kCut>(faces, motion);
 }
 
 template <bool kCut>

@@ -101,47 +101,46 @@ ViscousLaw::ViscousLaw(const FluidBody& body, const FormShape& shape, const Vect
       sharp_share_(body.viscous.sharp_share),
       relative_roughness_(fluid.roughness / diameter_),
       reynolds_per_speed_(fluid.density * diameter_ / fluid.viscosity),
-      axes_(body.viscous.separation.axes),
       turn_speed_(1.5 / diameter_ * body.viscous.surface.gyration) {
-  for (int j = 0; j < 3; ++j) projections_[j] = axes_.col(j) * axes_.col(j).transpose();
   const ViscousForm& viscous = body.viscous;
   const Matrix6 at_reaction = shiftOrigin(viscous.resistance, viscous.centre_of_reaction);
   resistance_ = {fluid.viscosity * at_reaction, viscous.centre_of_reaction};
   drag_ = at_reaction.bottomRightCorner<3, 3>() / (3 * kPi * diameter_);
   turn_drag_ = drag_.trace() / 3;
   const double edges = viscous.is_primitive ? 1 : std::max(0.0, 1 - 2 * shape.edges);
-  share_ = edges * (1 - shape.wing) * viscous.separation.smooth_base;
-  if (!body.drag.isZero(0)) share_.setZero();  // measured drag knows where the flow leaves
-  is_smooth_ = !share_.isZero(0);
-  if (!is_smooth_) return;
-  setTurning(body);
-  setWays(body, own_drag);
-  const Vector3 masses = symmetricEigen<3>(body.added_mass.bottomRightCorner<3, 3>()).values;
-  setTail(body, shape, masses);
+  Smooth smooth;
+  smooth.share = edges * (1 - shape.wing) * viscous.separation.smooth_base;
+  // Measured drag knows where the flow leaves.
+  if (smooth.share.isZero(0) || !body.drag.isZero(0)) return;
+  const Matrix3& q = smooth.axes = viscous.separation.axes;
+  for (int j = 0; j < 3; ++j) smooth.projections[j] = q.col(j) * q.col(j).transpose();
+  setTurning(body, smooth);
+  setWays(body, own_drag, smooth);
+  setTail(body, shape, smooth);
+  smooth_ = std::make_unique<const Smooth>(smooth);
 }
 
-void ViscousLaw::setTurning(const FluidBody& body) {
+void ViscousLaw::setTurning(const FluidBody& body, Smooth& to) const {
   const Vector3& m = body.viscous.surface.moments;
-  uneven_.setZero();
   Vector3 even(1, 1, 1);  // (1 - nu_i)^4
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, l = (i + 2) % 3;
     const double sum = m[j] + m[l];
     if (!(sum > 0)) continue;
     const double uneven = std::abs(m[j] - m[l]) / sum;
-    uneven_(i, j) = uneven * m[l] / sum;
-    uneven_(i, l) = uneven * m[j] / sum;
+    to.uneven(i, j) = uneven * m[l] / sum;
+    to.uneven(i, l) = uneven * m[j] / sum;
     even[i] = square(square(1 - uneven));
   }
-  spin_mass_ = density_ * body.volume / 2 * axes_ * even.asDiagonal() * axes_.transpose();
+  to.spin_mass = density_ * body.volume / 2 * to.axes * even.asDiagonal() * to.axes.transpose();
 }
 
-void ViscousLaw::setWays(const FluidBody& body, const Vector3& own_drag) {
+void ViscousLaw::setWays(const FluidBody& body, const Vector3& own_drag, Smooth& to) const {
   constexpr double kBallLaminarFriction = 6.586;
   for (int axis = 0; axis < 3; ++axis) {
-    const double chi = share_[axis], own = own_drag[axis];
+    const double chi = to.share[axis], own = own_drag[axis];
     const double frontal = body.viscous.surface.frontal[axis];
-    const double drag = 3 * kPi * axes_.col(axis).dot(drag_ * axes_.col(axis));  // R_jj/D_A
+    const double drag = 3 * kPi * to.axes.col(axis).dot(drag_ * to.axes.col(axis));  // R_jj/D_A
     const double per_ball = square(diameter_) * drag * std::sqrt(drag / (3 * kPi));
     const auto kept = [&](double k) {
       if (!(own > 0)) return 1.0;
@@ -151,27 +150,28 @@ void ViscousLaw::setWays(const FluidBody& body, const Vector3& own_drag) {
       const SeparationWay& of = body.viscous.separation.ways[2 * axis + side];
       const int way = axis + 3 * side;
       const double beta = 3 * of.friction_laminar / kBallLaminarFriction * frontal / per_ball;
-      thickness_sq_[way] = square(of.thickness);
-      layer_[way] = beta > 0 ? 0.25 + chi * (3 / (16 * beta) - 0.75) : 0.25;
-      laminar_[way] = kept(of.wake_laminar);
-      bubble_[way] = kept(of.wake_bubble);
-      smooth_[way] = kept(of.wake_turbulent);
-      rough_[way] = kept(of.wake_rough);
-      bubble_friction_[way] = frontal * chi * of.friction_bubble;
-      nose_friction_[way] = frontal * chi * of.friction_turbulent;
+      to.thickness_sq[way] = square(of.thickness);
+      to.layer[way] = beta > 0 ? 0.25 + chi * (3 / (16 * beta) - 0.75) : 0.25;
+      to.laminar[way] = kept(of.wake_laminar);
+      to.bubble[way] = kept(of.wake_bubble);
+      to.smooth[way] = kept(of.wake_turbulent);
+      to.rough[way] = kept(of.wake_rough);
+      to.bubble_friction[way] = frontal * chi * of.friction_bubble;
+      to.nose_friction[way] = frontal * chi * of.friction_turbulent;
     }
   }
 }
 
-void ViscousLaw::setTail(const FluidBody& body, const FormShape& shape, const Vector3& masses) {
+void ViscousLaw::setTail(const FluidBody& body, const FormShape& shape, Smooth& to) const {
   if (!shape.isSlender() || !(body.volume > 0)) return;
+  const Vector3 masses = symmetricEigen<3>(body.added_mass.bottomRightCorner<3, 3>()).values;
   const ViscousForm& viscous = body.viscous;
-  tail_ = density_ * viscous.surface.frontal[0] * shape.slender.squaredNorm() *
-          ((masses[1] + masses[2]) / 2 - masses[0]) / body.volume;
-  tail_place_ = kTailPlace * std::sqrt(viscous.surface.moments[0]);
+  to.tail = density_ * viscous.surface.frontal[0] * shape.slender.squaredNorm() *
+            ((masses[1] + masses[2]) / 2 - masses[0]) / body.volume;
+  to.tail_place = kTailPlace * std::sqrt(viscous.surface.moments[0]);
   for (const int way : {0, 1}) {
     const SeparationWay& of = viscous.separation.ways[way];
-    tail_ways_[way] = {of.wake_laminar, of.wake_bubble, of.wake_turbulent, of.wake_rough};
+    to.tail_ways[way] = {of.wake_laminar, of.wake_bubble, of.wake_turbulent, of.wake_rough};
   }
 }
 
@@ -188,7 +188,7 @@ ViscousLaw::Scalars ViscousLaw::scalars(const Twist& x) const noexcept {
   s.sharp_growth = wakeGrowth(sharp_share_, reynolds);
   s.pressure = s.munk = (1 + s.sharp_growth) / 2;
   double layer = 0.25;
-  if (is_smooth_) {
+  if (smooth_) {
     layer = addLayers(s, reynolds, v / s.speed, turn_sq / speed_sq);
   } else if (relative_roughness_ > 0) {
     s.layers = layerState(0, reynolds, relative_roughness_);
@@ -206,7 +206,8 @@ ViscousLaw::Scalars ViscousLaw::scalars(const Twist& x) const noexcept {
 /// Adds what depends on the state of the layers. Returns the mean of x, eq. (109).
 double ViscousLaw::addLayers(Scalars& s, double reynolds, const Vector3& direction,
                              double turn_sq) const noexcept {
-  const Vector3 e = axes_.transpose() * direction;
+  const Smooth& of = *smooth_;
+  const Vector3 e = of.axes.transpose() * direction;
   const Vector3 along_sq = (e.array().square() + turn_sq / 3).matrix();  // E_j
   Ways ahead;                                                            // p_+-j
   for (int j = 0; j < 3; ++j) {
@@ -218,17 +219,18 @@ double ViscousLaw::addLayers(Scalars& s, double reynolds, const Vector3& directi
   Ways weights;
   weights.head<3>() = along_sq.array() * ahead.head<3>();
   weights.tail<3>() = along_sq.array() * ahead.tail<3>();
-  s.layers = layerState(std::sqrt((weights * thickness_sq_).sum()), reynolds, relative_roughness_);
-  const Ways kept =
-      ahead * s.layers.blend<Ways>(laminar_, bubble_, s.layers.atNose(smooth_, rough_).min(1.0));
+  s.layers =
+      layerState(std::sqrt((weights * of.thickness_sq).sum()), reynolds, relative_roughness_);
+  const Ways kept = ahead * s.layers.blend<Ways>(of.laminar, of.bubble,
+                                                 s.layers.atNose(of.smooth, of.rough).min(1.0));
   s.moving = (kept.head<3>() + kept.tail<3>()).matrix();
-  s.turning -= uneven_ * (Vector3::Ones() - s.moving);
+  s.turning -= of.uneven * (Vector3::Ones() - s.moving);
   s.munk *= along_sq.dot(s.moving);
-  s.smooth = along_sq.dot(share_);
+  s.smooth = along_sq.dot(of.share);
   s.layer_area = reynoldsPower(reynolds) *
-                 s.layers.blend<double>(0, (weights * bubble_friction_).sum(),
-                                        s.layers.roughness * (weights * nose_friction_).sum());
-  return (weights * layer_).sum();
+                 s.layers.blend<double>(0, (weights * of.bubble_friction).sum(),
+                                        s.layers.roughness * (weights * of.nose_friction).sum());
+  return (weights * of.layer).sum();
 }
 
 Growth ViscousLaw::growth(const Scalars& s, double power) const noexcept {
@@ -248,15 +250,16 @@ Vector3 ViscousLaw::layerForce(const Scalars& s, const Vector3& v) const noexcep
 }
 
 Wrench ViscousLaw::tailLoad(const Scalars& s, const Vector3& w, const Vector3& v) const noexcept {
-  if (!(tail_ > 0)) return {};
-  const Vector3 axis = axes_.col(0);
+  const Smooth& of = *smooth_;
+  if (!(of.tail > 0)) return {};
+  const Vector3 axis = of.axes.col(0);
   const double along = axis.dot(v);
   const auto kept = [&](const std::array<double, 4>& k) {
     return std::min(1.0, std::sqrt(s.layers.blend(k[0], k[1], s.layers.atNose(k[2], k[3]))));
   };
-  const double mean = s.ahead * kept(tail_ways_[0]) + (1 - s.ahead) * kept(tail_ways_[1]);
-  const double slope = tail_ * (kTailLost + (1 - kTailLost) * mean);
-  const Vector3 place = (along > 0 ? -tail_place_ : tail_place_) * axis;
+  const double mean = s.ahead * kept(of.tail_ways[0]) + (1 - s.ahead) * kept(of.tail_ways[1]);
+  const double slope = of.tail * (kTailLost + (1 - kTailLost) * mean);
+  const Vector3 place = (along > 0 ? -of.tail_place : of.tail_place) * axis;
   Vector3 there = v + w.cross(place);
   there -= axis.dot(there) * axis;
   return Wrench::ofForceAt(-s.pressure * slope * std::abs(along) * there, place);
@@ -270,7 +273,7 @@ Vector3 ViscousLaw::spinForce(const Scalars& s, const Vector3& w, const Vector3&
   constexpr double kLeastSpin = 1e-4;
   const double crisis = S > kLeastSpin ? 0.75 * of.crisis / S : 0;
   const double lambda = 0.75 * of.fresh - crisis;
-  const Vector3 fresh = s.smooth * (spin_mass_ * w).cross(v);
+  const Vector3 fresh = s.smooth * (smooth_->spin_mass * w).cross(v);
   const double drag = kLiftDrag * square(lambda) * fresh.squaredNorm() /
                       (density_ / 8 * area_ * speed_sq * std::sqrt(speed_sq));
   return (lambda - 1) * fresh - drag * v;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
 #include "bullet_ambient/force/law/surface_load.h"
@@ -47,13 +48,14 @@ class ViscousLaw {
   ViscousLaw(const FluidBody& body, const FormShape& shape, const Vector3& own_drag,
              const ViscousFluid& fluid);
 
-  /// Returns the matrix that scales by s_j along the axes q_j.
+  /// Returns the matrix that scales by s_j along the axes q_j. @pre isSmooth()
   Matrix3 scaling(const Vector3& s) const {
-    return s[0] * projections_[0] + s[1] * projections_[1] + s[2] * projections_[2];
+    const Matrix3(&p)[3] = smooth_->projections;
+    return s[0] * p[0] + s[1] * p[1] + s[2] * p[2];
   }
   const Resistance& resistance() const { return resistance_; }
   /// True if some of the base separates from a smooth surface; else S = 1 in every motion.
-  bool isSmooth() const { return is_smooth_; }
+  bool isSmooth() const { return smooth_ != nullptr; }
 
   struct Scalars {
     bool moves = false;  ///< false: no load
@@ -84,9 +86,23 @@ class ViscousLaw {
   /// Numbers of both ways along the axes: +q_1, +q_2, +q_3, -q_1, -q_2, -q_3.
   using Ways = Eigen::Array<double, 6, 1, Eigen::DontAlign>;
 
-  void setTurning(const FluidBody& body);
-  void setWays(const FluidBody& body, const Vector3& own_drag);
-  void setTail(const FluidBody& body, const FormShape& shape, const Vector3& masses);
+  /// Constants that only smooth bodies have.
+  struct Smooth {
+    Matrix3 axes;                         ///< q_j of all scalars, in columns
+    Matrix3 projections[3];               ///< q_j q_j^T
+    Vector3 share;                        ///< chi_j
+    Ways thickness_sq, layer;             ///< N^2, x of eq. (107)
+    Ways laminar, bubble, smooth, rough;  ///< sigma of eq. (106)
+    Ways bubble_friction, nose_friction;  ///< A_j chi_j f_B, A_j chi_j f_T of eq. (114) [m^2]
+    Matrix3 uneven = Matrix3::Zero();     ///< nu_i times the weights of s_j in eq. (108)
+    Matrix3 spin_mass;                    ///< rho V/2 diag((1 - nu_i)^4) in F [kg]
+    double tail = 0, tail_place = 0;      ///< rho/2 A_1 C_t0 [kg/m], x_t [m]
+    std::array<std::array<double, 4>, 2> tail_ways{};  ///< k_L, k_B, k_1, k_4 of +-q_1
+  };
+
+  void setTurning(const FluidBody& body, Smooth& to) const;
+  void setWays(const FluidBody& body, const Vector3& own_drag, Smooth& to) const;
+  void setTail(const FluidBody& body, const FormShape& shape, Smooth& to) const;
   double addLayers(Scalars& s, double reynolds, const Vector3& direction,
                    double turn_sq) const noexcept;
   Wrench tailLoad(const Scalars& s, const Vector3& w, const Vector3& v) const noexcept;
@@ -94,23 +110,11 @@ class ViscousLaw {
 
   double density_, diameter_, area_, sharp_share_, relative_roughness_;
   double reynolds_per_speed_;  ///< [s/m]
-  Matrix3 axes_;               ///< q_j of all scalars, in columns
-  Matrix3 projections_[3];     ///< q_j q_j^T
   Resistance resistance_;
-  Matrix3 turn_speed_;      ///< 3 G/(2 D_A) [m]
-  Matrix3 drag_;            ///< R_vv/(3 pi D_A)
-  double turn_drag_;        ///< a third of its trace
-  Vector3 share_{0, 0, 0};  ///< chi_j
-  bool is_smooth_ = false;
-
-  // Constants that only smooth bodies have.
-  Ways thickness_sq_, layer_;               ///< N^2, x of eq. (107)
-  Ways laminar_, bubble_, smooth_, rough_;  ///< sigma of eq. (106)
-  Ways bubble_friction_, nose_friction_;    ///< A_j chi_j f_B, A_j chi_j f_T of eq. (114) [m^2]
-  Matrix3 uneven_;                          ///< nu_i times the weights of s_j in eq. (108)
-  Matrix3 spin_mass_;                       ///< rho V/2 diag((1 - nu_i)^4) in F [kg]
-  double tail_ = 0, tail_place_ = 0;        ///< rho/2 A_1 C_t0 [kg/m], x_t [m]
-  std::array<std::array<double, 4>, 2> tail_ways_{};  ///< k_L, k_B, k_1, k_4 of +-q_1
+  Matrix3 turn_speed_;                    ///< 3 G/(2 D_A) [m]
+  Matrix3 drag_;                          ///< R_vv/(3 pi D_A)
+  double turn_drag_;                      ///< a third of its trace
+  std::unique_ptr<const Smooth> smooth_;  ///< null: S = 1 in every motion
 };
 
 /// Loads on a smooth ball, docs/theory.md eq. (119), about its centre for the motion there.

@@ -280,7 +280,7 @@ Wrench computeFaceLoad(const PackedFaces& faces, double reference_length,
                        const Twist& relative_twist, const LoadSettings& settings,
                        const SurfacePlane* plane) noexcept {
   AMBIENT_ASSERT(faces.size() == 0 ||
-                 (settings.law == PressureLaw::kForm) == (faces.blocks().form != nullptr));
+                 (settings.law == PressureLaw::kForm) == (faces.blocks().sharpness != nullptr));
   AMBIENT_ASSERT(!settings.shape || settings.law == PressureLaw::kForm);
   AMBIENT_ASSERT(settings.density >= 0 && reference_length >= 0);
   const double length = faces.lengthUnit();

@@ -25,9 +25,7 @@ class ViscousLoads : public SurfaceLoads {
     const Parts parts = compute(x, wet);
     return {parts.pressure + parts.layer, parts.growth};
   }
-  const Resistance* resistance() const noexcept override {
-    return resistance_ ? &*resistance_ : nullptr;
-  }
+  const Resistance* resistance() const noexcept override { return resistance_; }
   bool needsGuard() const noexcept override { return false; }
 
  protected:
@@ -45,7 +43,7 @@ class ViscousLoads : public SurfaceLoads {
     return {root * growth.rotation, root * growth.translation};
   }
 
-  std::optional<Resistance> resistance_;  ///< none: no friction
+  const Resistance* resistance_ = nullptr;  ///< of the derived class; null: no friction
 
  private:
   FaceLoads partsOn(const Twist& x, const WetPart* wet) const noexcept {
@@ -81,19 +79,19 @@ class FormLoads final : public ViscousLoads {
     Vector3 own_drag{0, 0, 0};
     if (!body->viscous.separation.smooth_base.isZero(0)) own_drag = LoadTables(body).ownDrag(faces);
     law_.emplace(*body, shape_->shape, own_drag, fluidOf(settings));
-    if (settings.skin_friction) resistance_ = law_->resistance();
+    if (settings.skin_friction) resistance_ = &law_->resistance();
   }
 
   /// Adds wings, which lift with the rest in place of the body as a whole.
   void add(LoadsOnWings wings) {
-    wings_ = std::move(wings.lift);
-    on_wings_ = std::move(wings.on_faces);
+    wings_ = std::make_unique<const LoadsOnWings>(std::move(wings));
     lift_ = FormLift(LiftedPart{}, *shape_, 0);
   }
 
   int faces() const noexcept override {
     int faces = on_faces_->faces();
-    for (const auto& wing : on_wings_) faces += wing->faces();
+    if (wings_)
+      for (const auto& wing : wings_->on_faces) faces += wing->faces();
     return faces;
   }
   double wakeShare() const noexcept override { return shape_->wakeShare(); }
@@ -105,7 +103,7 @@ class FormLoads final : public ViscousLoads {
     if (!law_) {
       const Wrench faces = drag_.scaled(withWings(onFaces(x, wet), x, wet), x);
       Parts parts{faces + share * atCentre(lift_.load(w, v, density_)), {}, {}};
-      if (wings_) parts.pressure += wings_->load(x, density_, {}, wet);
+      if (wings_) parts.pressure += wings_->lift.load(x, density_, {}, wet);
       return parts;
     }
     const ViscousLaw::Scalars s = law_->scalars(x);
@@ -114,7 +112,7 @@ class FormLoads final : public ViscousLoads {
     Wrench whole = lift_.load(w, v, density_, s.munk);
     if (law_->isSmooth()) whole += law_->smoothLoad(s, w, v);
     Parts parts{s.pressure * on_faces + share * atCentre(whole), {}, {}};
-    if (wings_) parts.pressure += wings_->load(x, density_, {s.munk, s.pressure}, wet);
+    if (wings_) parts.pressure += wings_->lift.load(x, density_, {s.munk, s.pressure}, wet);
     if (!resistance_) return parts;
     if (law_->isSmooth()) parts.layer = share * atCentre({Vector3::Zero(), law_->layerForce(s, v)});
     parts.growth = inWater(law_->growth(s, share > 0 ? -power(on_faces, x) / share : 0), wet);
@@ -135,7 +133,8 @@ class FormLoads final : public ViscousLoads {
     return wet ? on_faces_->wetLoad(x, *wet) : on_faces_->load(x);
   }
   Wrench withWings(Wrench load, const Twist& x, const WetPart* wet) const noexcept {
-    for (const auto& wing : on_wings_) load += wet ? wing->wetLoad(x, *wet) : wing->load(x);
+    if (!wings_) return load;
+    for (const auto& wing : wings_->on_faces) load += wet ? wing->wetLoad(x, *wet) : wing->load(x);
     return load;
   }
   Wrench atCentre(const Wrench& about) const noexcept {
@@ -158,11 +157,10 @@ class FormLoads final : public ViscousLoads {
   FormLift lift_;
   double density_;
   Vector3 centre_;
-  Vector3 still_axis_;             ///< of a body of revolution, unit; else 0
-  bool is_round_;                  ///< there is such an axis
-  std::optional<ViscousLaw> law_;  ///< none: no viscosity
-  std::optional<WingLift> wings_;  ///< none: the body is one part
-  std::vector<std::shared_ptr<const SurfaceLoads>> on_wings_;
+  Vector3 still_axis_;                         ///< of a body of revolution, unit; else 0
+  bool is_round_;                              ///< there is such an axis
+  std::optional<ViscousLaw> law_;              ///< none: no viscosity
+  std::unique_ptr<const LoadsOnWings> wings_;  ///< null: the body is one part
 };
 
 /// Form law on a ball in closed form, docs/theory.md eq. (119); on the part of it that is in the
@@ -176,8 +174,9 @@ class BallLoads final : public ViscousLoads {
         centre_(ball.centre_of_volume),
         radius_(ball.sphere_radius),
         fluid_(fluidOf(settings)) {
-    if (settings.skin_friction && settings.viscosity > 0)
-      resistance_ = ballResistance(radius_, settings.viscosity);
+    if (!settings.skin_friction || !(settings.viscosity > 0)) return;
+    of_ball_ = ballResistance(radius_, settings.viscosity);
+    resistance_ = &of_ball_;
   }
 
   int faces() const noexcept override { return on_unit_ ? on_unit_->faces() : 0; }
@@ -213,6 +212,7 @@ class BallLoads final : public ViscousLoads {
   Vector3 centre_;
   double radius_;
   ViscousFluid fluid_;
+  Resistance of_ball_;
 };
 
 }  // namespace

@@ -24,13 +24,15 @@ PartPlane planeOf(const Immersion& at) {
   return {{s.x(), s.y(), s.z()}, at.plane.height, kReach * fade * at.size()};
 }
 
-/// Returns the share of a part of the added mass that is between the sides of a pool: of a ball
-/// with the second moment of a disc, whatever its tilt.
-double partInPool(const PartBlock& block, int lane, const PoolSides& sides) {
+/// Returns the share of the image of a part of the added mass, with axes turned, that is between
+/// the sides of a pool: of a ball with the second moment of a disc, whatever its tilt.
+double partInPool(const PartBlock& block, int lane, int turned, const PoolSides& sides) {
   const auto at = [lane](const auto& rows, int row) {
     return static_cast<double>(rows[row][lane]);
   };
-  const Vector3 centre(at(block.centre, 0), at(block.centre, 1), at(block.centre, 2));
+  Vector3 centre(at(block.centre, 0), at(block.centre, 1), at(block.centre, 2));
+  for (int axis = 0; axis < 3; ++axis)
+    if (turned >> axis & 1) centre[axis] = -centre[axis];
   const double square = at(block.spread, 0) + at(block.spread, 1) + at(block.spread, 2);
   return shareInPool(sides, centre, Vector3::Zero(), 2 * square);
 }
@@ -41,10 +43,12 @@ template <class Visit>
 void forBlocksInPool(const PartBlocks& parts, const PoolSides* sides_F, const Visit& visit) {
   if (!sides_F) return visit(parts);
   for (std::size_t i = 0; i < parts.count; ++i) {
-    double shares[PartBlock::kParts];
-    for (int lane = 0; lane < PartBlock::kParts; ++lane)
-      shares[lane] = partInPool(parts.blocks[i], lane, *sides_F);
-    visit(PartBlocks{parts.blocks + i, 1, shares});
+    constexpr int kParts = PartBlock::kParts, kMostImages = 8;
+    double shares[kMostImages * kParts];
+    for (int k = 0; k < parts.images() * kParts; ++k)
+      shares[k] =
+          partInPool(parts.blocks[i], k % kParts, imageOf(parts.mirrors, k / kParts), *sides_F);
+    visit(PartBlocks{parts.blocks + i, 1, parts.mirrors, shares});
   }
 }
 

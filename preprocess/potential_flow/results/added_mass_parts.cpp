@@ -250,6 +250,51 @@ std::vector<AddedMassPart> joinPanels(const std::vector<PanelInertia>& panels) {
   return joined(panels, places, kMostParts);
 }
 
+namespace {
+
+/// Returns the parts in the first octant, or what the turned axes leave of one, with all images.
+std::vector<AddedMassPart> imagesOfFirst(const std::vector<AddedMassPart>& parts, int mirrors,
+                                         double rounding) {
+  std::vector<AddedMassPart> images;
+  for (AddedMassPart part : parts) {
+    int apart = 0;  // axes whose planes do not go through the part
+    bool is_first = true;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!(mirrors >> axis & 1)) continue;
+      is_first = is_first && part.centre[axis] > -rounding;
+      if (part.centre[axis] > rounding) apart |= 1 << axis;
+      if (part.centre[axis] > rounding) continue;
+      const AddedMassPart image = imageOf(part, 1 << axis);
+      part.centre = (part.centre + image.centre) / 2;
+      part.spread = (part.spread + image.spread) / 2;
+      part.inertia = (part.inertia + image.inertia) / 2;
+    }
+    for (int turned = 0; is_first && turned < 8; ++turned)
+      if ((turned & apart) == turned) images.push_back(imageOf(part, turned));
+  }
+  return images;
+}
+
+}  // namespace
+
+std::vector<AddedMassPart> mirrored(const std::vector<AddedMassPart>& parts) {
+  constexpr double kRounding = 1e-5;
+  double size = 0;
+  for (const AddedMassPart& part : parts) size = std::max(size, part.centre.cwiseAbs().maxCoeff());
+  const auto isThere = [&](const AddedMassPart& image) {
+    return std::any_of(parts.begin(), parts.end(), [&](const AddedMassPart& part) {
+      return (image.centre - part.centre).norm() <= kRounding * size &&
+             (image.inertia - part.inertia).norm() <= kRounding * part.inertia.norm();
+    });
+  };
+  for (const int mirrors : {7, 3, 5, 6, 1, 2, 4}) {
+    std::vector<AddedMassPart> images = imagesOfFirst(parts, mirrors, kRounding * size);
+    if (images.size() == parts.size() && std::all_of(images.begin(), images.end(), isThere))
+      return images;
+  }
+  return parts;
+}
+
 std::vector<AddedMassPart> placed(std::vector<AddedMassPart> parts, double length,
                                   const Vector3& centre) {
   AMBIENT_ASSERT(length > 0 && centre.allFinite());

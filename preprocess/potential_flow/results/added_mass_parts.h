@@ -20,6 +20,10 @@ struct PanelInertia {
 /// turns about it. Independent of the unit of length. Cost: O(panels).
 std::vector<AddedMassPart> joinPanels(const std::vector<PanelInertia>& panels);
 
+/// Makes parts that planes across axes through the origin mirror, but for rounding, mirror each
+/// other to the last bit: then AddedMassParts keeps few. Others stay as they are.
+std::vector<AddedMassPart> mirrored(const std::vector<AddedMassPart>& parts);
+
 /// Converts parts to another unit of length and another origin: z = length z' + centre, where z'
 /// are the coordinates of the given parts. Rounds to single precision, as in files.
 std::vector<AddedMassPart> placed(std::vector<AddedMassPart> parts, double length,

@@ -88,23 +88,40 @@ TEST(PackedFaces, LieWithinTheBoundsOfTheirBlock) {
   }
 }
 
+// What only loads on chosen blocks read is not there where all are summed.
+TEST(PackedFaces, OfFewBlocksKeepNoBoundsAndNoLeeSide) {
+  for (const std::size_t blocks : {FaceBlocks::kFewestChosen - 1, FaceBlocks::kFewestChosen}) {
+    FaceTable faces;
+    for (std::size_t i = 0; i < FaceBlock::kFaces * blocks; ++i)
+      faces.add(Vector3::UnitX(), {1, static_cast<double>(i), 0}, 1);
+    faces.sharpness.assign(faces.size(), 1);
+    const PackedFaces packed(faces, FormShape{});
+    const FaceBlocks form = packed.blocks();
+    EXPECT_EQ(form.count, blocks);
+    EXPECT_EQ(form.bounds != nullptr, blocks >= FaceBlocks::kFewestChosen);
+    EXPECT_EQ(form.lee != nullptr, blocks >= FaceBlocks::kFewestChosen);
+    EXPECT_NE(form.sharpness, nullptr);
+    EXPECT_EQ(form.arms, nullptr);
+  }
+}
+
 TEST(PackedFaces, LieWithTheirDiscsWithinTheBoxOfTheirBlock) {
   const PackedFaces packed(someFaces(3));
   const FaceBlocks faces = packed.blocks();
   const double unit = packed.areaUnit() / (packed.lengthUnit() * packed.lengthUnit());
   for (std::size_t k = 0; k < faces.count; ++k) {
     const FaceBlock& block = faces.blocks[k];
-    const FaceBounds& bounds = faces.bounds[k / FaceBounds::kBlocks];
-    const std::size_t at = k % FaceBounds::kBlocks;
+    const FacePlaces& places = faces.places[k / FacePlaces::kBlocks];
+    const std::size_t at = k % FacePlaces::kBlocks;
     for (int axis = 0; axis < 3; ++axis) {
       const float* values = block.centroid[axis];
       const auto [low, high] = std::minmax_element(values, values + FaceBlock::kFaces);
-      EXPECT_LT(bounds.centre[axis][at] - bounds.half[axis][at], *low);
-      EXPECT_GT(bounds.centre[axis][at] + bounds.half[axis][at], *high);
-      EXPECT_LT(2 * bounds.half[axis][at], *high - *low + 1e-5f);
+      EXPECT_LT(places.centre[axis][at] - places.half[axis][at], *low);
+      EXPECT_GT(places.centre[axis][at] + places.half[axis][at], *high);
+      EXPECT_LT(2 * places.half[axis][at], *high - *low + 1e-5f);
     }
     const double area = static_cast<double>(*std::max_element(block.area, std::end(block.area)));
-    const auto radius = static_cast<double>(bounds.radius[at]);
+    const auto radius = static_cast<double>(places.radius[at]);
     EXPECT_GT(radius * radius, (1 + 1e-4) * area * unit / kPi);
     EXPECT_LT(radius, 1.001 * std::sqrt(area * unit / kPi) + 1e-5);
   }
@@ -136,8 +153,8 @@ TEST(PackedHull, HoldsEachTriangleOnceInBoxesThatHoldIt) {
   Vector3 sum(0, 0, 0);
   double area = 0;
   for (std::size_t i = 0; i < blocks.count; ++i) {
-    const HullMoments& group = blocks.moments[i / HullMoments::kBlocks];
-    const std::size_t lane = i % HullMoments::kBlocks;
+    const HullBoxes& group = blocks.boxes[i / HullBoxes::kBlocks];
+    const std::size_t lane = i % HullBoxes::kBlocks;
     for (int k = 0; k < HullBlock::kTriangles; ++k) {
       const Vector3 normal = areaNormal(blocks.blocks[i], k);
       sum += normal;

@@ -44,6 +44,8 @@ TEST(SingleSums, LeaveOutNoFaceThatTheFlowIsAttachedTo) {
   const PackedFaces packed(body);
   const FaceBlocks faces = packed.blocks();
   std::vector<FaceBounds> wide(faces.bounds, faces.bounds + (faces.count + 15) / 16);
+  FaceBlocks not_known = faces;
+  not_known.bounds = wide.data();
   for (FaceBounds& bounds : wide)
     for (float(&row)[FaceBounds::kBlocks] : bounds.reach)
       for (float& reach : row) reach = 4;
@@ -56,7 +58,7 @@ TEST(SingleSums, LeaveOutNoFaceThatTheFlowIsAttachedTo) {
       motion.linear[axis] = static_cast<float>(arbitrary.between(-1, 1));
     }
     const LoadSums some = sumBlocksBaseline(faces, motion);
-    const LoadSums all = sumBlocksBaseline({faces.blocks, wide.data(), faces.count}, motion);
+    const LoadSums all = sumBlocksBaseline(not_known, motion);
     // Sums without the skipped blocks have other runs, hence other roundings.
     double largest = 0;
     for (const double value : all.wrench) largest = std::max(largest, std::abs(value));
@@ -73,14 +75,14 @@ TEST(SingleSums, OfACutBodyHaveTheBitsOfSumsThatDoNotKnowWhereBlocksLie) {
   for (const std::size_t count : {100, 1280}) {
     const PackedFaces packed(firstFaces(body, count));
     const FaceBlocks faces = packed.blocks();
-    std::vector<FaceBounds> wide(faces.bounds, faces.bounds + (faces.count + 15) / 16);
-    std::vector<FaceBounds> narrow = wide;
-    for (FaceBounds& bounds : wide)
-      for (float& radius : bounds.radius) radius = 10;
-    for (FaceBounds& bounds : narrow) {
-      for (float(&row)[FaceBounds::kBlocks] : bounds.half)
+    std::vector<FacePlaces> wide(faces.places, faces.places + (faces.count + 15) / 16);
+    std::vector<FacePlaces> narrow = wide;
+    for (FacePlaces& places : wide)
+      for (float& radius : places.radius) radius = 10;
+    for (FacePlaces& places : narrow) {
+      for (float(&row)[FacePlaces::kBlocks] : places.half)
         for (float& half : row) half = 0;
-      for (float& radius : bounds.radius) radius = 0;
+      for (float& radius : places.radius) radius = 0;
     }
     int wrong = 0;
     for (int i = 0; i < 200; ++i) {
@@ -92,8 +94,10 @@ TEST(SingleSums, OfACutBodyHaveTheBitsOfSumsThatDoNotKnowWhereBlocksLie) {
           static_cast<float>(packed.areaUnit() /
                              (kPi * packed.lengthUnit() * packed.lengthUnit()))};
       motion.cut = &cut;
-      const auto bitsWith = [&](const std::vector<FaceBounds>& bounds) {
-        return test::bitsOf(sumBlocksBaseline({faces.blocks, bounds.data(), faces.count}, motion));
+      const auto bitsWith = [&](const std::vector<FacePlaces>& places) {
+        FaceBlocks elsewhere = faces;
+        elsewhere.places = places.data();
+        return test::bitsOf(sumBlocksBaseline(elsewhere, motion));
       };
       const auto bits = test::bitsOf(sumBlocksBaseline(faces, motion));
       EXPECT_EQ(bits, bitsWith(wide)) << i;
@@ -308,8 +312,8 @@ TEST(LoadTables, KeepTheDragOfEachSetOfFaces) {
 TEST(LoadTables, PackTheSharpnessForTheFormLawOnly) {
   const auto body = closedSphere();
   const LoadTables tables(body);
-  EXPECT_EQ(tables.packedFaces({body, &body->faces}, nullptr)->blocks().form, nullptr);
-  EXPECT_NE(tables.packedFaces({body, &body->form.faces}, tables.shape().get())->blocks().form,
+  EXPECT_EQ(tables.packedFaces({body, &body->faces}, nullptr)->blocks().sharpness, nullptr);
+  EXPECT_NE(tables.packedFaces({body, &body->form.faces}, tables.shape().get())->blocks().sharpness,
             nullptr);
 }
 

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "bullet_ambient/base/pi.h"
@@ -164,6 +166,26 @@ TEST(AddedMassParts, AreRoundedToTheSinglePrecisionOfFiles) {
     for (const double value : part.centre) EXPECT_TRUE(isSingle(value)) << value;
     for (const double value : part.spread) EXPECT_TRUE(isSingle(value)) << value;
     for (const double value : part.inertia.reshaped()) EXPECT_TRUE(isSingle(value)) << value;
+  }
+}
+
+// Where a ring of parts has none opposite, as on a capsule, planes through the axis are left.
+TEST(AddedMassParts, OfSimpleShapesAreMirroredWithinRounding) {
+  const Matrix6 K = Vector6(0.3, 0.3, 0.3, 0.5, 0.5, 0.5).asDiagonal();
+  const std::pair<TriangleMesh, int> shapes[] = {{makeBoxMesh({1, 0.7, 0.4}, 350), 7},
+                                                 {makeCylinderMesh(0.7, 0.8, 500), 7},
+                                                 {makeCapsuleMesh(0.7, 0.8, 500), 3},
+                                                 {makeConeMesh(0.7, 0.8, 500), 3},
+                                                 {test::gradedTetrahedron(2), 0}};
+  for (const auto& [mesh, mirrors] : shapes) {
+    const std::vector<AddedMassPart> parts = estimateParts(mesh, K), images = mirrored(parts);
+    EXPECT_EQ(AddedMassParts(images).blocks().mirrors, mirrors);
+    ASSERT_EQ(images.size(), parts.size());
+    for (const AddedMassPart& image : images)
+      EXPECT_TRUE(std::any_of(parts.begin(), parts.end(), [&](const AddedMassPart& part) {
+        return (image.centre - part.centre).norm() < 1e-5 &&
+               (image.inertia - part.inertia).norm() < 1e-5 * part.inertia.norm();
+      }));
   }
 }
 

@@ -237,8 +237,8 @@ TEST(PartSums, LeaveOutNoPartInTheWater) {
       return std::make_pair(test::bitsOf(kPartKernelBaseline.inertia(blocks, plane)),
                             test::bitsOf(kPartKernelBaseline.gradient(blocks, plane, products)));
     };
-    EXPECT_EQ(bitsOf(known), bitsOf({far.data(), far.size()})) << height;
-    if (bitsOf(known) != bitsOf({near.data(), near.size()})) ++missed;
+    EXPECT_EQ(bitsOf(known), bitsOf({far.data(), far.size(), known.mirrors})) << height;
+    if (bitsOf(known) != bitsOf({near.data(), near.size(), known.mirrors})) ++missed;
   }
   EXPECT_GT(missed, 20);
 }
@@ -247,6 +247,78 @@ Matrix6 arbitrarySymmetric(Arbitrary& arbitrary, double size) {
   Matrix6 matrix;
   for (int i = 0; i < 36; ++i) matrix(i) = size * arbitrary.between(-1, 1);
   return matrix + matrix.transpose();
+}
+
+/// Parts in the first octant, one of them on a plane, with all their images.
+std::vector<AddedMassPart> partsWithImages(int mirrors) {
+  Arbitrary arbitrary(31);
+  std::vector<AddedMassPart> parts;
+  for (int i = 0; i < 11; ++i) {
+    AddedMassPart part;
+    for (double& c : part.centre) c = static_cast<float>(arbitrary.between(0.1, 0.5));
+    part.spread << 0.02, 0.03, 0.04, 0.01, 0.015, 0.02;
+    part.inertia = arbitrarySymmetric(arbitrary, 0.1).cast<float>().cast<double>();
+    int apart = mirrors;
+    for (int axis = 0; i == 0 && axis < 3; ++axis) {
+      if (!(mirrors >> axis & 1)) continue;
+      const AddedMassPart image = imageOf(part, 1 << axis);
+      part = {(part.centre + image.centre) / 2, (part.spread + image.spread) / 2,
+              (part.inertia + image.inertia) / 2};
+      apart &= ~(1 << axis);
+      break;
+    }
+    for (int turned = 0; turned < 8; ++turned)
+      if ((turned & apart) == turned) parts.push_back(imageOf(part, turned));
+  }
+  return parts;
+}
+
+/// The same with a part that moves nothing and has no image.
+std::vector<AddedMassPart> withoutMirrors(std::vector<AddedMassPart> parts) {
+  parts.push_back({{0.3, 0.2, 0.1}, Vector6::Zero(), Matrix6::Zero()});
+  return parts;
+}
+
+TEST(MirroredParts, AreKeptOnceAndAreAllThere) {
+  for (int mirrors = 0; mirrors < 8; ++mirrors) {
+    const std::vector<AddedMassPart> parts = partsWithImages(mirrors);
+    const AddedMassParts kept = parts, every = withoutMirrors(parts);
+    EXPECT_EQ(kept.blocks().mirrors, mirrors);
+    EXPECT_EQ(every.blocks().mirrors, 0);
+    EXPECT_EQ(kept.blocks().count, 2u);
+    ASSERT_EQ(kept.size(), parts.size());
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      EXPECT_EQ(kept[i].centre, parts[i].centre);
+      EXPECT_EQ(kept[i].spread, Vector6(parts[i].spread.cast<float>().cast<double>()));
+      EXPECT_EQ(kept[i].inertia, parts[i].inertia);
+      EXPECT_EQ(kept.scaled(2)[i].inertia, scaleShape(parts[i].inertia, 2));
+    }
+    EXPECT_LT((kept.sum() - every.sum()).norm(), 1e-14 * every.sum().norm());
+  }
+}
+
+TEST(MirroredParts, HaveTheSumsOfAllOfThem) {
+  Arbitrary arbitrary(32);
+  PoolSides sides;
+  sides.count = 1;
+  sides.of[0] = {Vector3(0.6, 0.8, 0), {0.1, 0.05, 0}};
+  for (int mirrors = 0; mirrors < 8; ++mirrors) {
+    FluidBody body = test::floatingBox({1, 1, 1});
+    body.added_mass_parts = partsWithImages(mirrors);
+    const Wetted kept(body);
+    body.added_mass_parts = withoutMirrors(partsWithImages(mirrors));
+    const Wetted every(body);
+    for (int i = 0; i < 50; ++i) {
+      const Twist x = arbitrary.twist(1, 1);
+      Immersion at = kept.at(arbitrary.vector(), arbitrary.between(-0.5, 0.5));
+      if (i % 2 == 0) at.plane.sides_F = &sides;
+      EXPECT_LT((kept.K(at) - every.K(at)).norm(), 1e-13 * body.added_mass.norm());
+      const InertiaGradient a = kept.gradient(at, x), b = every.gradient(at, x);
+      const double scale = std::abs(b.by_height) + b.by_normal.norm();
+      EXPECT_LE(std::abs(a.by_height - b.by_height), 1e-12 * scale);
+      EXPECT_LE((a.by_normal - b.by_normal).norm(), 1e-12 * scale);
+    }
+  }
 }
 
 /// An ellipsoid with parts, and a copy with a table of random corrections.
