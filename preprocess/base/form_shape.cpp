@@ -235,14 +235,13 @@ namespace {
 
 /// Sharpness of each triangle, for the back of a sheet after that for its front. `radius`: of the
 /// sphere of the same area [m].
-std::vector<double> sharpnessByTriangle(const SurfaceTriangles& mesh, bool is_sheet,
-                                        double radius) {
+std::vector<double> sharpnessByTriangle(const SurfaceTriangles& mesh, double radius) {
   const VertexNormals normals(mesh);
   std::vector<double> front, back;
   for (int t = 0; t < mesh.size(); ++t) {
     const Curvatures curvatures = curvaturesOf(mesh, normals, t);
     front.push_back(sharpnessOf(curvatures.largest, radius));
-    if (is_sheet) back.push_back(sharpnessOf(-curvatures.smallest, radius));
+    if (mesh.isSheet()) back.push_back(sharpnessOf(-curvatures.smallest, radius));
   }
   front.insert(front.end(), back.begin(), back.end());
   return front;
@@ -253,9 +252,8 @@ std::vector<double> sharpnessByTriangle(const SurfaceTriangles& mesh, bool is_sh
 std::vector<double> computeSharpness(const FluidBody& body) {
   if (body.surface.triangles.empty()) return std::vector<double>(body.faces.size(), 1);
   const WholeSides whole(body);
-  const SurfaceTriangles mesh(whole.surface);
-  const std::vector<double> of_whole = sharpnessByTriangle(
-      mesh, body.faces.size() > whole.parts.size(), std::sqrt(body.area / (4 * kPi)));
+  const SurfaceTriangles& mesh = whole.mesh;
+  const std::vector<double> of_whole = sharpnessByTriangle(mesh, std::sqrt(body.area / (4 * kPi)));
   const auto count = static_cast<std::size_t>(whole.count);
   std::vector<double> of_parts;
   of_parts.reserve(body.faces.size());

@@ -188,15 +188,23 @@ bool isLongStrip(const FlatSide& side, const SurfaceTriangles& mesh, double size
   return has_long && twice_area / 2 < kNarrow * size * longest;
 }
 
-/// Turns an outline to a first corner that does not hang on the numbers of vertices.
-void startAtLowest(std::vector<Vector3>& corners) {
-  std::rotate(corners.begin(),
-              std::min_element(corners.begin(), corners.end(),
-                               [](const Vector3& a, const Vector3& b) {
-                                 return std::tie(a.x(), a.y(), a.z()) <
-                                        std::tie(b.x(), b.y(), b.z());
-                               }),
-              corners.end());
+/// Turns an outline to the first corner of its longest edge, of equal ones to the lowest corner: it
+/// does not hang on the numbers of vertices, nor on the frame where one edge is the longest.
+void startAtLongestEdge(std::vector<Vector3>& corners) {
+  constexpr double kEqual = 1e-5;  // of lengths in single precision
+  const auto edgeAt = [&](std::size_t i) {
+    return (corners[(i + 1) % corners.size()] - corners[i]).norm();
+  };
+  const auto place = [&](std::size_t i) {
+    return std::tie(corners[i].x(), corners[i].y(), corners[i].z());
+  };
+  double longest = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) longest = std::max(longest, edgeAt(i));
+  std::size_t first = corners.size();
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    if (edgeAt(i) >= (1 - kEqual) * longest && (first == corners.size() || place(i) < place(first)))
+      first = i;
+  std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(first), corners.end());
 }
 
 /// Sets the sharpness of the faces of a side; a sheet of as many `triangles` has them on its back,
@@ -234,7 +242,8 @@ class FaceCollector {
 
 /// Faces of whole flat sides with the sharpness of their parts, first those of `whole`, and then
 /// of a sheet those of its back.
-FaceTable facesOf(const WholeSides& whole, const SurfaceTriangles& mesh, const FaceTable& parts) {
+FaceTable facesOf(const WholeSides& whole, const FaceTable& parts) {
+  const SurfaceTriangles& mesh = whole.mesh;
   std::vector<double> sharpness(static_cast<std::size_t>(whole.count));
   FaceTable faces;
   faces.reserve(whole.face.size());
@@ -264,9 +273,8 @@ FaceTable facesWithPoints(const FluidBody& body) {
   AMBIENT_ASSERT(parts.sharpness.size() == parts.size());
   if (body.surface.triangles.empty()) return parts;
   const WholeSides whole(body);
-  const SurfaceTriangles mesh(whole.surface);
-  const bool is_sheet = parts.size() > whole.parts.size();
-  FaceTable faces = facesOf(whole, mesh, parts);
+  const SurfaceTriangles& mesh = whole.mesh;
+  FaceTable faces = facesOf(whole, parts);
   const double size = sizeOf(body, mesh), longest = PointMaker::kLongest * size;
   const PointMaker maker(size);
   FaceCollector collector(faces);
@@ -277,7 +285,7 @@ FaceTable facesWithPoints(const FluidBody& body) {
     const bool is_sharp = *common == 1;
     if (!is_sharp && !isLongStrip(side, mesh, size)) continue;
     std::vector<Vector3> corners = mesh.places(side.corners);
-    if (corners.size() > 4) startAtLowest(corners);
+    if (corners.size() > 4) startAtLongestEdge(corners);
     constexpr std::size_t kDisc = 12;  // corners of a side with a round outline
     const std::vector<Point> points = maker.pointsOf(corners, !is_sharp || corners.size() >= kDisc);
     const double sharpness = is_sharp ? sharpnessOfSide(corners) : *common;
@@ -287,7 +295,7 @@ FaceTable facesWithPoints(const FluidBody& body) {
     }
     for (const Point& point : points) {
       collector.add(side.normal, point.place, point.area, sharpness);
-      if (is_sheet) collector.add(-side.normal, point.place, point.area, sharpness);
+      if (mesh.isSheet()) collector.add(-side.normal, point.place, point.area, sharpness);
     }
     for (const int t : side.triangles) is_replaced[static_cast<std::size_t>(t)] = true;
   }

@@ -30,6 +30,13 @@ SurfaceTriangles::SurfaceTriangles(const FluidBody& body) {
 
 SurfaceTriangles::SurfaceTriangles(const Surface& surface) {
   weld(surface);
+  setTriangles(std::move(corners_));
+}
+
+void SurfaceTriangles::setTriangles(std::vector<std::array<int, 3>> corners) {
+  corners_ = std::move(corners);
+  normals_.clear();
+  normals_.reserve(corners_.size());
   for (int t = 0; t < size(); ++t) {
     const auto corner = [&](int i) { return place(vertex(t, i)); };
     normals_.push_back((corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized());
@@ -247,14 +254,14 @@ std::vector<FlatSide> findFlatSides(const SurfaceTriangles& mesh) {
   return SideFinder(mesh).sides();
 }
 
-WholeSides::WholeSides(const FluidBody& body) : surface{body.surface.vertices, {}} {
-  const SurfaceTriangles mesh(body);
+WholeSides::WholeSides(const FluidBody& body) : mesh(body) {
   constexpr int kNone = -1;
-  surface.triangles.reserve(body.surface.triangles.size());
+  std::vector<std::array<int, 3>> corners;
+  corners.reserve(static_cast<std::size_t>(mesh.size()));
   parts.assign(static_cast<std::size_t>(mesh.size()), kNone);
   std::vector<bool> is_replaced(parts.size());
   const auto add = [&](int a, int b, int c, int from, int of) {
-    for (const int vertex : {a, b, c}) surface.triangles.push_back(mesh.source(vertex));
+    corners.push_back({a, b, c});
     face.push_back(from);
     side.push_back(of);
   };
@@ -275,6 +282,7 @@ WholeSides::WholeSides(const FluidBody& body) : surface{body.surface.vertices, {
     const auto i = static_cast<int>(t);
     if (!is_replaced[t]) add(mesh.vertex(i, 0), mesh.vertex(i, 1), mesh.vertex(i, 2), i, parts[t]);
   }
+  mesh.setTriangles(std::move(corners));
 }
 
 }  // namespace ambient

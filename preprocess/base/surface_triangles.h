@@ -20,6 +20,8 @@ class SurfaceTriangles {
   explicit SurfaceTriangles(const FluidBody& body);
   /// Computes normals from the corners; 0 for a triangle without area.
   explicit SurfaceTriangles(const Surface& surface);
+  /// Replaces the triangles by others on the same vertices, as the constructor for a surface.
+  void setTriangles(std::vector<std::array<int, 3>> corners);
 
   int size() const { return static_cast<int>(corners_.size()); }
   bool isSheet() const { return is_sheet_; }
@@ -70,7 +72,7 @@ struct WholeSides {
   /// @throws std::invalid_argument as SurfaceTriangles()
   explicit WholeSides(const FluidBody& body);
 
-  Surface surface;         ///< vertices are those of the body
+  SurfaceTriangles mesh;   ///< vertices are those of the body
   std::vector<int> face;   ///< for each triangle that of the body; kOfFan: a new one
   std::vector<int> side;   ///< for each triangle the number of its side
   std::vector<int> parts;  ///< for each triangle of the body the number of its side

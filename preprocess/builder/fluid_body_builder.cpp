@@ -167,9 +167,8 @@ void takeFlow(const TriangleMesh& mesh, const BuildSettings& settings, FluidBody
   body.added_mass_parts = flow.parts;
   body.asymmetry = flow.asymmetry;
   if (settings.flow.sheet) return;
-  // Strips of so many sides take longer than their flow.
-  if (settings.flow.polyhedron && !viscous_flow.resistance &&
-      mesh.triangleCount() > 2 * settings.flow.max_panels)
+  constexpr Eigen::Index kManyStrips = 3000;  // take longer than their flow
+  if (settings.flow.polyhedron && !viscous_flow.resistance && mesh.triangleCount() > kManyStrips)
     viscous_flow.resistance = computeStokesResistance(
         flow.surface, {false, StokesSettings().panels, settings.flow.threads});
   const MeshSeparation found = computeSeparation(flow.surface, flow.potential.rightCols<3>(),
