@@ -101,7 +101,7 @@ void expectCost(const MakeShape& make, const Cost& most) {
 
 TEST(DifferentShapes, SpheresCostNextToNothing) {
   expectCost([](const Sizes& s) { return std::make_unique<btSphereShape>(toScalar(s.x())); },
-             {11.1, 20, 96});
+             {12.5, 20, 96});
 }
 
 std::unique_ptr<btCollisionShape> boxShapeOf(const Sizes& s) {
