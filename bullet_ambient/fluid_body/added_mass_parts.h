@@ -47,8 +47,8 @@ class AddedMassParts {
   AddedMassPart unpacked(std::uint32_t place) const;
 
   int mirrors_ = 0;  ///< as PartBlocks::mirrors
-  /// Of each part: eight times the place of the one that is kept, plus the axes that its image
-  /// turns.
+  /// Code of each part: eight times the place of the part that is kept for it, plus the axes, as
+  /// bits, by which it is that part's image.
   std::vector<std::uint32_t> places_;
   std::vector<PartBlock> blocks_;
 };

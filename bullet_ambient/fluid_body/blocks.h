@@ -25,7 +25,8 @@ struct PartBlocks {
   /// Axes, as bits: planes through the origin across them mirror the body; the blocks hold one part
   /// of all images.
   int mirrors = 0;
-  /// Of the parts of one block that are in a pool, image by image, see imageOf(); null: all.
+  /// Shares of the parts of one block that are in a pool, image by image, see imageOf(). Null: the
+  /// whole parts are.
   const double* shares = nullptr;
 
   [[gnu::always_inline]] int images() const {
@@ -77,7 +78,8 @@ struct alignas(64) FaceColumn {
 
 /// Blocks of a shape with their bounds.
 struct FaceBlocks {
-  /// Of fewer blocks all are summed: to choose costs more than it saves.
+  /// Number of blocks from which on those with attached flow are chosen. Fewer are summed all: to
+  /// choose costs more than it saves.
   static constexpr std::size_t kFewestChosen = 12;
 
   const FaceBlock* blocks;

@@ -88,7 +88,7 @@ TEST(PackedFaces, LieWithinTheBoundsOfTheirBlock) {
   }
 }
 
-// What only loads on chosen blocks read is not there where all are summed.
+// Bounds and the lee side serve the choice of blocks: they are left out where all are summed.
 TEST(PackedFaces, OfFewBlocksKeepNoBoundsAndNoLeeSide) {
   for (const std::size_t blocks : {FaceBlocks::kFewestChosen - 1, FaceBlocks::kFewestChosen}) {
     FaceTable faces;

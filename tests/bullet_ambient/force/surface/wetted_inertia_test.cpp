@@ -273,7 +273,7 @@ std::vector<AddedMassPart> partsWithImages(int mirrors) {
   return parts;
 }
 
-/// The same with a part that moves nothing and has no image.
+/// Adds a part without inertia and without an image, so that no plane mirrors the parts.
 std::vector<AddedMassPart> withoutMirrors(std::vector<AddedMassPart> parts) {
   parts.push_back({{0.3, 0.2, 0.1}, Vector6::Zero(), Matrix6::Zero()});
   return parts;
