@@ -118,7 +118,9 @@ struct FloatingState {
   WaveMemory waves_with_rows;  ///< waves after the step, if rows move the body
   Vector6 twist_before_rows =
       Vector6::Zero();  ///< velocity in B, relative to the water, that constraint rows start from
-  SurfacePlane plane_before_rows;  ///< surface in B at the pose that rows start from
+  SurfacePlane plane_before_rows;   ///< surface in B at the pose that rows start from
+  Vector6 brake = Vector6::Zero();  ///< mean wrench in B by docs/theory.md eq. (68c), in a step in
+                                    ///< which rows may move the body [N m, N]
   /// Last result of standAt(). Its plane is that of the surface in B at the exact pose where the
   /// last flight or step with rows ended, before Bullet rounded it.
   SurfaceStand stand;

@@ -6,7 +6,9 @@
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/immersed/vessel_step.h"
+#include "bullet_ambient/motion/rows/row_velocity.h"
 #include "bullet_ambient/spatial/cholesky.h"
+#include "bullet_ambient/spatial/rotation.h"
 
 namespace ambient {
 namespace {
@@ -66,6 +68,7 @@ Vector6 kickByWavesAndWind(AmbientBody& ambient, const RigidState& now, double d
   const Vector6 x = twistInWater(ambient, now);
   ambient.floating->twist_before_rows = x;
   ambient.floating->plane_before_rows = planeAt(ambient, now);
+  ambient.floating->brake.setZero();
   WaveMemory& waves = ambient.floating->waves_with_rows;
   waves = ambient.floating->waves;
   Vector6 end = exchangeWaves(stand.modes, R, stand.inverse, duration, x, waves);
@@ -95,11 +98,11 @@ struct Fall {
   }
 };
 
-/// Place and Fall of a body where its step began, and the inverse of its inertia there.
+/// Place and Fall of a body where its step began, and its response to impulses there, in B.
 struct Departure {
   SurfacePlace place;
   Fall fall;
-  SymmetricMatrix inverse;
+  Matrix6 response;
 };
 
 /// One buoyancy has acted over the whole step, and the body has come to where it is another one:
@@ -112,8 +115,9 @@ BoundedTwist withinPotential(const Departure& before, const Fall& after, double 
   const Vector6 along = before.fall.lift + after.lift;
   const double rate = along.dot(x);
   if (!(excess > 0) || rate == 0) return {x};
-  const Vector6 response = before.inverse.full() * along;
+  const Vector6 response = before.response * along;
   const double per_part = along.dot(response), square = rate * rate - 2 * per_part * excess;
+  if (!(per_part > 0)) return {x};
   const double part =
       square > 0 ? 2 * excess / (std::abs(rate) + std::sqrt(square)) : std::abs(rate) / per_part;
   const double removed = part * (std::abs(rate) - part / 2 * per_part);
@@ -147,27 +151,43 @@ Fall fallOf(const AmbientBody& ambient, const SurfacePlane& plane) {
   return fall;
 }
 
-// Returns the twist after the passage from `before` to the present stand of the body, at a pose B
-// to W, over a time [s].
-BoundedTwist passedFrom(const Departure& before, AmbientBody& ambient, Axes axes,
-                        const FrameOffset& pose, double duration, const Vector6& x) {
-  const SurfaceModel& model = *ambient.surface();
+// Returns K_eff^-1 of eq. (30) for a body at a stand, in B.
+Matrix6 responseOf(const SurfaceStand& stand, const RowPassage& passage) {
+  if (passage.factors.areFree()) return stand.inverse.full();
+  const Matrix3& R = passage.pose.rotation;
+  return rotateAxes(lockedInverse(rotateAxes(stand.inertia.full(), R), passage.factors),
+                    R.transpose());
+}
+
+// Returns where a body is before its passage.
+Departure departureOf(const RowPassage& passage) {
+  const AmbientBody& ambient = *passage.body;
+  const SurfaceStand& stand = ambient.stand();  // since standNow()
+  Departure departure{stand, fallOf(ambient, ambient.floating->plane_before_rows),
+                      responseOf(stand, passage)};
+  if (passage.fall) departure.fall.wrench = *passage.fall;
+  departure.fall.wrench += ambient.floating->brake;
+  return departure;
+}
+
+// Lets a body pass from `before` to its present stand, over a time [s].
+void passFrom(const Departure& before, RowPassage& passage, double duration) {
+  AmbientBody& ambient = *passage.body;
   const SurfaceStand& after = ambient.stand();
   SurfacePlace place = before.place;
-  const auto withWater = [&](const Vector6& twist) {
-    if (!after.inside_F) return twist;
-    return arriveWithWater(ambient, pose.rotation, pose.translation - wayOfWater(ambient, duration),
-                           axes, twist, place.inertia);
-  };
-  if (axes == Axes::kLocked) {
-    withWater(x);
-    return scaledWithin(x, x.dot(after.inertia.full() * x), x.dot(before.place.inertia.full() * x));
-  }
-  const BoundedTwist moved =
-      withinPotential(before, fallOf(ambient), duration, ambient.floating->twist_before_rows, x);
-  BoundedTwist end = passSurface(model, place, after, duration, withWater(moved.twist));
-  end.energy_removed += moved.energy_removed;
-  return end;
+  BoundedTwist& end = passage.twist;
+  end = withinPotential(before, fallOf(ambient), duration, ambient.floating->twist_before_rows,
+                        end.twist);
+  const double removed = end.energy_removed;
+  Vector6 x = end.twist;
+  if (after.inside_F)
+    x = arriveWithWater(ambient, passage.pose.rotation,
+                        passage.pose.translation - wayOfWater(ambient, duration),
+                        passage.keeps_momentum, x, place.inertia);
+  end = passage.keeps_momentum
+            ? passSurface(*ambient.surface(), place, after, duration, x)
+            : scaledWithin(x, x.dot(after.inertia.full() * x), x.dot(place.inertia.full() * x));
+  end.energy_removed += removed;
 }
 
 }  // namespace
@@ -181,23 +201,73 @@ Vector6 StepModel::floatAt(const AmbientBody& ambient, const FrameOffset& pose,
   return fallAt(model, plane_B, wet).wrench;
 }
 
-void passWithRows(AmbientBody* const* bodies, const FrameOffset* poses, int count, Axes axes,
-                  double duration, BoundedTwist* twists, const Vector6* falls) noexcept {
+double errorOfBuoyancy(const SurfaceModel& model, const SurfacePlane& plane, double speed,
+                       double duration) noexcept {
+  const double way = duration * speed;
+  return kPi / 2 * plane.density * plane.gravity * model.radius * model.radius * way * way;
+}
+
+namespace {
+
+// True if a body at the twist `end` in B may come to a place of more energy than it had in all.
+bool mayReachTooFar(const AmbientBody& ambient, double duration, const Vector6& end) {
+  const SurfaceModel& model = *ambient.surface();
+  const SurfaceStand& stand = ambient.stand();
+  if (duration * stand.swing > kLongestSwing) return true;
+  const double speed = end.tail<3>().norm() + model.radius * end.head<3>().norm();
+  return end.dot(stand.inertia.full() * end) <
+         2 * errorOfBuoyancy(model, stand.plane, speed, duration);
+}
+
+}  // namespace
+
+double reachWithRows(AmbientBody& ambient, const RigidState& start, const Surroundings& s,
+                     double duration, const Vector6& end) noexcept {
+  constexpr double kRounding = 1e-12;
+  const SurfaceModel& model = *ambient.surface();
+  FloatingState& floating = *ambient.floating;
+  const bool has_wind =
+      model.loads_above.loads && floating.velocity_above != ambient.medium.velocity;
+  if (has_wind || s.hasTorque() || !mayReachTooFar(ambient, duration, end)) return 1;
+  const Matrix3 R = start.orientation.toRotationMatrix();
+  const Vector3 pushed_W = s.applied.force - model.above.mass * s.gravity;
+  const Vector3 spin_W = R * end.head<3>(), velocity_W = R * end.tail<3>();
+  const auto energyAt = [&](double part) {
+    const double t = part * duration;
+    const Quaternion turned = rotationFromVector(t * spin_W) * start.orientation;
+    const SurfacePlane plane_B =
+        seenFrom(floating.plane_W, turned.toRotationMatrix(), start.position + t * velocity_W);
+    const WetVolume wet = wetVolumeAt(model, plane_B, waterOf(ambient));
+    return fallAt(model, plane_B, wet).potential - t * velocity_W.dot(pushed_W);
+  };
+  const Vector6& x = floating.twist_before_rows;
+  const double kinetic = x.dot(ambient.stand().inertia.full() * x) / 2;
+  const double before = energyAt(0);
+  const double most =
+      before + kinetic + floating.waves.energy() - floating.waves_with_rows.energy();
+  if (!(energyAt(1) - most > kRounding * (kinetic + std::abs(before)))) return 1;
+  const double reached = lastPart([&](double part) { return !(energyAt(part) > most); });
+  brakeWithRows(ambient, end, reached, duration);
+  return reached;
+}
+
+void brakeWithRows(AmbientBody& ambient, const Vector6& x, double part, double duration) noexcept {
+  ambient.floating->brake = (part - 1) / duration * (ambient.stand().inertia.full() * x);
+}
+
+void passWithRows(RowPassage* passages, int count, double duration) noexcept {
   AMBIENT_ASSERT(count > 0 && count <= kFlightsTogether);
   std::optional<Departure> departures[kFlightsTogether];
+  AmbientBody* bodies[kFlightsTogether] = {};
   for (int i = 0; i < count; ++i) {
-    AmbientBody& ambient = *bodies[i];
-    departures[i] =
-        Departure{ambient.stand(),  // since standNow()
-                  fallOf(ambient, ambient.floating->plane_before_rows), ambient.stand().inverse};
-    if (falls) departures[i]->fall.wrench = falls[i];
-    moveStandTo(seenFrom(movedPlane(ambient, duration), poses[i]), *ambient.floating);
+    bodies[i] = passages[i].body;
+    departures[i] = departureOf(passages[i]);
+    moveStandTo(seenFrom(movedPlane(*bodies[i], duration), passages[i].pose), *bodies[i]->floating);
   }
   completeStandsOf(bodies, count);
   for (int i = 0; i < count; ++i) {
-    AmbientBody& ambient = *bodies[i];
-    ambient.floating->plane_W = movedPlane(ambient, duration);
-    twists[i] = passedFrom(*departures[i], ambient, axes, poses[i], duration, twists[i].twist);
+    bodies[i]->floating->plane_W = movedPlane(*bodies[i], duration);
+    passFrom(*departures[i], passages[i], duration);
   }
 }
 

@@ -111,6 +111,34 @@ void warnOfCoarseSwing(const AmbientBody& ambient, double duration,
 /// step in which rows move it; keeps the waves after the step. Allocates nothing. @pre standNow()
 Vector6 kickByWavesAndWind(AmbientBody& ambient, const RigidState& now, double duration) noexcept;
 
+/// Returns the largest error of the work of a buoyancy that stays over a way, the right-hand side
+/// of docs/theory.md eq. (81b) [J]. `speed`: of the fastest point of the body [m/s], over a time
+/// [s].
+double errorOfBuoyancy(const SurfaceModel& model, const SurfacePlane& plane, double speed,
+                       double duration) noexcept;
+
+/// Returns the part of a step, at most 1, that a body makes which rows may move: where weight and
+/// water alone would bring it to a place of more energy than it had in all, the part that ends
+/// where the energy reaches, and notes the impulse that stops it for passWithRows(); docs/theory.md
+/// eq. (68c). `end`: the twist that it would move by without rows, in B, relative to the water.
+/// Allocates nothing. @pre kickByWavesAndWind()
+double reachWithRows(AmbientBody& ambient, const RigidState& start, const Surroundings& s,
+                     double duration, const Vector6& end) noexcept;
+
+/// Returns the largest of 32 parts of a step up to which a condition holds; 0: up to none.
+template <class Condition>
+double lastPart(const Condition& holds) {
+  double reached = 0, missed = 1;
+  while (missed - reached > 1.0 / 32) {
+    const double middle = (reached + missed) / 2;
+    (holds(middle) ? reached : missed) = middle;
+  }
+  return reached;
+}
+
+/// Notes the wrench that takes a twist `x` in B to `part` of it within a step, for passWithRows().
+void brakeWithRows(AmbientBody& ambient, const Vector6& x, double part, double duration) noexcept;
+
 /// Plane of the surface in B at the exact pose where the last flight or step with rows ended,
 /// before Bullet rounded it; none: the body has met no surface.
 std::optional<SurfacePlane> lastPlane(const AmbientBody& ambient) noexcept;
@@ -120,15 +148,21 @@ std::optional<SurfacePlane> lastPlane(const AmbientBody& ambient) noexcept;
 /// @pre lastPlane() is set; `media` is an index into FluidModels::surfaces
 void restoreFloating(AmbientBody& ambient, const RigidState& now, int media) noexcept;
 
-/// Replaces the twists of up to kFlightsTogether bodies that Bullet has moved with rows by those
-/// after the change of their added mass on the way; in B, relative to the water. Removes energy
-/// above the work of weight and buoyancy, docs/theory.md eq. (68a). Axes::kLocked: removes only the
-/// energy that the change of added mass would add. `poses`: B to W, where the step has brought the
-/// bodies before Bullet rounded that. `falls`: weight and buoyancy that have acted, in B; null:
-/// those where the step began. The bits of a body do not depend on the others.
-enum class Axes { kFree, kLocked };
-void passWithRows(AmbientBody* const* bodies, const FrameOffset* poses, int count, Axes axes,
-                  double duration, BoundedTwist* twists, const Vector6* falls = nullptr) noexcept;
+/// A body that Bullet has moved with rows, on its way through the surface.
+struct RowPassage {
+  AmbientBody* body = nullptr;
+  FrameOffset pose;            ///< B to W, where the step has brought it before Bullet rounded that
+  BoundedTwist twist;          ///< in B, relative to the water
+  AxisFactors factors;         ///< of the body
+  bool keeps_momentum = true;  ///< false: it has locked axes, or the fluid settles it, eq. (124)
+  const Vector6* fall = nullptr;  ///< weight and buoyancy that have acted, in B; null: those where
+                                  ///< the step began
+};
+/// Replaces the twists of up to kFlightsTogether bodies by those after the change of their added
+/// mass on the way; without momentum removes only the energy that this change would add. Removes
+/// energy above the work of weight and buoyancy, docs/theory.md eq. (68a). The bits of a body do
+/// not depend on the others. @pre standNow() of the step
+void passWithRows(RowPassage* passages, int count, double duration) noexcept;
 
 /// Returns the energy of the water that the body lifts or displaces [J], at a pose B to W that the
 /// step may reach a time `duration` [s] after standNow(). @pre the body is at a surface

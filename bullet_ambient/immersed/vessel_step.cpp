@@ -246,15 +246,15 @@ Vector6 sloshForRows(AmbientBody& ambient, const RigidState& now, double duratio
 }
 
 Vector6 arriveWithWater(AmbientBody& ambient, const Matrix3& to_world, const Vector3& position_W,
-                        Axes axes, const Vector6& x, SymmetricMatrix& inertia) noexcept {
+                        bool keeps_momentum, const Vector6& x, SymmetricMatrix& inertia) noexcept {
   VesselState& vessel = *ambient.vessel;
   Sloshing* const states = vessel.sloshing.moved.data();
   const WaterAt at = waterAt(ambient, to_world, position_W);
   Vector6 end = x;
-  if (axes == Axes::kLocked)
-    meetModes(at.sloshing(), vessel.before_rows.energy, states);
-  else
+  if (keeps_momentum)
     end = shiftWater(vessel.before_rows, at, x, inertia, states);
+  else
+    meetModes(at.sloshing(), vessel.before_rows.energy, states);
   std::swap(vessel.sloshing.now, vessel.sloshing.moved);
   vessel.sloshing_energy = energyOfSloshing(at.sloshing(), vessel.sloshing.now.data()).sum();
   return end;

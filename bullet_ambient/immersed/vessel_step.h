@@ -47,7 +47,7 @@ Vector6 sloshForRows(AmbientBody& ambient, const RigidState& now, double duratio
 /// W with the twist x. `position_W`: relative to the water where the step began. Returns the twist
 /// after that, and the inertia of what stands still in B.
 Vector6 arriveWithWater(AmbientBody& ambient, const Matrix3& to_world, const Vector3& position_W,
-                        Axes axes, const Vector6& x, SymmetricMatrix& inertia) noexcept;
+                        bool keeps_momentum, const Vector6& x, SymmetricMatrix& inertia) noexcept;
 
 /// Says once of a vessel that water has come into one of its holds until that was full, and that
 /// the body is then too heavy to float. Apart from that allocates nothing. @pre exchangeWater() has

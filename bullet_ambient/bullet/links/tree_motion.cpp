@@ -83,6 +83,7 @@ bool prepareRows(AmbientTree& tree, double h) {
   step.extent = extentOf(flight.dynamics(), step.moved, flight.turning(), h);
   step.share = shareOfTurn(step.extent) * flight.turning();
   step.moved = step.end + step.share;
+  if (step.meets_surface) keepWithinReach(tree);
   return true;
 }
 

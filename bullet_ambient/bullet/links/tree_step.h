@@ -131,6 +131,10 @@ bool mayGainEnergy(AmbientTree& tree, double duration) noexcept;
 /// `since_start` [s] after the start of the step.
 bool hasGainedEnergy(const AmbientTree& tree, double since_start) noexcept;
 
+/// Call before rows that turn with the tree are solved. Shortens the way `step.moved` to where the
+/// stored energy reaches, docs/theory.md eq. (68c). @pre keepEnergy(); the dynamics are at the pose
+void keepWithinReach(AmbientTree& tree) noexcept;
+
 /// Call after Bullet has moved the tree. Calls arriveAtSurface() at the present pose. If no rows
 /// have moved the tree, scales the motion relative to the flow so that the energy does not exceed
 /// the one that keepEnergy() stored.

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <limits>
 
-#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/bullet/links/tree_step.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
 #include "bullet_ambient/immersed/floating_state.h"
@@ -39,10 +38,7 @@ Vector6 endTwist(const LinkDynamics& dynamics, int link, const Medium& water, do
 struct SurfaceArrivals {
   int count = 0;
   AmbientLink* links[kFlightsTogether] = {};
-  AmbientBody* bodies[kFlightsTogether] = {};  // of the links
-  FrameOffset poses[kFlightsTogether];         // of the links, to W
-  Vector6 twists[kFlightsTogether];
-  Vector6 falls[kFlightsTogether];  // AmbientLink::fall
+  RowPassage passages[kFlightsTogether];
 };
 
 // Returns the gyroscopic torque about the axis of a body of revolution, along that axis, in a
@@ -55,24 +51,23 @@ Vector3 torqueOnSpin(const AmbientLink& link, const Vector6& x) {
 
 // Lets the links pass the surface side by side, and writes the impulses that change their twists.
 // Returns the energy removed [J].
-double passTogether(const SurfaceArrivals& some, const SurfaceStep& step,
-                    std::vector<Wrench>& impulses) {
-  BoundedTwist after[kFlightsTogether];
-  for (int i = 0; i < some.count; ++i) after[i].twist = some.twists[i];
-  passWithRows(some.bodies, some.poses, some.count, Axes::kFree, step.time, after,
-               step.has_flown ? some.falls : nullptr);
+double passTogether(SurfaceArrivals& some, double duration, std::vector<Wrench>& impulses) {
+  Vector6 before[kFlightsTogether];
+  for (int i = 0; i < some.count; ++i) before[i] = some.passages[i].twist.twist;
+  passWithRows(some.passages, some.count, duration);
   double energy_removed = 0;
   for (int i = 0; i < some.count; ++i) {
     AmbientLink& link = *some.links[i];
+    const BoundedTwist& after = some.passages[i].twist;
     FloatingState& floating = *link.ambient.floating;
-    const Vector3 on_spin = torqueOnSpin(link, some.twists[i]);
+    const Vector3 on_spin = torqueOnSpin(link, before[i]);
     link.frozen.freeze(link.ambient);
     floating.waves = floating.waves_with_rows;
     // The water leaves a body of revolution its spin, docs/theory.md eq. (66a).
     Wrench& impulse = impulses[link.link + 1];
-    impulse = impulseOf(link, after[i].twist - some.twists[i]);
-    impulse.torque = link.ambient.surface()->withoutStill(impulse.torque) - step.time * on_spin;
-    energy_removed += after[i].energy_removed;
+    impulse = impulseOf(link, after.twist - before[i]);
+    impulse.torque = link.ambient.surface()->withoutStill(impulse.torque) - duration * on_spin;
+    energy_removed += after.energy_removed;
   }
   return energy_removed;
 }
@@ -143,15 +138,16 @@ double arriveAtSurface(AmbientTree& tree) noexcept {
   double energy_removed = 0;
   SurfaceArrivals some;
   const auto arrive = [&] {
-    energy_removed += passTogether(some, step.surface, step.impulses);
+    energy_removed += passTogether(some, duration, step.impulses);
     some.count = 0;
   };
   forEachAtSurface(tree, [&](AmbientLink& link, int i) {
     some.links[some.count] = &link;
-    some.bodies[some.count] = &link.ambient;
-    some.poses[some.count] = {dynamics.rotation(i), dynamics.position(i)};
-    some.falls[some.count] = link.fall;
-    some.twists[some.count++] = endTwist(dynamics, i, link.ambient.medium, duration);
+    RowPassage& passage = some.passages[some.count++];
+    passage.body = &link.ambient;
+    passage.pose = {dynamics.rotation(i), dynamics.position(i)};
+    passage.twist = {endTwist(dynamics, i, link.ambient.medium, duration)};
+    passage.fall = step.surface.has_flown ? &link.fall : nullptr;
     if (some.count == kFlightsTogether) arrive();
   });
   if (some.count > 0) arrive();
@@ -267,11 +263,9 @@ bool mayGainEnergy(AmbientTree& tree, double duration) noexcept {
     const SurfaceModel& model = *ambient.surface();
     const SurfacePlane& plane = ambient.floating->plane_W;
     const Twist& twist = dynamics.twist(i);
-    const double radius = model.radius;
     const double speed =
-        (dynamics.rotation(i) * twist.linear - flow).norm() + radius * twist.angular.norm();
-    const double way = duration * speed;
-    most += kPi / 2 * plane.density * plane.gravity * radius * radius * way * way;
+        (dynamics.rotation(i) * twist.linear - flow).norm() + model.radius * twist.angular.norm();
+    most += errorOfBuoyancy(model, plane, speed, duration);
     is_stiff = is_stiff || duration * ambient.stand().swing > kLongestSwing;
   });
   return is_stiff || twiceKinetic(tree, tree.step.end) < 2 * most;
@@ -288,6 +282,36 @@ bool hasGainedEnergy(const AmbientTree& tree, double since_start) noexcept {
                (ambient.stand().inside_F ? ambient.vessel->before_rows.energy : 0);
       });
   return place > surface.energy + surface.rounding;
+}
+
+void keepWithinReach(AmbientTree& tree) noexcept {
+  TreeStep& step = tree.step;
+  const double h = step.surface.time;
+  if (!mayGainEnergy(tree, h)) return;
+  LinkDynamics& dynamics = tree.flight.dynamics();
+  const Vector3 flow = flowAround(tree.tree);
+  const auto scale = [&flow](double part, Coordinates& u) {
+    u *= part;
+    u.segment<3>(3) += (1 - part) * flow;
+  };
+  const auto reaches = [&](double part) {
+    step.spare = step.moved;
+    scale(part, step.spare);
+    movePose(tree.tree, step.pose, step.spare, h, step.surface.middle);
+    dynamics.moveTo(step.surface.middle);
+    return !hasGainedEnergy(tree, h);
+  };
+  const double part = reaches(1) ? 1 : lastPart(reaches);
+  dynamics.moveTo(step.pose);
+  if (part == 1) return;
+  dynamics.setVelocity(step.moved);
+  forEachAtSurface(tree, [&](AmbientLink& link, int i) {
+    brakeWithRows(link.ambient, endTwist(dynamics, i, link.ambient.medium, 0), part, h);
+  });
+  scale(part, step.end);
+  scale(part, step.moved);
+  step.share *= part;
+  ++tree.links.front()->ambient.counters.halted;
 }
 
 namespace {

@@ -207,26 +207,22 @@ void boundEnergy(const Arrival& arrival, BoundedTwist& end) {
                         : withinEnergy(model, arrival.moved, end.twist, *rows.energy_bound);
 }
 
-// Passes the bodies with these axes that are at a surface through it, side by side.
-void passSurfaces(const Arrival* arrivals, int count, Axes axes, double time_step,
-                  BoundedTwist* ends) {
-  AmbientBody* bodies[kFlightsTogether] = {};
-  FrameOffset poses[kFlightsTogether];
-  BoundedTwist twists[kFlightsTogether];
+// Passes the bodies that are at a surface through it, side by side.
+void passSurfaces(const Arrival* arrivals, int count, double time_step, BoundedTwist* ends) {
+  RowPassage passages[kFlightsTogether];
   int places[kFlightsTogether] = {}, found = 0;
   for (int i = 0; i < count; ++i) {
-    const bool is_free = arrivals[i].rows().momentum_W.has_value();
-    if (!arrivals[i].ambient->surface() || is_free != (axes == Axes::kFree)) continue;
-    bodies[found] = arrivals[i].ambient;
-    poses[found] = arrivals[i].pose;
-    twists[found] = ends[i];
+    AmbientBody& ambient = *arrivals[i].ambient;
+    if (!ambient.surface()) continue;
+    passages[found] = {&ambient, arrivals[i].pose, ends[i], axisFactors(*ambient.body),
+                       arrivals[i].rows().momentum_W.has_value()};
     places[found++] = i;
   }
   if (found == 0) return;
-  passWithRows(bodies, poses, found, axes, time_step, twists);
+  passWithRows(passages, found, time_step);
   for (int i = 0; i < found; ++i) {
-    ends[places[i]].twist = twists[i].twist;
-    ends[places[i]].energy_removed += twists[i].energy_removed;
+    ends[places[i]].twist = passages[i].twist.twist;
+    ends[places[i]].energy_removed += passages[i].twist.energy_removed;
   }
 }
 
@@ -291,8 +287,7 @@ void endRowMotions(AmbientBody* const* bodies, int count, double time_step,
   const int arrived = findArrivals(bodies, count, time_step, arrivals);
   keepMomenta(arrivals, arrived, time_step, ends);
   for (int i = 0; i < arrived; ++i) boundEnergy(arrivals[i], ends[i]);
-  for (const Axes axes : {Axes::kFree, Axes::kLocked})
-    passSurfaces(arrivals, arrived, axes, time_step, ends);
+  passSurfaces(arrivals, arrived, time_step, ends);
   for (int i = 0; i < arrived; ++i) setVelocity(arrivals[i], ends[i], time_step, complaints);
 }
 

@@ -87,10 +87,26 @@ void keepSpin(const SurfaceModel& model, const RigidState& start, RowVelocity& r
   row.change_W.angular -= spin_W;
 }
 
+// Shortens the way of a body at a surface to where its energy reaches, docs/theory.md eq. (68c).
+void keepWithinReach(AmbientBody& ambient, const RigidState& start, const Surroundings& s,
+                     double time_step, RowVelocity& row) {
+  Twist change_W = row.change_W;
+  change_W.linear -= time_step * s.ambient_acceleration;
+  const Vector6 end = ambient.floating->twist_before_rows +
+                      turned(start.orientation.conjugate(), change_W).vector();
+  const double part = reachWithRows(ambient, start, s, time_step, end);
+  if (part == 1) return;
+  const Twist less_W = onFreeAxes(turned(start.orientation, Twist::fromVector((1 - part) * end)),
+                                  axisFactors(*ambient.body));
+  row.change_W = Twist::fromVector(row.change_W.vector() - less_W.vector());
+  row.turning_W = Twist::fromVector(part * row.turning_W.vector());
+  ++ambient.counters.halted;
+}
+
 // Adds the kicks by waves, wind and water that comes in to a velocity change, and counts what it
 // cost. Sets it to zero if it is not finite. `inertia`: of the free body, in B.
 void complete(AmbientBody& ambient, const Matrix6& inertia, const RigidState& start,
-              double time_step, Complaints& complaints, RowVelocity& row) {
+              const Surroundings& s, double time_step, Complaints& complaints, RowVelocity& row) {
   if (ambient.surface()) {
     const AxisFactors factors = axisFactors(*ambient.body);
     if (factors.areFree()) keepSpin(*ambient.surface(), start, row);
@@ -107,6 +123,7 @@ void complete(AmbientBody& ambient, const Matrix6& inertia, const RigidState& st
     if (ambient.vessel)
       now.twist = Twist::fromVector(now.twist.vector() + kick(ambient.vessel->change_B));
     kick(kickByWavesAndWind(ambient, now, time_step));
+    keepWithinReach(ambient, start, s, time_step, row);
   }
   countLoads(ambient, row.count.load_evaluations);
   ambient.counters.guarded += row.count.guarded;
@@ -225,7 +242,8 @@ void SolverGroup::prepareForRows(Member* const* members, int count,
     Twist by_load;
     if (models[i]->loads && mayBounce(*ambient.body))
       by_load = changeByLoad(*ambient.body, taskOf(i), start.orientation, row);
-    complete(ambient, models[i]->inertia, start, time_step_, bodies_.complaints, row);
+    complete(ambient, models[i]->inertia, start, departures.surroundings[i], time_step_,
+             bodies_.complaints, row);
     // Those of FlightKernel::keep().
     batch.positions[i] = start.position;
     lanes.kick_time[i] = time_step_;

@@ -1,5 +1,7 @@
 #include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
+#include <BulletDynamics/Featherstone/btMultiBodySliderConstraint.h>
 
+#include <algorithm>
 #include <functional>
 #include <utility>
 #include <vector>
@@ -213,6 +215,59 @@ TEST(LinksAtASurface, HaltAsABody) {
   EXPECT_GT(of_multi.energy_removed, 0);
   // Nothing that floats so light leaves the water's surface by more than it fell.
   EXPECT_LT(std::abs(static_cast<double>(pair.multi.getBasePos().z())), 0.03);
+}
+
+// A cube of 1 cm, a tenth as dense as water, as a multibody on a rail that allows vertical motion
+// only, at rest at a height of its centre.
+struct LinkOnRail {
+  explicit LinkOnRail(double height) {
+    world.world.setGravity({0, 0, bt(-kGravity)});
+    world.fluid.addRegion(seaUnderAir());
+    auto robot = std::make_unique<btMultiBody>(0, bt(kMass), inertia(), false, false);
+    robot->finalizeMultiDof();
+    robot->setBasePos({0, 0, bt(height)});
+    cube = &world.takeUndamped(std::move(robot), 0.1 * kEdge);
+    const btMatrix3x3 frame = btMatrix3x3::getIdentity();
+    const btVector3 zero(0, 0, 0);
+    world.take(std::make_unique<btMultiBodySliderConstraint>(cube, -1, nullptr, zero, zero, frame,
+                                                             frame, btVector3(0, 0, 1)));
+    AttachDef def;
+    def.fluid_body = std::make_shared<FluidBody>(floatingBox(Vector3::Constant(kEdge)));
+    def.medium = air();
+    world.fluid.add(*cube, -1, def);
+  }
+  // Energy without that of the water that moves, over rho g a^4.
+  double leastEnergy() const {
+    const double z = static_cast<double>(cube->getBasePos().z());
+    const double v = static_cast<double>(cube->getBaseVel().z());
+    const double draught = std::clamp(kEdge / 2 - z, 0.0, kEdge);
+    const double centre = draught < kEdge ? draught / 2 : -z;  // of the wet part, below the surface
+    const double lift = 1000 * kGravity * kEdge * kEdge * draught;
+    return (kMass * (v * v / 2 + kGravity * z) + lift * centre) /
+           (1000 * kGravity * kEdge * kEdge * kEdge * kEdge);
+  }
+  static btVector3 inertia() { return btVector3(1, 1, 1) * bt(kMass * kEdge * kEdge / 6); }
+
+  static constexpr double kEdge = 0.01, kMass = 1e-4, kGravity = 9.81;
+  RobotWorld world;
+  btMultiBody* cube = nullptr;
+};
+
+// Neither leaps out with more than it had nor falls deeper than its energy reaches, eq. (68c).
+TEST(LinksAtASurface, OnARailGainNoEnergy) {
+  for (const double hertz : {60.0, 240.0}) {
+    double most = 0;
+    for (int depth = 0; depth < 26; ++depth) {
+      LinkOnRail link(-LinkOnRail::kEdge * (0.5 + 0.1 * depth));
+      const double start = link.leastEnergy();
+      for (int i = 0; i < hertz; ++i) {
+        link.world.step(1 / hertz);
+        most = std::max(most, link.leastEnergy() - start);
+      }
+      EXPECT_GT(link.world.fluid.find(*link.cube, -1)->counters().energy_removed, 0);
+    }
+    EXPECT_LT(most, byPrecision(0.01, 0.01)) << hertz << " Hz";
+  }
 }
 
 TEST(LinksAtASurface, SleepInStillWaterButNotOnASaddle) {
