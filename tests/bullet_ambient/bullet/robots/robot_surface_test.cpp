@@ -234,8 +234,10 @@ struct LinkOnRail {
     AttachDef def;
     def.fluid_body = std::make_shared<FluidBody>(floatingBox(Vector3::Constant(kEdge)));
     def.medium = air();
+    def.fluid_frame.translation.x() = 0.05 * kEdge;  // else the rail has nothing to hold
     world.fluid.add(*cube, -1, def);
   }
+  bool isInAir() const { return cube->getBasePos().z() > bt(kEdge / 2); }
   // Energy without that of the water that moves, over rho g a^4.
   double leastEnergy() const {
     const double z = static_cast<double>(cube->getBasePos().z());
@@ -259,14 +261,16 @@ TEST(LinksAtASurface, OnARailGainNoEnergy) {
     double most = 0;
     for (int depth = 0; depth < 26; ++depth) {
       LinkOnRail link(-LinkOnRail::kEdge * (0.5 + 0.1 * depth));
-      const double start = link.leastEnergy();
+      double had = link.leastEnergy();  // in the air that is all
       for (int i = 0; i < hertz; ++i) {
         link.world.step(1 / hertz);
-        most = std::max(most, link.leastEnergy() - start);
+        const double has = link.leastEnergy();
+        most = std::max(most, has - had);
+        if (link.isInAir()) had = std::min(had, has);
       }
       EXPECT_GT(link.world.fluid.find(*link.cube, -1)->counters().energy_removed, 0);
     }
-    EXPECT_LT(most, byPrecision(0.01, 0.01)) << hertz << " Hz";
+    EXPECT_LT(most, 0.01) << hertz << " Hz";
   }
 }
 
