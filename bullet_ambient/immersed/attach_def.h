@@ -58,7 +58,8 @@ struct AmbientCounters {
   long long faces = 0;    ///< faces or clusters summed in these evaluations; a sphere has none
   long long guarded = 0;  ///< load evaluations in which the passivity guard acted
   long long coarse = 0;   ///< steps whose error stayed too large at the most substeps or retries
-  long long halted = 0;   ///< steps at the surface that ended early, docs/theory.md eq. (64)
+  long long halted = 0;   ///< steps at the surface that ended early, docs/theory.md eq. (64),
+                          ///< (68c)
   /// Energy removed by bounds on the energy of a step, docs/theory.md eq. (25a), (31a), (64), (68),
   /// (68a) [J].
   double energy_removed = 0;
