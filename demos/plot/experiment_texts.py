@@ -36,7 +36,7 @@ DIFFERENCES = """## Where the model is known to differ from reality
   its nose above its path, has lift. On the ground that is 0.5 s more than in the paper.
 - **Basketball.** Pebbles of 0.2 mm; smooth balls, which meet their crisis later, drift by 12.7, 17.8 and 26.3 m.
 - **Bouncing.** Bullet applies restitution to the contact as a step finds it: with 0.8 a ball leaves with 0.8 to 0.98 of
-  its speed, stock or in a fluid.
+  its speed. In a fluid it leaves with 0.8 at most ([theory](theory.md#7-contacts-and-joints), 28e).
 - **Propellers.** A propeller of 4 g or less without a stick turns over in flight; the scene has 8 g. Under water it
   spins up and then turns over as well.
 - **Paper copter.** A sheet without thickness: one strip of 80 g/m² paper, slit and folded, with a clip of 0.5 g. Its

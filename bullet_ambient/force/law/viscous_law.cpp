@@ -42,7 +42,7 @@ double steep(double x) {
   return to8 / (1 + to8);
 }
 
-/// g of eq. (110).
+/// g of eq. (111).
 double wakeGrowth(double sharp_share, double reynolds) {
   const double p = reynolds * std::sqrt(reynolds);
   const auto grown = [p](double at) { return p / (p + at * std::sqrt(at)); };

@@ -132,6 +132,20 @@ TEST(Attach, ReportsAnAngleThatTheFormLawDoesNotReadOnce) {
   EXPECT_TRUE(saidAbout({}, def).empty());
 }
 
+// As of a file of an earlier version, read without readPrepared().
+TEST(Attach, ReportsAFluidBodyWithoutResistanceOnce) {
+  AttachDef def;
+  def.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid({0.5, 0.4, 0.3}, 2));
+  def.medium = air();
+  EXPECT_TRUE(saidAbout({}, def).empty());
+  changeShape(def, [](FluidBody& b) { b.viscous = {}; });
+  const std::vector<std::string> said = saidAbout({}, def);
+  ASSERT_EQ(said.size(), 1u);
+  expectSays(said[0], "moves as without viscosity: its fluid body has no resistance");
+  def.medium.viscosity = 0;
+  EXPECT_TRUE(saidAbout({}, def).empty());
+}
+
 TEST(Attach, ReportsAnEmptyFluidBodyOnce) {
   AttachDef def;
   auto empty = std::make_shared<FluidBody>();

@@ -56,13 +56,22 @@ TEST(BallLaw, RoughnessBringsTheCrisisForward) {
 }
 
 TEST(BallLaw, StateOfTheLayersHasItsNumbers) {
-  const LayerState at_crisis = layerState(0.3578988, 3.3e5, 0),
-                   rough = layerState(0.3578988, 1e5, 5e-3);
-  EXPECT_NEAR(at_crisis.turbulent, 0.51745, 1e-5);
-  EXPECT_NEAR(at_crisis.from_nose, 0.02779, 1e-5);
-  EXPECT_NEAR(rough.turbulent, 0.99650, 1e-5);
-  EXPECT_NEAR(rough.from_nose, 0.91719, 1e-5);
-  EXPECT_NEAR(rough.roughness, 1.5914, 1e-4);
+  const struct {
+    double reynolds, rough, turbulent, from_nose, roughness, suction, share;
+  } rows[] = {{3.3e5, 0, 0.51745, 0.02779, 1, 0.7898, 0.9974},
+              {1e6, 0, 1, 0.20793, 1, 0.6053, 0.9995},
+              {1e5, 5e-3, 0.99650, 0.91719, 1.5914, 0.7133, 0.9847}};
+  for (const auto& row : rows) {
+    SCOPED_TRACE(row.reynolds);
+    const LayerState layers = layerState(0.3578988, row.reynolds, row.rough);
+    EXPECT_NEAR(layers.turbulent, row.turbulent, 1e-5);
+    EXPECT_NEAR(layers.from_nose, row.from_nose, 1e-5);
+    EXPECT_NEAR(layers.roughness, row.roughness, 1e-4);
+    const BallLoad ball =
+        computeBallLoad(0.5, {1, 1 / row.reynolds, row.rough}, {{0, 0, 0}, {1, 0, 0}});
+    EXPECT_NEAR(ball.suction, row.suction, 1e-4);
+    EXPECT_NEAR(ball.share, row.share, 1e-4);
+  }
 }
 
 TEST(BallLaw, SpinLiftsAndBrakes) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <tuple>
+#include <utility>
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/motion/body/one_body.h"
@@ -84,23 +84,23 @@ TEST(ViscousFall, ASpinningBallFalls) {
     body.state.twist.angular = spin;
     const double expected = spin.y() > 0 ? 2.768 : spin.z() > 0 ? 4.506 : 4.561;
     body.advance(1.0 / 60, 600);
-    EXPECT_NEAR(-body.state.position.z() / expected, 1, 0.02) << spin.transpose();
+    EXPECT_NEAR(-body.state.position.z() / expected, 1, 0.002) << spin.transpose();
   }
 }
 
-TEST(ViscousFall, AGolfBallFliesAsFarAsMeasured) {
+// Measured: 147 and 252 m.
+TEST(ViscousFall, AGolfBallFliesAsFarAsTheLawSays) {
   Ball golf{0.0427, 0, fluidOf(1.204, 1.82e-5)};
   golf.density = 0.045 / (kPi / 6 * 0.0427 * 0.0427 * 0.0427);
   golf.flow.roughness = 2e-4;
-  for (const auto& [speed, low, high] : {std::tuple{53.0, 135.0, 150.0}, {78.68, 235.0, 260.0}}) {
+  for (const auto& [speed, carry] : {std::pair{53.0, 139.62}, {78.68, 241.01}}) {
     test::FreeBody body = bodyInGravity(golf);
     const double angle = 10 * kPi / 180;
     body.state.twist = {{0, -2 * kPi * 42, 0},
                         {speed * std::cos(angle), 0, speed * std::sin(angle)}};
     do body.advance(1.0 / 240);
     while (body.state.position.z() > 0);
-    EXPECT_GT(body.state.position.x(), low);
-    EXPECT_LT(body.state.position.x(), high);
+    EXPECT_NEAR(body.state.position.x(), carry, 0.2);  // the way of a step
   }
 }
 

@@ -53,6 +53,18 @@ class ViscosityTest(unittest.TestCase):
         water = ba.Medium(density=1000, viscosity=1e-3)
         np.testing.assert_allclose(viscosity.settling_speeds([1e-3, 1e-4], water), [0.15773, 0.0080817], rtol=2e-4)
 
+    def test_scenes_settle_as_the_page_says_at_any_step(self):
+        # [mm/s], docs/viscosity.md: steel, sand, a cube and two bubbles; dust, pollen, fog, sand, a seed.
+        expected = {"glycerine": [10.15, 39.80, 143.3, 0.50, 10.74, -4.37, -17.24],
+                    "dust_and_seeds": [23.8, 56.0, 2.99, 2288, 1811]}
+        for name, speeds in expected.items():
+            for step in (1 / 30, 1 / 60, 1 / 240):
+                with warnings.catch_warnings():
+                    warnings.simplefilter("ignore")  # of bubbles, which rise
+                    scene = ba.Scene(name, {"time_step": step, "output_step": step})
+                    fallen = -1e3 * ba.World(scene).run(scene.duration).twist[-1, :, 5]
+                np.testing.assert_allclose(fallen, speeds, rtol=0.01, err_msg=f"{name} at {step} s")
+
 
 class VesselsTest(unittest.TestCase):
     @classmethod

@@ -15,7 +15,6 @@
 #include "preprocess/resistance/stokes_resistance.h"
 #include "tests/reference/ellipsoid_added_mass.h"
 #include "tests/support/bodies/hull_bodies.h"
-#include "tests/support/bodies/random_bodies.h"
 #include "tests/support/refusal_of.h"
 #include "tests/support/temporary_folder.h"
 
@@ -61,8 +60,8 @@ TEST(BodyLaw, DragOfASpheroidHasItsNumbersFromStokesToTheCrisis) {
                            0.64584, 0.65118, 0.17590, 0.25360};
   for (int i = 0; i < 9; ++i) {
     SCOPED_TRACE(reynolds[i]);
-    EXPECT_NEAR(dragAlong(body, 0, reynolds[i], kPi) / along[i], 1, 0.02);
-    EXPECT_NEAR(dragAlong(body, 1, reynolds[i], 2 * kPi) / across[i], 1, 0.02);
+    EXPECT_NEAR(dragAlong(body, 0, reynolds[i], kPi) / along[i], 1, 0.01);
+    EXPECT_NEAR(dragAlong(body, 1, reynolds[i], 2 * kPi) / across[i], 1, 0.01);
   }
 }
 
@@ -75,9 +74,9 @@ TEST(BodyLaw, LoadOnAnInclinedSpheroidHasItsNumbers) {
   for (const auto& row : expected) {
     SCOPED_TRACE(row[0]);
     const Wrench load = loadAt(body, x, row[0]);
-    EXPECT_NEAR(load.force.x(), row[1], 0.02 * std::abs(row[1]));
-    EXPECT_NEAR(load.force.y(), row[2], 0.02);
-    EXPECT_NEAR(load.torque.z(), row[3], 0.02 * row[3]);
+    EXPECT_NEAR(load.force.x(), row[1], 0.01 * std::abs(row[1]));
+    EXPECT_NEAR(load.force.y(), row[2], 0.01);
+    EXPECT_NEAR(load.torque.z(), row[3], 0.01 * row[3]);
   }
 }
 
@@ -87,30 +86,6 @@ TEST(BodyLaw, CreepsByTheResistanceAlone) {
   const double reynolds = 1e-5, viscosity = body.viscous.surface.diameter / reynolds;
   const Vector6 creeping = -viscosity * (body.viscous.resistance * x.vector());
   EXPECT_LT((loadAt(body, x, reynolds).vector() - creeping).norm(), 1e-3 * creeping.norm());
-}
-
-TEST(BodyLaw, TakesEnergyInEveryMotion) {
-  test::Arbitrary random(7);
-  for (const Vector3& axes : {Vector3(1, 1, 4), Vector3(0.3, 1, 1), Vector3(1, 2, 3)}) {
-    const FluidBody body = ellipsoid(axes);
-    for (int i = 0; i < 300; ++i) {
-      const Twist x{random.vector(std::exp2(random.between(-20, 20))),
-                    random.vector(std::exp2(random.between(-20, 20)))};
-      const Wrench load = loadAt(body, x, std::exp2(random.between(-20, 25)));
-      EXPECT_LT(power(load, x), 1e-12 * load.vector().norm() * x.vector().norm());
-    }
-  }
-}
-
-TEST(BodyLaw, ForceGoesWithTheSpeedAtAnySpin) {
-  const FluidBody body = ellipsoid({1, 1, 2});
-  const auto force = [&](double speed, double reynolds) {
-    return loadAt(body, {{3, 1, 0.5}, {speed, 0.3 * speed, 0}}, reynolds).force.norm();
-  };
-  for (const double reynolds : {1.0, 1e4, 1e6}) {
-    EXPECT_LT(force(1e-6, reynolds), 2e-3 * force(1e-3, reynolds));
-    EXPECT_LT(force(0, reynolds), 1e-12);
-  }
 }
 
 const Vector3 kSemiAxes(0.3, 0.2, 0.1), kPlace(0.05, -0.1, 0.2);
