@@ -125,43 +125,6 @@ TEST(SceneRun, AFluidBodyFileMovesAsTheMeshItWasMadeFrom) {
   EXPECT_LE(largestDistance(run(mesh).motion[0], run(file).motion[0]), 1e-9);
 }
 
-/// Writes a plate's mesh file with all vertices moved.
-void writeMovedMesh(const std::filesystem::path& file, const Vector3& offset) {
-  std::ifstream from(std::filesystem::path(AMBIENT_DATA) / "meshes/plate_10cm.obj");
-  std::ofstream to(file);
-  to.precision(17);
-  std::string word;
-  for (std::string line; std::getline(from, line);) {
-    std::istringstream words(line);
-    Vector3 v;
-    if (words >> word && word == "v" && words >> v.x() >> v.y() >> v.z()) {
-      v += offset;
-      to << "v " << v.x() << ' ' << v.y() << ' ' << v.z() << '\n';
-    } else {
-      to << line << '\n';
-    }
-  }
-}
-
-TEST(SceneRun, TheOriginOfAMeshFileDoesNotMatter) {
-  const TemporaryFolder folder;
-  const Vector3 offset(0.5, -0.25, 0.125);
-  writeMovedMesh(folder / "moved.obj", offset);
-  // A centre of mass off the centre of volume gives every force a lever.
-  const Vector3 centre(0.01, 0.004, 0);
-  Scene plain = readNamedScene("plate_10cm", {{"duration", "0.5"}});
-  plain.bodies[0].centre_of_mass = centre;
-  const json shape = {{"type", "mesh"}, {"file", (folder / "moved.obj").string()}};
-  Scene moved =
-      readNamedScene("plate_10cm", {{"duration", "0.5"}, {"bodies.0.shape", shape.dump()}});
-  moved.bodies[0].centre_of_mass = centre + offset;
-  // The importer holds coordinates in float: 0.5 m is rounded by up to 3e-8 m, 6e-7 of the radius.
-  EXPECT_LE(largestDistance(run(plain).motion[0], run(moved).motion[0]), 1e-5);
-
-  moved.bodies[0].centre_of_mass = offset;
-  EXPECT_GE(largestDistance(run(plain).motion[0], run(moved).motion[0]), 1e-2);
-}
-
 /// A neutrally buoyant body in water at rest.
 json waterBody(const json& shape, double mass) {
   json scene = ballScene();
@@ -244,14 +207,6 @@ TEST(SceneRun, OrientationsDoNotJumpToTheOppositeSign) {
   const std::vector<MotionSample>& motion = record.motion[0];
   for (std::size_t i = 1; i < motion.size(); ++i)
     EXPECT_GT(motion[i].orientation.dot(motion[i - 1].orientation), 0.9);
-}
-
-TEST(SceneRun, RowsCarryTheOutputTimesExactly) {
-  const Scene scene = sceneFrom(vacuumBall());
-  const RunRecord record = run(scene);
-  const std::vector<double> times = outputTimes(scene);
-  ASSERT_EQ(record.motion[0].size(), times.size());
-  for (std::size_t i = 0; i < times.size(); ++i) EXPECT_EQ(record.motion[0][i].time, times[i]);
 }
 
 TEST(SceneRun, ABodysOwnFluidDensityCounts) {

@@ -207,20 +207,5 @@ TEST(Thrusters, WithNumbersAreInSavedStates) {
   EXPECT_ANY_THROW(other.restoreState(damaged));
 }
 
-TEST(Thrusters, AreInSavedStates) {
-  const Scene scene = sceneFrom(vehicle());
-  Simulation one(scene, prepare(scene)), other(scene, prepare(scene));
-  one.thrusters().command(0, 1);
-  for (int n = 0; n < 5; ++n) one.step();
-  other.thrusters().command(0, 1);
-  other.restoreState(one.saveState());
-  EXPECT_EQ(thrustsOf(other), thrustsOf(one));
-  for (int n = 0; n < 5; ++n) {
-    one.step();
-    other.step();
-  }
-  EXPECT_EQ(other.sample(0).position, one.sample(0).position);
-}
-
 }  // namespace
 }  // namespace ambient
