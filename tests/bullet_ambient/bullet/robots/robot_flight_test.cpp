@@ -166,34 +166,6 @@ TEST(RobotFlight, MotorsHoldPlatesOfTenThousandTimesTheirMassInFluid) {
   EXPECT_GT(velocityOf(body).head<6>().norm() + body.getBasePos().length(), 1e-3);
 }
 
-// Energy range of a robot with its tip on a ball joint to the world.
-EnergyRange tether(unsigned seed, double hertz) {
-  Arbitrary arbitrary(seed);
-  RobotWorld world;
-  world.world.getSolverInfo().m_erp = bt(0.2);
-  world.world.getSolverInfo().m_numIterations = 50;
-  RobotDef def;
-  def.collider_radius = 0.01;
-  btMultiBody& body = world.add(arbitrary, def);
-  putIntoFluid(arbitrary, world, body, 5);
-  holdTip(world, body);
-  world.step(1 / hertz);
-  return watch(world, body, hertz, 5);
-}
-
-TEST(RobotFlight, OnATetherNeverGainsEnergy) {
-  for (const double hertz : {60.0, 240.0}) {
-    double highest = 0, mean = 0;
-    for (unsigned seed = 0; seed < 20; ++seed) {
-      const EnergyRange range = tether(seed, hertz);
-      highest = std::max(highest, range.highest);
-      mean += range.last / 20;
-    }
-    EXPECT_LT(highest, 1.01);  // correction of gaps does work
-    EXPECT_GT(mean, hertz < 100 ? 0.65 : 0.9);
-  }
-}
-
 // Energy removed by the bound (31a): losses of turns after rows, less the reserve.
 TEST(RobotFlight, OnATetherCountsTheEnergyThatItsBoundRemoves) {
   Arbitrary arbitrary(1);
