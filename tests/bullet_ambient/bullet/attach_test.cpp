@@ -146,45 +146,12 @@ TEST(Attach, ReportsAnEmptyFluidBodyOnce) {
   EXPECT_TRUE(saidAbout({}, def).empty());
 }
 
-TEST(Attach, RefusesTheSameBodyTwice) {
-  FluidWorld scene;
-  btRigidBody& body = scene.add({}, meshedEllipsoid(Vector3::Ones(), 1), air());
-  expectSays(refusalOf<std::invalid_argument>([&] { scene.fluid.add(body, unitBallIn(air())); }),
-             "added already");
-  EXPECT_EQ(scene.fluid.size(), 1u);
-}
-
 TEST(SetMedium, KeepsTheOldMediumWhenTheNewOneIsRefused) {
   FluidWorld scene;
   btRigidBody& body = scene.add({}, meshedEllipsoid(Vector3::Ones(), 1), air());
   EXPECT_THROW(scene.of(body).setMedium({-1, 0, Vector3::Zero(), Vector3::Zero()}),
                std::invalid_argument);
   EXPECT_EQ(scene.of(body).medium().density, air().density);
-}
-
-// Fluid: by the energy that it has in a motion, from the velocity of its own frame.
-TEST(Fluid, TotalInertiaIsThatOfBodyAndFluid) {
-  FluidWorld scene;
-  BodyDef def;
-  def.mass = 2;
-  def.moments = Vector3(0.3, 0.4, 0.5);
-  AttachDef attach;
-  attach.fluid_body = std::make_shared<FluidBody>(facelessEllipsoid(Vector3(1, 2, 3)));
-  attach.medium = water();
-  attach.fluid_frame.translation = {0.3, -0.2, 0.5};
-  attach.fluid_frame.rotation = Eigen::AngleAxisd(0.7, Vector3(1, 2, 3).normalized()).matrix();
-  const Matrix6 K = scene.fluid.add(scene.add(def), attach).inertia();
-  const auto& [R, t] = std::pair(attach.fluid_frame.rotation, attach.fluid_frame.translation);
-  for (int i = 0; i < 6; ++i)
-    for (int j = 0; j < 6; ++j) {
-      const Vector6 x = Vector6::Unit(i) + Vector6::Unit(j);
-      const Vector3 w = x.head<3>(), v = x.tail<3>();
-      const Vector6 in_fluid = stack(R.transpose() * w, R.transpose() * (v + w.cross(t)));
-      const double body = def.mass * v.squaredNorm() + w.dot(def.moments.cwiseProduct(w)),
-                   energy = body + water().density *
-                                       in_fluid.dot(attach.fluid_body->added_mass * in_fluid);
-      EXPECT_NEAR(x.dot(K * x) / energy, 1, byPrecision(1e-12, 1e-6)) << i << ", " << j;
-    }
 }
 
 AttachDef inAir() { return {std::make_shared<FluidBody>(meshedEllipsoid(kUnequalAxes, 1)), air()}; }
@@ -316,17 +283,6 @@ TEST(RegionsOnAttach, AreFound) {
   EXPECT_EQ(afloat.region(), sea);
   scene.step(kWorldStep);
   EXPECT_EQ(deep.counters().medium_changes, 1);  // when it was added
-}
-
-// An impulse changes the momentum of the body and its fluid by itself.
-TEST(ImmersedImpulse, ChangesTheMomentumOfABodyByItself) {
-  Arbitrary arbitrary(5);
-  FluidWorld scene;
-  btRigidBody& body = scene.add({}, shapeWithoutFaces(arbitrary.positiveDefinite()), idealFluid(1));
-  const Wrench impulse{{0.3, -0.2, 0.1}, {1, 2, 3}};
-  scene.of(body).applyImpulse(impulse);
-  const Vector6 momentum = scene.of(body).inertia() * readState(body).twist.vector();
-  EXPECT_LT((momentum - impulse.vector()).norm(), byPrecision(1e-12, 1e-5));  // axes of W
 }
 
 }  // namespace

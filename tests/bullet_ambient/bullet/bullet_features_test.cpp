@@ -200,20 +200,6 @@ TEST(Features, BulletsGyroscopicFlagsChangeNothing) {
   EXPECT_TRUE(velocity[0] == velocity[1]);
 }
 
-TEST(Features, NewMassPropertiesAreSeen) {
-  FluidWorld scene;
-  btRigidBody& body = scene.add({}, facelessEllipsoid(kUnequalAxes), air());
-  scene.step(1.0 / 60);
-  const btVector3 moments(4, 5, 6);
-  body.setMassProps(3, moments);
-  body.updateInertiaTensor();
-  body.applyCentralForce({1, 0, 0});
-  scene.step(1.0 / 60);
-  const double K = 3 + air().density * facelessEllipsoid(kUnequalAxes).added_mass(3, 3);
-  EXPECT_NEAR(static_cast<double>(body.getLinearVelocity().x()) * 60 * K, 1,
-              byPrecision(1e-12, 1e-5));
-}
-
 TEST(Features, ASolverOfAnotherWorldsFluidIsReportedOnce) {
   FluidWorld scene, other;
   const auto solver = makeSolver<btSequentialImpulseConstraintSolver>(scene.fluid);

@@ -78,24 +78,6 @@ TEST(MovingFluid, ItsAccelerationActsLikeGravityOnBodyAndDisplacedFluid) {
   }
 }
 
-TEST(MovingFluid, CarriesANeutrallyBuoyantSphereAlong) {
-  const double radius = 0.1;
-  const FluidBody shape = test::gaussSphere(radius);
-  const double mass = kWaterDensity * shape.volume;
-  const Vector3 acceleration(1, -2, 0.5);
-  for (const OwnFlight integrator : kIntegrators) {
-    FreeBody sphere({shape,
-                     {mass, test::ellipsoidMoments(Vector3::Constant(radius), mass).asDiagonal()},
-                     {kWaterDensity, 1e-3, Vector3::Zero(), Vector3::Zero()}});
-    sphere.settings.own_flight = integrator;
-    sphere.setGravity({0, 0, -9.81});
-    sphere.surroundings.ambient_acceleration = acceleration;
-    sphere.advance(0.5);
-    EXPECT_LT((sphere.state.position - 0.125 * acceleration).norm(), 1e-14);
-    EXPECT_LT((sphere.state.twist.linear - 0.5 * acceleration).norm(), 1e-14);
-  }
-}
-
 TEST(MovingFluid, ChangesTheRowVelocityLikeFreeFlight) {
   // Over a short step both equal acceleration times step, except half of the turning part.
   FreeBody body = loadedBody(flyRungeKutta);

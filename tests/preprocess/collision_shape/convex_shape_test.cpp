@@ -216,9 +216,6 @@ TEST(ConvexShape, FrameIsThatOfTheShape) {
   EXPECT_EQ(box.name, "Box");
 }
 
-using test::coarse;
-using test::kScalarRounding;
-
 TEST(MeshShape, GImpactMeshIsTakenAsItIs) {
   const TriangleMesh cone = makeConeMesh(0.5, 1.2, 300);
   test::GImpactMesh mesh(cone);
@@ -300,8 +297,6 @@ TEST(MeshShape, WhatWasSaidOfItIsKeptWithItsForm) {
   EXPECT_EQ(told, said);
   EXPECT_EQ(told_later, said);
 }
-
-using test::coarse;
 
 std::string refusalOf(const btCollisionShape& shape) {
   CollisionShapeSettings settings = coarse();

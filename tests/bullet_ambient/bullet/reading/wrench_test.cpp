@@ -253,26 +253,6 @@ TEST(WetState, OfABoxIsThatOfItsDraught) {
   EXPECT_EQ(wet.region, sea.id);
 }
 
-TEST(WetState, OfATurnedBoxIsASumOverCutTriangles) {
-  Sea sea;
-  const Quaternion edge_down(Eigen::AngleAxisd(kPi / 4, Vector3::UnitX()));
-  const double depth = 0.2;  // of the edge
-  const double lowest = (0.6 + 0.4) / 2 / std::sqrt(2.0);
-  const WetState wet = sea.wetAt(floatingBox(kBoxSize), {0, 0, 1 + lowest - depth}, edge_down);
-  EXPECT_NEAR(wet.draught, depth, 4 * kGeometryRounding);
-  EXPECT_NEAR(wet.volume, 0.8 * depth * depth, kGeometryRounding);
-  EXPECT_NEAR(wet.area, 2 * 0.8 * std::sqrt(2.0) * depth + 2 * depth * depth,
-              4 * kGeometryRounding);
-}
-
-TEST(WetState, OfABallIsACap) {
-  Sea sea;
-  const WetState wet = sea.wetAt(floatingBall(0.5), {0, 0, 1.3});
-  EXPECT_NEAR(wet.draught, 0.2, kGeometryRounding);
-  EXPECT_NEAR(wet.area / (2 * kPi * 0.5 * 0.2), 1, 0.05);  // its area is that of its triangles
-  EXPECT_NEAR(wet.volume, kPi * 0.04 * (1.5 - 0.2) / 3, kGeometryRounding);
-}
-
 TEST(WetState, OfABodyFarAboveOrBelowIsNothingOrAll) {
   Sea sea;
   const FluidBody shape = floatingBox(kBoxSize);

@@ -215,18 +215,6 @@ TEST(LinkDynamics, FixedJointsMakeOneBodyOfAllInertias) {
   EXPECT_LT((a - expected).norm(), 1e-12 * expected.norm());
 }
 
-TEST(LinkDynamics, ABaseAloneIsARigidBody) {
-  Arbitrary arbitrary(4);
-  TestTree test = randomTree(arbitrary, {0});
-  test::pushAround(arbitrary, test.tree);
-  LinkDynamics dynamics(test.tree);
-  dynamics.setPose(test.pose);
-  ASSERT_TRUE(dynamics.factor());
-  Coordinates a(6);
-  dynamics.accelerations(test.u, a);
-  EXPECT_LT(relativeError(a, reference::jointedAccelerations(jointedBodies(test), false)), 1e-13);
-}
-
 TEST(LinkDynamics, LinksWithoutFluidDoNotFeelIt) {
   expectAccelerationsOfBodies({6, true, true, 0});
 }

@@ -186,38 +186,6 @@ TEST(LinkFlight, SwingsWithTheAddedMassOfAnEllipsoid) {
   EXPECT_NEAR(4 * quarter, period, 2e-6 * period);  // order 2 in the step
 }
 
-TEST(LinkFlight, OfABaseAloneIsTheFlightOfARigidBody) {
-  Arbitrary arbitrary(6);
-  TestTree test = randomTree(arbitrary, {0});
-  test.tree.links[0].surroundings.applied = {arbitrary.vector(), arbitrary.vector()};
-  test.tree.links[0].surroundings.gravity = arbitrary.vector(9);
-  test.tree.links[0].surroundings.ambient_velocity = arbitrary.vector();
-  const Surroundings s = test.tree.links[0].surroundings;
-  const Matrix3 R = test.pose.orientation.toRotationMatrix();
-  RigidState state{test.pose.orientation,
-                   test.pose.position,
-                   {R.transpose() * test.u.head<3>(), R.transpose() * test.u.segment<3>(3)}};
-  double last = 0;
-  for (const int steps : {20, 40}) {
-    const FlightSettings settings{1e-12, 0, flyDormandPrince};
-    TestTree moved;
-    moved.tree = test.tree;
-    moved.pose = test.pose;
-    moved.u = test.u;
-    LinkFlight flight(moved.tree);
-    moved.fly(flight, 0.2 / steps, steps, kConverged);
-    const RigidState end =
-        fly({*test.tree.links[0].model, s, settings, 0.2}, state, FlightMemory{}).state;
-    const double error = (moved.pose.position - end.position).norm() +
-                         moved.pose.orientation.angularDistance(end.orientation);
-    EXPECT_LT(error, 1e-3);
-    if (last > 0) {
-      EXPECT_NEAR(last / error, 4, 0.4);
-    }
-    last = error;
-  }
-}
-
 // Thin plates on a chain: added mass ten thousand times their own, across them only.
 TestTree chainOfPlates(unsigned seed) {
   Arbitrary arbitrary(seed);
