@@ -59,22 +59,6 @@ TEST(CompoundShape, NestedTransformsMultiply) {
   EXPECT_EQ(body.origin, Vector3::Zero());
 }
 
-TEST(CompoundShape, FarAwayChildrenAddUp) {
-  btSphereShape ball(1);
-  btCompoundShape compound;
-  compound.addChildShape(at(-10, 0, 0), &ball);
-  compound.addChildShape(at(10, 0, 0), &ball);
-  const FluidBody body = makeFluidBody(compound, coarse());
-  const double volume = 8 * kPi / 3;
-  EXPECT_NEAR(body.volume / volume, 1, 1e-12);
-  // Dipole interaction: 1 - 3 (R/d)^3 along the line of centres, 1 + 3/2 (R/d)^3 across.
-  const double dipole = std::pow(1.0 / 20, 3);
-  EXPECT_NEAR(body.added_mass(3, 3) / (volume / 2), 1 - 3 * dipole, 3e-4);
-  EXPECT_NEAR(body.added_mass(4, 4) / (volume / 2), 1 + 1.5 * dipole, 3e-4);
-  EXPECT_NEAR(body.added_mass(2, 2) / (100 * volume / 2), 1, 2e-3);
-  checkFluidBody(body, "dumbbell");
-}
-
 // Interaction at a distance of ten sizes: (1/20)^3 of the added mass from each neighbour.
 TEST(CompoundShape, ManyChildrenApartShareFaces) {
   btBoxShape box(btVector3(btScalar(0.5), btScalar(0.4), btScalar(0.3)));
