@@ -32,21 +32,6 @@ PanelSurface twoTetrahedra(const Vector3d& distance = {2.5, 1, -0.5}) {
   return makePanelSurface(joined(one, moved(scaled(other, 0.7), distance)), false);
 }
 
-Eigen::Matrix<double, 3, 6> moments = Eigen::Matrix<double, 3, 6>::Zero();
-for (Index s = 0; s < surface.panelCount(); ++s)
-  for (int a = 0; a < 3 && s != t; ++a)
-    for (int b = 0; b < 3; ++b) {
-      const Panel& q = surface.panels[s];
-      moments.row(a) += layerIntegral(p, q, b, [&](const Vector3d& x) { return hat(p, a, x); }) *
-                        jump.row(surface.triangles(b, s));
-      for (int c = 0; c < 3; ++c)
-        moments.row(a) -=
-            layerIntegral(p, q, b, [&](const Vector3d& x) { return hat(p, a, x) * hat(p, c, x); }) *
-            jump.row(surface.triangles(c, t));
-    }
-return moments;
-}
-
 Eigen::MatrixXd fullHypersingular(const PanelSurface& surface) {
   const Eigen::MatrixXd W =
       assembleHypersingular(surface, numberUnknowns(surface), findNearPanels(surface, 1), 1);
@@ -120,8 +105,6 @@ TEST(BlockProduct, AddsTheBlockAndItsTransposeForAllFieldsAndSizes) {
         EXPECT_EQ(w, Rows((block.transpose() * z).array() + 1));
       }
 }
-
-using MatrixX6 = Eigen::Matrix<double, Eigen::Dynamic, 6>;
 
 constexpr double kOpening = 0.7;
 

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/spatial/inertia.h"
 #include "preprocess/mesh/shapes/primitives.h"
 #include "preprocess/potential_flow/results/ellipsoid_added_mass.h"
 #include "preprocess/potential_flow/surface/panel_surface.h"

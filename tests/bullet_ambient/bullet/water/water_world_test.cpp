@@ -11,8 +11,6 @@
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/bullet_ambient/bullet/state/state_scene.h"
 #include "tests/support/bodies/part_bodies.h"
-#include "tests/support/floating_runs.h"
-#include "tests/support/threads.h"
 
 // Bodies at the surface of water in a Bullet world.
 namespace ambient::test {
@@ -31,10 +29,9 @@ FluidRegion seaAt(double level) {
 
 /// A world with water, and boxes of one shape in it.
 struct WaterWorld {
-  explicit WaterWorld(const FluidRegion& water, const TaskRunner& runner = nullptr) {
+  explicit WaterWorld(const FluidRegion& water) {
     scene.world.getDispatchInfo().m_deterministicOverlappingPairs = true;
     scene.world.setGravity({0, 0, bt(-kGravity)});
-    scene.fluid.setTaskRunner(runner);
     scene.fluid.addRegion(water);
     shape->name = "box";
   }
@@ -80,28 +77,6 @@ RigidState tumbling(double z) {
 
 double heightOf(const btRigidBody& body) {
   return static_cast<double>(body.getWorldTransform().getOrigin().z());
-}
-
-// Compares a free body step by step with the motion box's flight.
-TEST(WaterWorld, AFreeBodyMovesAsTheFlightSays) {
-  FloatingDef def;
-  def.shape = floatingBox(kBoxSize);
-  def.specific_gravity = 0.6;
-  const Vector3 q = kBoxSize.cwiseAbs2() / 12;
-  def.gyration = Vector3(q.y() + q.z(), q.z() + q.x(), q.x() + q.y()).cwiseSqrt();
-  def.has_loads = true;
-  FloatingRun alone(def);
-  alone.state = tumbling(0.5);
-  alone.state.twist.angular = alone.state.orientation.conjugate() * alone.state.twist.angular;
-  alone.state.twist.linear = alone.state.orientation.conjugate() * alone.state.twist.linear;
-  WaterWorld water(seaAt(0));
-  const btRigidBody& body = water.addBox(0.6, tumbling(0.5));
-  for (int i = 0; i < 60; ++i) {
-    alone.step(1.0 / 60);
-    water.scene.step(1.0 / 60);
-  }
-  const Vector3 position = toVector3(body.getWorldTransform().getOrigin());
-  EXPECT_LT((position - alone.state.position).norm(), byPrecision(2e-3, 5e-3));
 }
 
 TEST(WaterWorld, DryAndDeepBodiesMoveBitForBitAsInOneFluid) {
@@ -157,7 +132,7 @@ TEST(WaterWorld, APendulumThatDipsInGainsNoEnergy) {
 
 // A pile of boxes that fall into water onto each other.
 struct FloatingPile : WaterWorld {
-  explicit FloatingPile(const TaskRunner& runner = nullptr) : WaterWorld(seaAt(0), runner) {
+  FloatingPile() : WaterWorld(seaAt(0)) {
     for (int i = 0; i < 24; ++i) {
       RigidState start = tumbling(0.3 + 0.25 * i);
       start.position.x() = 0.5 * (i % 3);
@@ -166,16 +141,6 @@ struct FloatingPile : WaterWorld {
     }
   }
 };
-
-TEST(WaterWorld, EndsWithTheSameBitsOnAnyNumberOfThreads) {
-  FloatingPile alone;
-  alone.scene.step(1.0 / 60, 150);
-  EXPECT_GT(alone.scene.fluid.counters().rows, 100);
-  EXPECT_EQ(alone.scene.fluid.counters().rejected, 0);
-  FloatingPile other(onThreads(3));
-  other.scene.step(1.0 / 60, 150);
-  EXPECT_TRUE(alone.bits() == other.bits());
-}
 
 TEST(WaterWorld, GoesOnBitForBitFromASavedState) {
   for (const int before : {10, 60}) {
@@ -311,16 +276,6 @@ TEST(WaterWorld, NothingMovesABodyAlongLockedAxes) {
   EXPECT_EQ(static_cast<double>(heaving.getWorldTransform().getOrigin().y()), 5);
   EXPECT_EQ(heaving.getOrientation(), btQuaternion::getIdentity());
   EXPECT_NEAR(highest, 0.1, 0.03);  // with the wave
-}
-
-TEST(WaterWorld, TheInertiaOfAFloatingBodyIsThatOfItsImmersion) {
-  WaterWorld water(seaAt(0));
-  btRigidBody& body = water.addBox(0.5, at(0));
-  water.scene.step(1.0 / 60, 2);
-  const double dry = 0.5 * 1000 * kBoxSize.prod();
-  const Matrix6 K = water.scene.of(body).inertia();
-  EXPECT_GT(K(5, 5), 1.1 * dry);
-  EXPECT_LT(K(5, 5), dry + 999 * water.shape->added_mass(5, 5));
 }
 
 }  // namespace

@@ -156,15 +156,5 @@ TEST(HoldWater, PumpMovesNoMoreThanThereIs) {
   EXPECT_DOUBLE_EQ(water[0].volume, kCapacity);
 }
 
-TEST(HoldWater, HoldsBelowTheSurfaceStartFull) {
-  const FluidBody barge = openBarge();
-  const HoldShapes holds(barge.holds);
-  std::vector<HoldState> water(1);
-  fillCoveredHolds(holds, nullptr, {{0, 0, 1}, 0.249, 1000, 9.81}, water.data());
-  EXPECT_TRUE(areEmpty(holds, water.data()));
-  fillCoveredHolds(holds, nullptr, {{0, 0, 1}, 0.251, 1000, 9.81}, water.data());
-  EXPECT_TRUE(areFull(holds, water.data()));
-}
-
 }  // namespace
 }  // namespace ambient
