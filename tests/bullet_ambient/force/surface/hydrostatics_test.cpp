@@ -185,18 +185,6 @@ TEST(Hydrostatics, DryAndSubmergedBodiesAreAllOrNothing) {
   EXPECT_EQ(all.waterplane.area, 0);
 }
 
-/// Energy about its centre of a floating body of specific gravity `sg` in the attitude s. The
-/// draught is the one that displaces the body's mass.
-double floatingEnergy(const PackedHull& hull, double volume, double sg, const Vector3& s) {
-  double low = -10, high = 10;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = (low + high) / 2;
-    (computeWetVolume(hull, planeAt(s, middle)).volume < sg * volume ? low : high) = middle;
-  }
-  const SurfacePlane plane = planeAt(s, (low + high) / 2);
-  return hydrostaticEnergy(computeWetVolume(hull, plane), plane) - sg * volume * plane.height;
-}
-
 TEST(Buoyancy, IsTheWeightOfTheDisplacedFluidAtTheCentreOfVolume) {
   const Wrench f = buoyancy(2, {0.5, 0, 0}, {0, 0, -10});
   EXPECT_EQ(f.force, Vector3(0, 0, 20));

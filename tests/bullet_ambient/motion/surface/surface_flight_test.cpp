@@ -198,18 +198,6 @@ TEST(SurfaceFlight, TakesAllSubstepsBeforeItRests) {
   EXPECT_EQ(halted, 0);
 }
 
-/// Extremes of a free heave over its start; their times give the period.
-std::vector<test::Extreme> heaveOf(FloatingRun& body, double start, double time, double step) {
-  body.state.position.z() += start;
-  const double rest = body.state.position.z() - start;
-  std::vector<double> heave;
-  for (int i = 0; i * step < time; ++i) {
-    heave.push_back((body.state.position.z() - rest) / start);
-    body.step(step);
-  }
-  return test::extremesOf(heave, step);
-}
-
 TEST(SurfaceFlight, BodyThatFloatsStaysWhereItIs) {
   FloatingDef def;
   def.shape = test::floatingBox({1, 0.8, 0.5});
