@@ -3,7 +3,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -15,7 +14,6 @@
 #include "tests/bullet_ambient/bullet/regions/region_world.h"
 #include "tests/support/bodies/free_body.h"
 #include "tests/support/bodies/part_bodies.h"
-#include "tests/support/bodies/random_bodies.h"
 #include "tests/support/refusal_of.h"
 
 namespace ambient::test {

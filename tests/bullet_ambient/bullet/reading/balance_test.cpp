@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <vector>
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/reading.h"

@@ -3,9 +3,7 @@
 #include <cmath>
 #include <memory>
 #include <stdexcept>
-#include <string>
 
-#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/force/medium/waves.h"
 #include "bullet_ambient/reading.h"
 #include "bullet_ambient/saved_state.h"
@@ -13,7 +11,6 @@
 #include "tests/bullet_ambient/bullet/regions/region_world.h"
 #include "tests/bullet_ambient/bullet/robots/robot_world.h"
 #include "tests/bullet_ambient/bullet/state/state_scene.h"
-#include "tests/support/bits_of.h"
 #include "tests/support/bodies/part_bodies.h"
 #include "tests/support/refusal_of.h"
 

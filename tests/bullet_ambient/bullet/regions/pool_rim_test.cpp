@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "bullet_ambient/base/pi.h"
@@ -11,7 +10,6 @@
 #include "bullet_ambient/saved_state.h"
 #include "tests/bullet_ambient/bullet/regions/region_world.h"
 #include "tests/bullet_ambient/bullet/state/state_scene.h"
-#include "tests/support/bodies/random_bodies.h"
 #include "tests/support/runs.h"
 
 // Bodies across the rim of a pool, docs/theory.md section 17.

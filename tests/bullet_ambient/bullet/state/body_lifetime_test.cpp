@@ -2,7 +2,6 @@
 #include <btBulletDynamicsCommon.h>
 #include <gtest/gtest.h>
 
-#include <cstdint>
 #include <cstring>
 #include <deque>
 #include <iterator>
@@ -11,7 +10,6 @@
 #include <memory>
 #include <new>
 
-#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/bullet/members/flight_coupling.h"

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <functional>
 #include <memory>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "tests/bullet_ambient/bullet/state/state_scene.h"

@@ -183,19 +183,13 @@ TEST(WaterWorld, WindBlowsOnBodiesThatJointsMove) {
   WaterWorld free(sea), joined(sea);
   const btRigidBody& drifting = free.addBox(0.5, at(0));
   btRigidBody& body = joined.addBox(0.5, at(0));
-  btGeneric6DofConstraint rail(body, btTransform::getIdentity(), true);
-  rail.setLinearLowerLimit({-9, 0, -9});
-  rail.setLinearUpperLimit({9, 0, 9});
-  rail.setAngularLowerLimit({0, 0, 0});
-  rail.setAngularUpperLimit({0, 0, 0});
-  joined.scene.world.addConstraint(&rail);
+  joined.scene.contents.take(railOf(body, {-9, 0, -9}, {9, 0, 9}, true));
   free.scene.step(1.0 / 60, 120);
   joined.scene.step(1.0 / 60, 120);
   const auto speed = static_cast<double>(drifting.getLinearVelocity().x());
   EXPECT_GT(joined.scene.fluid.counters().rows, 100);
   EXPECT_GT(speed, 0.05);
   EXPECT_NEAR(static_cast<double>(body.getLinearVelocity().x()), speed, 0.1 * speed);
-  joined.scene.world.removeConstraint(&rail);
 }
 
 // Wind in a sea beside a calm one, and in a sea that was calm when the body was attached.

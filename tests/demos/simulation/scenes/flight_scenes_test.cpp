@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bullet_ambient/base/pi.h"
 #include "demos/analysis/path_summary.h"
 #include "tests/demos/simulation/scenes/run_scene.h"
 
