@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bullet_ambient/force/medium/waves.h"
+#include "bullet_ambient/saved_state.h"
 #include "tests/bullet_ambient/bullet/water/vessel_world.h"
 #include "tests/support/refusal_of.h"
 #include "tests/support/runs.h"
