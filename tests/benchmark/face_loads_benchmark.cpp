@@ -3,8 +3,6 @@
 #include <memory>
 
 #include "bullet_ambient/fluid_body/packed/packed_shape.h"
-#include "bullet_ambient/force/kernels/single_sums.h"
-#include "bullet_ambient/force/law/skin_friction.h"
 #include "bullet_ambient/force/law/viscous_law.h"
 #include "bullet_ambient/force/loads/face_loads.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
@@ -15,8 +13,6 @@
 namespace ambient {
 namespace {
 
-constexpr double kRightAngle = 1.5707963267948966;
-
 Twist someTwist() { return {{3, -2, 5}, {4, 1, -2}}; }
 
 void reportPerFace(benchmark::State& state, std::size_t faces) {
@@ -24,39 +20,6 @@ void reportPerFace(benchmark::State& state, std::size_t faces) {
       benchmark::Counter(static_cast<double>(faces), benchmark::Counter::kIsIterationInvariantRate |
                                                          benchmark::Counter::kInvert);
 }
-
-/// The kernel alone: arguments are subdivision level, instruction set, friction, angle in pi/2.
-void sumBlocksKernel(benchmark::State& state, InstructionSet set, bool friction, double angle) {
-  const SumBlocks sum_blocks = kSumBlocks.of(set);
-  if (!sum_blocks) {
-    state.SkipWithError("this processor does not have the instruction set");
-    return;
-  }
-  const PackedFaces faces(
-      test::faceTableOf(test::geodesicSphere(static_cast<int>(state.range(0)))));
-  const auto cosine = static_cast<float>(separationCosine(angle * kRightAngle));
-  SingleMotion motion{{0.3f, -0.2f, 0.5f},
-                      {0.4f, 0.1f, -0.2f},
-                      -cosine * std::abs(cosine),
-                      1 - cosine * cosine,
-                      friction ? 0.003f : 0.0f};
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(motion);
-    benchmark::DoNotOptimize(sum_blocks(faces.blocks(), motion));
-  }
-  reportPerFace(state, faces.size());
-}
-
-#define AMBIENT_KERNEL_BENCHMARK(set)                                                        \
-  BENCHMARK_CAPTURE(sumBlocksKernel, set##_pressure, InstructionSet::k##set, false, 1.0)     \
-      ->DenseRange(2, 5);                                                                    \
-  BENCHMARK_CAPTURE(sumBlocksKernel, set##_pressure_1_5, InstructionSet::k##set, false, 1.5) \
-      ->DenseRange(2, 5);                                                                    \
-  BENCHMARK_CAPTURE(sumBlocksKernel, set##_friction, InstructionSet::k##set, true, 1.0)      \
-      ->DenseRange(2, 5)
-AMBIENT_KERNEL_BENCHMARK(Baseline);
-AMBIENT_KERNEL_BENCHMARK(Avx2);
-AMBIENT_KERNEL_BENCHMARK(Avx512);
 
 void faceLoads(benchmark::State& state, bool friction) {
   const FaceTable faces = test::faceTableOf(test::geodesicSphere(static_cast<int>(state.range(0))));
@@ -120,15 +83,6 @@ void ballLoads(benchmark::State& state) {
   }
 }
 BENCHMARK(ballLoads);
-
-void fifthRoot(benchmark::State& state) {
-  double x = 1.7;
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(x);
-    benchmark::DoNotOptimize(reynoldsPower(x));
-  }
-}
-BENCHMARK(fifthRoot);
 
 }  // namespace
 }  // namespace ambient

@@ -2,79 +2,46 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <array>
+#include <fstream>
+#include <string>
+#include <vector>
 
 namespace ambient::reference {
 
-// Accelerations of a body with a full 6x6 inertia. Numbers from the tests of gz-sim,
-// src/AddedMass_TEST.cc and test/worlds/added_mass_full_matrix.sdf (Apache-2.0).
-
-/// Total inertia, body plus added mass, body frame. Rotation first, where gz-sim has linear first.
-/// The body itself has mass 1 and inertia identity.
-inline Eigen::Matrix<double, 6, 6> fullInertia() {
-  Eigen::Matrix<double, 6, 6> linear_first;
-  linear_first.row(0) << 1.394967926511942, 0.046356515552357314, 0.10350947385435993,
-      0.898797296303345, 0.49882101032414017, 0.37538990588775467;
-  linear_first.row(1) << 0.046356515552357314, 1.7251406148851145, 0.6826397691305769,
-      0.7790258092356468, 0.3095523984784859, 0.9762734675205801;
-  linear_first.row(2) << 0.10350947385435993, 0.6826397691305769, 1.7127177841503902,
-      0.968056899449243, 0.7054363474498657, 0.9327424023111127;
-  linear_first.row(3) << 0.898797296303345, 0.7790258092356468, 0.968056899449243,
-      1.7730463848840339, 0.5459481647643502, 0.8074138574151712;
-  linear_first.row(4) << 0.49882101032414017, 0.3095523984784859, 0.7054363474498657,
-      0.5459481647643502, 1.13432180787189, 0.8255294272171281;
-  linear_first.row(5) << 0.37538990588775467, 0.9762734675205801, 0.9327424023111127,
-      0.8074138574151712, 0.8255294272171281, 1.2597705135260855;
-  Eigen::Matrix<double, 6, 6> K;
-  K << linear_first.bottomRightCorner<3, 3>(), linear_first.bottomLeftCorner<3, 3>(),
-      linear_first.topRightCorner<3, 3>(), linear_first.topLeftCorner<3, 3>();
-  return K;
-}
-
 /// All vectors in world axes; linear acceleration = d(v_world)/dt.
 struct AccelerationCase {
-  Eigen::Quaterniond orientation;  ///< w, x, y, z
+  Eigen::Quaterniond orientation;
   Eigen::Vector3d linear_velocity, angular_velocity;
   Eigen::Vector3d force, torque;
   Eigen::Vector3d linear_acceleration, angular_acceleration;
 };
 
-inline std::array<AccelerationCase, 5> fullInertiaAccelerations() {
-  return {{{{-0.2809847940832897, -0.0670318259306688, -0.6456490396607173, 0.7068886739731832},
-            {-0.39036334852467514, -0.6319184973934608, 0.5801096725227644},
-            {0.9586223737234041, 0.3819110744112888, 0.6723060779392143},
-            {-0.556637080115808, 0.05794391212068817, -0.024721551602638447},
-            {-0.751375873274468, 0.02394774300273772, 0.8181098350410643},
-            {0.1192543571637511, 1.2564925342515267, -1.5492015338978795},
-            {1.7232932412616608, -1.1261918994329594, -0.17792714753780803}},
-           {{-0.3052948472230469, 0.9269624883895875, 0.2095263494451089, -0.0602852408624731},
-            {-0.7458530424796268, -0.1666649256184578, 0.5386761683694596},
-            {0.17926634408173947, -0.12034245997240012, 0.18516904536562961},
-            {-0.15924606852428447, -0.9253978615421046, -0.9435058673509571},
-            {-0.13533482138078679, 0.03828213442605044, -0.350293463974384},
-            {0.42447316327242957, -0.7080776570562612, -1.2515188145460858},
-            {0.3114632455376882, -1.4883476738089614, 0.9047781278329061}},
-           {{0.4474845382742349, -0.49632065154724486, 0.5178323029314619, -0.5341096375220279},
-            {0.4774732593432809, 0.9660133435982379, -0.7444575664048005},
-            {-0.6060956578366126, 0.2115034622260703, 0.9224794841428035},
-            {0.3454369446897425, 0.6102403086661006, 0.15097984754808258},
-            {0.44071925082422103, -0.6126203759247251, 0.9009309436931738},
-            {0.24671175337681506, 2.20705594933898, 2.7611862436175336},
-            {3.253196299221303, -2.1915486730787777, 2.4857656486324062}},
-           {{-0.21651876198721565, -0.8484495285682753, 0.16290189513073497, 0.4546603080791308},
-            {0.0422249657383702, -0.018269069242955682, -0.08889923134418964},
-            {0.5054783278488537, 0.9409816563774551, -0.08228410518648444},
-            {0.5313699373453282, 0.07366554324213204, -0.11253372373538961},
-            {0.33872369018889503, 0.6522277135523256, -0.5097460548473949},
-            {0.23502926958161108, 1.8946101802534714, -1.6216718048541643},
-            {-4.67488778909784, 3.023629102947669, -4.88653326608196}},
-           {{-0.6634858326989433, -0.46031657032694107, 0.4932102494131894, 0.3234792957269624},
-            {0.5964142494679903, -0.3148625519885535, 0.6209278519251678},
-            {-0.43590121461970166, 0.9146114641552883, -0.5598223768473267},
-            {-0.2998167392689237, -0.2695157563478241, 0.3651342901444177},
-            {-0.7188323924902038, -0.7464458674658769, -0.029814015736676858},
-            {0.90004165730203, 0.7398170763472348, 0.3374987284916062},
-            {-0.14893549985333834, -1.0660445662071873, -0.45274284576200496}}}};
-}
+/// Accelerations of a body with a full 6x6 inertia, as full_inertia_accelerations.txt has them.
+struct FullInertiaAccelerations {
+  explicit FullInertiaAccelerations(const std::string& file_name) {
+    std::ifstream file(file_name);
+    for (std::string line; file.peek() == '#';) std::getline(file, line);
+    const auto read = [&file](double* numbers, int count) {
+      for (int i = 0; i < count; ++i) file >> numbers[i];
+    };
+    Eigen::Matrix<double, 6, 6> linear_first;  // symmetric
+    read(linear_first.data(), 36);
+    inertia << linear_first.bottomRightCorner<3, 3>(), linear_first.bottomLeftCorner<3, 3>(),
+        linear_first.topRightCorner<3, 3>(), linear_first.topLeftCorner<3, 3>();
+    for (double w; file >> w;) {
+      AccelerationCase& c = cases.emplace_back();
+      c.orientation.w() = w;
+      for (double* vector : {c.orientation.vec().data(), c.linear_velocity.data(),
+                             c.angular_velocity.data(), c.force.data(), c.torque.data(),
+                             c.linear_acceleration.data(), c.angular_acceleration.data()})
+        read(vector, 3);
+    }
+  }
+
+  /// Total inertia, body plus added mass, body frame, rotation first. The body itself has mass 1
+  /// and inertia identity.
+  Eigen::Matrix<double, 6, 6> inertia;
+  std::vector<AccelerationCase> cases;
+};
 
 }  // namespace ambient::reference

@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/support/bodies/free_body.h"
 #include "tests/support/rotations.h"
@@ -198,20 +196,6 @@ TEST(Features, BulletsGyroscopicFlagsChangeNothing) {
     velocity[flag] = body.getAngularVelocity();
   }
   EXPECT_TRUE(velocity[0] == velocity[1]);
-}
-
-TEST(Features, NewMassPropertiesAreSeen) {
-  FluidWorld scene;
-  btRigidBody& body = scene.add({}, facelessEllipsoid(kUnequalAxes), air());
-  scene.step(1.0 / 60);
-  const btVector3 moments(4, 5, 6);
-  body.setMassProps(3, moments);
-  body.updateInertiaTensor();
-  body.applyCentralForce({1, 0, 0});
-  scene.step(1.0 / 60);
-  const double K = 3 + air().density * facelessEllipsoid(kUnequalAxes).added_mass(3, 3);
-  EXPECT_NEAR(static_cast<double>(body.getLinearVelocity().x()) * 60 * K, 1,
-              byPrecision(1e-12, 1e-5));
 }
 
 TEST(Features, ASolverOfAnotherWorldsFluidIsReportedOnce) {

@@ -113,6 +113,19 @@ struct FluidWorld : WholeWorld<ActionWorld> {
   btEmptyShape no_shape_;
 };
 
+/// A joint to the world that lets a body move within limits [m], and not turn.
+inline std::unique_ptr<btGeneric6DofConstraint> railOf(btRigidBody& body, const btVector3& lowest,
+                                                       const btVector3& highest,
+                                                       bool in_its_frame = false) {
+  auto rail =
+      std::make_unique<btGeneric6DofConstraint>(body, btTransform::getIdentity(), in_its_frame);
+  rail->setLinearLowerLimit(lowest);
+  rail->setLinearUpperLimit(highest);
+  rail->setAngularLowerLimit({0, 0, 0});
+  rail->setAngularUpperLimit({0, 0, 0});
+  return rail;
+}
+
 /// Another action of the world, before the fluid's or after it, while it lives.
 class OtherAction : public btActionInterface {
  public:

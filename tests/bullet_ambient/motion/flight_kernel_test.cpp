@@ -190,12 +190,6 @@ TEST(FlyTogether, HasTheBitsOfEachFlightAlone) {
   EXPECT_GT(most_substeps, 4);  // bodies differ
 }
 
-TEST(FlowWithoutLoads, CountsTurnsThatAreTooLongAsCoarse) {
-  const FreeBody body = movingBody(1);
-  EXPECT_TRUE(flowWithoutLoads(body, 1e-3).is_precise);
-  EXPECT_FALSE(flowWithoutLoads(body, 1e6).is_precise);
-}
-
 TEST(FlowWithoutLoads, IsAsPreciseAsAskedAndNeverGainsEnergy) {
   for (unsigned seed = 0; seed < 50; ++seed) {
     for (const double precision : {1e-6, 1e-9, 1e-12}) {

@@ -34,22 +34,38 @@ Fall analyse(const std::vector<MotionSample>& samples) {
 
 double degrees(double angle) { return angle * kPi / 180; }
 
+/// A plate that swings once a second; amplitude in degrees, decay in 1/s.
+std::vector<MotionSample> swinging(double amplitude, double decay = 0) {
+  return fallWithTilt(
+      [=](double t) { return degrees(amplitude) * std::exp(-decay * t) * std::cos(2 * kPi * t); });
+}
+
 TEST(FallingMode, SwingingIsFlutter) {
-  // Broadside at 0.25, 0.75, ... s: 16 times in 8 s, 15 half cycles between them.
-  const Fall fall =
-      analyse(fallWithTilt([](double t) { return degrees(60) * std::cos(2 * kPi * t); }));
+  // Broadside at 0.25 + k / 2 s: 16 times in 8 s, 15 half cycles between them; samples are 0.01 s
+  // apart.
+  const Fall fall = analyse(swinging(60));
   EXPECT_EQ(fall.mode, FallingMode::kFlutter);
   EXPECT_EQ(fall.swings, 15);
   EXPECT_EQ(fall.overturns, 0);
   EXPECT_EQ(fall.turns, 0);
   EXPECT_NEAR(fall.largest_swing, degrees(60), 1e-12);
+  ASSERT_EQ(fall.events.size(), 15u);
+  for (std::size_t k = 0; k < fall.events.size(); ++k) {
+    EXPECT_FALSE(fall.events[k].is_overturn);
+    EXPECT_NEAR(fall.events[k].time, 0.75 + 0.5 * static_cast<double>(k), 0.0101);
+  }
+  const Fall beyond_the_vertical = analyse(swinging(120));
+  EXPECT_EQ(beyond_the_vertical.mode, FallingMode::kFlutter);
+  EXPECT_EQ(beyond_the_vertical.overturns, 0);
 }
 
-TEST(FallingMode, SwingingBeyondTheVerticalIsStillFlutter) {
-  const Fall fall =
-      analyse(fallWithTilt([](double t) { return degrees(120) * std::cos(2 * kPi * t); }));
-  EXPECT_EQ(fall.mode, FallingMode::kFlutter);
-  EXPECT_EQ(fall.overturns, 0);
+TEST(FallingMode, WobblesBelowTheThresholdAndWhatDiesOutEarlyAreSteady) {
+  const Fall wobbles = analyse(swinging(9)), dies = analyse(swinging(80, 1)),
+             still = analyse(fallWithTilt([](double) { return 0.3; }));
+  for (const Fall& fall : {wobbles, dies, still}) EXPECT_EQ(fall.mode, FallingMode::kSteady);
+  EXPECT_EQ(wobbles.swings, 0);
+  EXPECT_GT(dies.swings, 0);
+  EXPECT_TRUE(still.swing_axis.isZero());
 }
 
 TEST(FallingMode, TurningOnIsTumblingEitherWay) {
@@ -77,17 +93,6 @@ TEST(FallingMode, TurningThenSwingingIsMixed) {
   EXPECT_EQ(fall.swings, 8);
 }
 
-TEST(FallingMode, EventsCarryTheirTimes) {
-  // Broadside at 0.25 + k / 2 s; samples are 0.01 s apart.
-  const Fall fall =
-      analyse(fallWithTilt([](double t) { return degrees(60) * std::cos(2 * kPi * t); }));
-  ASSERT_EQ(fall.events.size(), 15u);
-  for (std::size_t k = 0; k < fall.events.size(); ++k) {
-    EXPECT_FALSE(fall.events[k].is_overturn);
-    EXPECT_NEAR(fall.events[k].time, 0.75 + 0.5 * static_cast<double>(k), 0.0101);
-  }
-}
-
 TEST(FallingMode, OneSwingAmongManyOverturnsIsTumbling) {
   const auto tilt = [](double t) {
     if (t < 4) return 20.5 * kPi * t / 4;
@@ -97,26 +102,6 @@ TEST(FallingMode, OneSwingAmongManyOverturnsIsTumbling) {
   EXPECT_GE(fall.swings, 1);
   EXPECT_LE(fall.swings, kPureShare * (fall.swings + fall.overturns));
   EXPECT_EQ(fall.mode, FallingMode::kTumbling);
-}
-
-TEST(FallingMode, WobblesBelowTheThresholdAreSteady) {
-  const Fall fall =
-      analyse(fallWithTilt([](double t) { return degrees(9) * std::cos(2 * kPi * t); }));
-  EXPECT_EQ(fall.mode, FallingMode::kSteady);
-  EXPECT_EQ(fall.swings, 0);
-}
-
-TEST(FallingMode, FlutterThatDiesOutEarlyIsSteady) {
-  const Fall fall = analyse(
-      fallWithTilt([](double t) { return degrees(80) * std::exp(-t) * std::cos(2 * kPi * t); }));
-  EXPECT_GT(fall.swings, 0);
-  EXPECT_EQ(fall.mode, FallingMode::kSteady);
-}
-
-TEST(FallingMode, APlateThatDoesNotTurnIsSteady) {
-  const Fall fall = analyse(fallWithTilt([](double) { return 0.3; }));
-  EXPECT_EQ(fall.mode, FallingMode::kSteady);
-  EXPECT_TRUE(fall.swing_axis.isZero());
 }
 
 TEST(FallingMode, SpeedsAreThoseOfTheSecondHalf) {

@@ -111,14 +111,6 @@ TEST(SceneReader, EveryIntegerHasBounds) {
   }
 }
 
-TEST(SceneReader, TellsTheNameOfEveryIntegrator) {
-  for (const char* const name : {"leapfrog", "dormand_prince", "rk4", "symplectic_euler"}) {
-    json scene = ballScene();
-    scene["integrator"] = {{"method", name}};
-    EXPECT_STREQ(wordOf(kIntegratorNames, sceneFrom(scene).flight.own_flight), name);
-  }
-}
-
 /// A ball on a joint to the world, and a static ball.
 json jointScene() {
   json scene = ballScene();

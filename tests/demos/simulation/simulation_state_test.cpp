@@ -40,11 +40,18 @@ TEST(SimulationForces, ActForOneStepAtTheirPoint) {
   EXPECT_NEAR((twist.angular - Vector3(0.01, 0, -0.0075)).norm(), 0, 1e-5);
 }
 
-TEST(SimulationJoints, OfABodyThatIsNotThereAreRefused) {
+TEST(SimulationJoints, OfNoBodyAndFarFromTheirBodyAreRefused) {
   Scene scene = sceneFrom(stillBall());
-  scene.joints.push_back({{"nobody"}, Vector3(0, 0, 1), std::nullopt});
-  const std::string refusal = test::refusalOf([&] { Simulation(scene, prepare(scene)); });
-  EXPECT_NE(refusal.find("there is no rigid body \"nobody\""), std::string::npos) << refusal;
+  const auto refusal = [&scene](const JointDef& joint) {
+    scene.joints = {joint};
+    return test::refusalOf<std::exception>([&] { Simulation(scene, prepare(scene)); });
+  };
+  EXPECT_NE(refusal({{"nobody"}, Vector3(0, 0, 1), std::nullopt})
+                .find("there is no rigid body \"nobody\""),
+            std::string::npos);
+  EXPECT_NE(refusal({{"ball"}, Vector3(0, 1e30, 0), std::nullopt})
+                .find("joint of body \"ball\": its point is 1e+30 m from"),
+            std::string::npos);
 }
 
 /// Boxes that fall into a pile in water, with friction, as compounds of one part.

@@ -309,22 +309,6 @@ std::vector<Blade> blades() {
        true}};
 }
 
-/// Barrels of 8 strips, which count as sides, and of 12, which count as round.
-std::vector<Blade> barrels() {
-  std::vector<Blade> all;
-  for (const int strips : {8, 12}) {
-    std::vector<Vector3> corners;
-    for (int i = 0; i < strips; ++i)
-      for (const double z : {-0.5, 0.5}) {
-        const double angle = 2 * kPi * i / strips;
-        corners.emplace_back(0.5 * std::cos(angle), 0.5 * std::sin(angle), z);
-      }
-    all.push_back(
-        {strips == 8 ? "barrel of sides" : "round barrel", hullOf(corners), {0.5, 0.5, 0.4}});
-  }
-  return all;
-}
-
 FluidBody bodyOf(const Blade& blade, int least_faces) {
   BuildSettings settings;
   settings.name = blade.name;
@@ -394,16 +378,6 @@ Difference between(const FluidBody& body, const FluidBody& reference) {
   return largest;
 }
 
-TEST(FormLawRefinement, KeepsForceAndMomentWithinAPercent) {
-  std::vector<Blade> bodies = blades();
-  for (const Blade& barrel : barrels()) bodies.push_back(barrel);
-  for (const Blade& blade : bodies) {
-    const Difference most = between(bodyOf(blade, 0), bodyOf(blade, kFine));
-    EXPECT_LE(most.force, 0.01) << blade.name;
-    EXPECT_LE(most.torque, 0.01) << blade.name;
-  }
-}
-
 /// Prism, frustum or cone of n sides about z, of height 1.
 Blade bodyOfSides(const char* name, int sides, double lower, double upper) {
   std::vector<Vector3> corners;
@@ -438,6 +412,14 @@ std::vector<Blade> bodiesOfSides() {
   all.push_back(bodyOfSides("frustum of 10", 10, 0.5, 0.3));
   all.push_back(bodyOfSides("frustum of 11", 11, 0.5, 0.1));
   return all;
+}
+
+TEST(FormLawRefinement, KeepsForceAndMomentWithinAPercent) {
+  for (const Blade& blade : bodiesOfSides()) {
+    const Difference most = between(bodyOf(blade, 0), bodyOf(blade, kFine));
+    EXPECT_LE(most.force, 0.01) << blade.name;
+    EXPECT_LE(most.torque, 0.01) << blade.name;
+  }
 }
 
 /// Cuts each triangle into four at the middles of its edges.

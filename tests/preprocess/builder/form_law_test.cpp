@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <memory>
-#include <random>
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
@@ -16,6 +15,7 @@
 #include "preprocess/mesh/shapes/primitives.h"
 #include "preprocess/mesh/triangle_mesh.h"
 #include "preprocess/polar/polar.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace ambient {
 namespace {
@@ -276,14 +276,10 @@ TEST(MeasuredDrag, IsOnTheSilhouette) {
 TEST(MeasuredDrag, TakesEnergyInEveryMotion) {
   FluidBody body = bodyOf(makeConeMesh(1, 2, 400));
   body.drag = {0.2, 3, 0.5};
-  std::mt19937 generator(9);
-  std::normal_distribution<double> normal;
-  const auto vector = [&] {
-    return Vector3(normal(generator), normal(generator), normal(generator));
-  };
+  test::Arbitrary arbitrary(9);
   const auto loads = makeSurfaceLoads(std::make_shared<FluidBody>(body), kUnitFluid, formLaw());
   for (int i = 0; i < 10000; ++i) {
-    const Twist x{vector(), vector()};
+    const Twist x = arbitrary.twist();
     EXPECT_LT(power(loads->load(x), x), 0);
     const Twist twice{2 * x.angular, 2 * x.linear};  // degree 2
     EXPECT_LE((loads->load(twice).vector() - 4 * loads->load(x).vector()).norm(),
@@ -336,11 +332,8 @@ TEST(FormLawFaces, DoBetterThanTwiceAsManyTriangles) {
   FaceTable points = formLawFaces(fine, {});
   points.sharpness.assign(points.size(), 1);
   EXPECT_GE(coarse.faces.size(), 2 * points.size());
-  std::mt19937 generator(3);
-  std::normal_distribution<double> normal;
-  const auto direction = [&] {
-    return Vector3(normal(generator), normal(generator), normal(generator)).normalized();
-  };
+  test::Arbitrary arbitrary(3);
+  const auto direction = [&] { return arbitrary.vector().normalized(); };
   const auto pressureOn = [](const FaceTable& faces, const Twist& x) {
     const LoadSettings settings{1, 0, 0, false, PressureLaw::kForm};
     return computeFaceLoads(faces, 1, x, settings).pressure.vector();

@@ -209,16 +209,6 @@ TEST(ConvexShape, UniformScalingScalesWhateverItHolds) {
   EXPECT_LT(test::differenceOf(scaled.added_mass, scaleShape(plain.added_mass, 0.5)), 1e-10);
 }
 
-TEST(ConvexShape, FrameIsThatOfTheShape) {
-  const FluidBody box = makeFluidBody(btBoxShape(btVector3(1, 2, 3)), coarse());
-  EXPECT_EQ(box.origin, Vector3::Zero());
-  EXPECT_LT(box.centre_of_volume.norm(), 1e-6);
-  EXPECT_EQ(box.name, "Box");
-}
-
-using test::coarse;
-using test::kScalarRounding;
-
 TEST(MeshShape, GImpactMeshIsTakenAsItIs) {
   const TriangleMesh cone = makeConeMesh(0.5, 1.2, 300);
   test::GImpactMesh mesh(cone);
@@ -300,8 +290,6 @@ TEST(MeshShape, WhatWasSaidOfItIsKeptWithItsForm) {
   EXPECT_EQ(told, said);
   EXPECT_EQ(told_later, said);
 }
-
-using test::coarse;
 
 std::string refusalOf(const btCollisionShape& shape) {
   CollisionShapeSettings settings = coarse();

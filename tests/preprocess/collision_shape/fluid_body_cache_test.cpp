@@ -141,16 +141,6 @@ TEST(FluidBodyCache, GivesWhatTheShapeIs) {
   EXPECT_LT((extentsOf(*body) - extentsOf(direct)).norm(), 1e-6);
 }
 
-TEST(FluidBodyCache, ScaledShapesAreSolvedOnce) {
-  FluidBodyCache cache(coarse());
-  const auto cube = cache.fluidBody(btBoxShape(sizes(1, 1, 1)));
-  const auto large = cache.fluidBody(btBoxShape(sizes(3, 3, 3)));
-  EXPECT_EQ(cache.counts().made, 1);
-  EXPECT_NEAR(large->volume / cube->volume, 27, 1e-5);
-  EXPECT_NEAR(large->added_mass(0, 0) / cube->added_mass(0, 0), 243, 243e-5);
-  EXPECT_NEAR(large->added_mass(3, 3) / cube->added_mass(3, 3), 27, 27e-5);
-}
-
 // As after resetSimulation of a robot: what a known hull costs is reading its numbers.
 TEST(FluidBodyCache, AKnownHullIsFoundByItsNumbersAsTheyAre) {
   constexpr int kPoints = 1000;

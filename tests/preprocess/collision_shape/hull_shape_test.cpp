@@ -38,22 +38,6 @@ void addOctahedron(btConvexHullShape& hull, btScalar size) {
     }
 }
 
-TEST(HullShape, CubeOf8PointsIsRight) {
-  btConvexHullShape hull;
-  addCube(hull, 1);
-  hull.addPoint(btVector3(btScalar(0.2), btScalar(0.3), 0));  // inside
-  const FluidBody cube = makeFluidBody(hull);
-  EXPECT_NEAR(cube.volume / 8, 1, 1e-13);
-  EXPECT_GE(cube.faces.size(), 350u) << "divided for the loads";
-  Vector6 exact;
-  exact << Vector3::Constant(reference::cubeRotationalAddedMass()),
-      Vector3::Constant(8 * reference::cubeAddedMassCoefficient());
-  // Measured 7e-3 and 1.2e-3.
-  EXPECT_LT(test::rotationError(cube.added_mass, exact.asDiagonal()), 1e-2);
-  EXPECT_LT(test::translationError(cube.added_mass, exact.asDiagonal()), 2e-3);
-  checkFluidBody(cube, "cube");
-}
-
 // Bullet's default margin of 4 cm is as large as these hulls.
 TEST(HullShape, AMarginDisplacesNothing) {
   const auto size = btScalar(0.05);

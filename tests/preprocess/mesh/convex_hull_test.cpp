@@ -126,17 +126,6 @@ Polygon inSpace(Polygon polygon) {
   return polygon;
 }
 
-TEST(PolygonTriangles, CoverConcavePolygons) {
-  const Polygon l{{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}};
-  for (std::size_t first = 0; first < l.size(); ++first) {
-    Polygon turned = l;
-    std::rotate(turned.begin(), turned.begin() + static_cast<std::ptrdiff_t>(first), turned.end());
-    expectCovered(inSpace(turned), "L from corner " + std::to_string(first));
-    std::reverse(turned.begin(), turned.end());
-    expectCovered(inSpace(turned), "reversed L from corner " + std::to_string(first));
-  }
-}
-
 TEST(PolygonTriangles, CoverPolygonsWithCornersOnStraightSides) {
   const Polygon square{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0},
                        {2, 2, 0}, {1, 2, 0}, {0, 2, 0}, {0, 1, 0}};
@@ -251,22 +240,14 @@ double wrappedVolume(const TriangleMesh& mesh, const std::string& defect) {
   return enclosedBy(made.mesh);
 }
 
-/// A box of side 2 without its upper side.
-TriangleMesh openBox() {
-  TriangleMesh box = makeBoxMesh({1, 1, 1}, 300);
-  for (Eigen::Index t = box.triangleCount() - 1; t >= 0; --t)
-    if (box.barycentre(t).z() > 1 - 1e-9) box = withoutTriangle(box, t);
-  return box;
-}
-
 TEST(BodyMesh, OpenBodiesAreClosed) {
-  EXPECT_NEAR(wrappedVolume(openBox(), "not watertight: "), 8, 0.03);
+  EXPECT_NEAR(wrappedVolume(openBox(makeBoxMesh({1, 1, 1}, 300), 1), "not watertight: "), 8, 0.03);
   const TriangleMesh holed = withoutTriangle(makeBoxMesh({1, 1, 1}, 12), 5);
   EXPECT_NEAR(wrappedVolume(holed, "not watertight: 3 boundary edges"), 8, 0.03);
 }
 
 TEST(BodyMesh, DoubledOpenBodiesAreClosedToo) {
-  const TriangleMesh open = openBox();
+  const TriangleMesh open = openBox(makeBoxMesh({1, 1, 1}, 300), 1);
   const TriangleMesh doubled = weldVertices(joined(open, insideOut(open)), 0);
   const CheckedMesh made = makeBodyMesh(doubled, "thing.obj", false);
   EXPECT_NEAR(enclosedBy(made.mesh), 8, 0.03);
@@ -323,29 +304,9 @@ TEST(BodyMesh, SheetsAreRefusedWithAHint) {
             bodyRefusal(flat, false) + " (build --wrap makes a closed surface around it)");
 }
 
-TEST(BodyMesh, WhatHasNoTrianglesOrNumbersIsRefused) {
-  TriangleMesh broken = makeBoxMesh({1, 1, 1}, 12), unknown = broken;
-  broken.vertices(1, 3) = std::numeric_limits<double>::quiet_NaN();
-  unknown.triangles(0, 7) = 100;
-  for (const bool strict : {false, true}) {
-    EXPECT_EQ(bodyRefusal({}, strict), "thing.obj: there are no triangles");
-    EXPECT_EQ(bodyRefusal(broken, strict),
-              "thing.obj: vertex 3 has the coordinate y = nan, must be finite");
-    EXPECT_EQ(bodyRefusal(unknown, strict).find("thing.obj: triangle 7 refers to vertex 100"), 0u);
-  }
-}
-
 // Six sides of a cube with gaps of a fifth of its edge between them.
 TEST(BodyMesh, WhatTheWrapRefusesSaysBothReasons) {
-  const TriangleMesh cube = makeBoxMesh({1, 1, 1}, 12);
-  TriangleMesh plates;
-  plates.vertices.resize(3, 36);
-  plates.triangles.resize(3, 12);
-  for (int i = 0; i < 36; ++i) {
-    plates.triangles(i % 3, i / 3) = i;
-    const Eigen::Vector3d corner = cube.corner(i / 3, i % 3);
-    plates.vertices.col(i) = corner - 0.2 * (corner - cube.twiceArea(i / 3).normalized());
-  }
+  const TriangleMesh plates = cubeOfPlates(makeBoxMesh({1, 1, 1}, 12), 0.2);
   const std::string message = bodyRefusal(weldVertices(plates, 1e-9), false);
   EXPECT_EQ(message.find("thing.obj: not watertight: "), 0u) << message;
   EXPECT_NE(message.find("; wrapped with a size of "), std::string::npos) << message;

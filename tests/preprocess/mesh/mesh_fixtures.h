@@ -59,6 +59,27 @@ inline TriangleMesh withoutTriangle(const TriangleMesh& mesh, Eigen::Index trian
   return result;
 }
 
+/// Box of half sizes (1, 1, height) without its upper side.
+inline TriangleMesh openBox(TriangleMesh box, double height) {
+  for (Eigen::Index t = box.triangleCount() - 1; t >= 0; --t)
+    if (box.barycentre(t).z() > height - 1e-9) box = withoutTriangle(box, t);
+  return box;
+}
+
+/// The triangles of a cube of half size 1, whose sides are drawn together by a part of it, so that
+/// gaps are between them. No two triangles share vertices.
+inline TriangleMesh cubeOfPlates(const TriangleMesh& cube, double gap) {
+  TriangleMesh plates;
+  plates.vertices.resize(3, 36);
+  plates.triangles.resize(3, 12);
+  for (int i = 0; i < 36; ++i) {
+    plates.triangles(i % 3, i / 3) = i;
+    const Eigen::Vector3d corner = cube.corner(i / 3, i % 3);
+    plates.vertices.col(i) = corner - gap * (corner - cube.twiceArea(i / 3).normalized());
+  }
+  return plates;
+}
+
 /// Fixed rotation about an oblique axis.
 inline Eigen::Matrix3d someRotation() {
   return Eigen::AngleAxisd(1.1, Eigen::Vector3d(0.3, -0.5, 0.8).normalized()).toRotationMatrix();

@@ -33,23 +33,24 @@ TriangleMesh skewBox() { return skewBody(makeBoxMesh({0.5, 0.35, 0.6}, 300)); }
 /// A curved sheet without symmetry.
 TriangleMesh skewSheet() { return skewBody(makeRectangularSheetMesh(1.2, 0.8, 200)); }
 
-TEST(FlowInvariance, RotatedMeshGivesRotatedInertia) {
-  const Eigen::Matrix3d R = someRotation();
-  EXPECT_LT(differenceOf(addedMassOf(rotated(skewBox(), R)), rotateAxes(addedMassOf(skewBox()), R)),
-            kIdentity);
-  EXPECT_LT(differenceOf(sheetAddedMassOf(rotated(skewSheet(), R)),
-                         rotateAxes(sheetAddedMassOf(skewSheet()), R)),
-            kIdentity);
-}
-
-TEST(FlowInvariance, MovedMeshGivesShiftedInertia) {
-  const Vector3d d(0.7, -1.3, 2.1);
-  // New origin = old origin - d, seen from the moved mesh.
-  EXPECT_LT(differenceOf(addedMassOf(moved(skewBox(), d)), shiftOrigin(addedMassOf(skewBox()), -d)),
-            kIdentity);
-  EXPECT_LT(differenceOf(sheetAddedMassOf(moved(skewSheet(), d)),
-                         shiftOrigin(sheetAddedMassOf(skewSheet()), -d)),
-            kIdentity);
+TEST(FlowInvariance, InertiaTurnsMovesAndScalesWithTheBody) {
+  const Matrix6 body = addedMassOf(skewBox()), sheet = sheetAddedMassOf(skewSheet());
+  const auto expectFollows = [&](const Eigen::Matrix3d& R, const Vector3d& d, double s) {
+    const auto put = [&](const TriangleMesh& mesh) {
+      return scaled(moved(rotated(mesh, R), d), s);
+    };
+    // New origin = old origin - d, seen from the moved mesh.
+    const auto seen = [&](const Matrix6& K) {
+      return scaleShape(shiftOrigin(rotateAxes(K, R), -d), s);
+    };
+    EXPECT_LT(differenceOf(addedMassOf(put(skewBox())), seen(body), s), kIdentity) << s;
+    EXPECT_LT(differenceOf(sheetAddedMassOf(put(skewSheet())), seen(sheet), s), kIdentity) << s;
+  };
+  const Eigen::Matrix3d still = Eigen::Matrix3d::Identity();
+  const Vector3d nowhere = Vector3d::Zero();
+  expectFollows(someRotation(), nowhere, 1);
+  expectFollows(still, {0.7, -1.3, 2.1}, 1);
+  for (const double s : {1e-6, 0.013, 1e6}) expectFollows(still, nowhere, s);
 }
 
 TEST(FlowInvariance, OriginFarAwayCostsOnlyTheDigitsOfTheCoordinates) {
@@ -59,17 +60,6 @@ TEST(FlowInvariance, OriginFarAwayCostsOnlyTheDigitsOfTheCoordinates) {
   // Coordinates of 3000 keep 5e-13; the shift back multiplies by 3000 twice.
   EXPECT_LT(differenceOf(addedMassOf(moved(skewBox(), d)), shiftOrigin(near, -d), 3000), kIdentity);
   EXPECT_LT(Matrix3((back - near).bottomRightCorner<3, 3>()).norm(), 1e-9 * near.norm());
-}
-
-TEST(FlowInvariance, SizeDoesNotMatter) {
-  const Matrix6 unit = addedMassOf(skewBox()), sheet = sheetAddedMassOf(skewSheet());
-  for (double s : {1e-6, 0.013, 1e6}) {
-    EXPECT_LT(differenceOf(addedMassOf(scaled(skewBox(), s)), scaleShape(unit, s), s), kIdentity)
-        << s;
-    EXPECT_LT(differenceOf(sheetAddedMassOf(scaled(skewSheet(), s)), scaleShape(sheet, s), s),
-              kIdentity)
-        << s;
-  }
 }
 
 TEST(FlowInvariance, MirroredMeshGivesMirroredInertia) {
@@ -105,19 +95,6 @@ TEST(FlowInvariance, PotentialFollowsTheBody) {
       s * s * (here.leftCols<3>() * v - here.rightCols<3>() * v * crossMatrix(d));
   EXPECT_LT((there.rightCols<3>() - linear).norm(), kIdentity * linear.norm());
   EXPECT_LT((there.leftCols<3>() - angular).norm(), kIdentity * angular.norm());
-}
-
-TEST(FlowInvariance, ThreadsDoNotChangeABit) {
-  PotentialFlowSettings settings;
-  settings.threads = 1;
-  const PotentialFlow one = solvePotentialFlow(skewBox(), settings);
-  for (int threads : {2, 3, 7}) {
-    settings.threads = threads;
-    const PotentialFlow many = solvePotentialFlow(skewBox(), settings);
-    EXPECT_EQ(many.added_mass, one.added_mass) << threads;
-    EXPECT_EQ(many.potential, one.potential) << threads;
-    EXPECT_EQ(many.asymmetry, one.asymmetry) << threads;
-  }
 }
 
 using test::relativeError;
@@ -199,12 +176,17 @@ TEST_P(HierarchicalFlow, AgreesWithTheDenseSolver) {
 INSTANTIATE_TEST_SUITE_P(Shapes, HierarchicalFlow, testing::ValuesIn(kCases),
                          [](const auto& test) { return std::string(test.param.name); });
 
-TEST(HierarchicalSolver, ThreadsDoNotChangeABit) {
+TEST(FlowInvariance, ThreadsDoNotChangeABit) {
   const TriangleMesh mesh = skewBody(makeBoxMesh({1, 0.6, 0.8}, 600));
-  const PotentialFlow one = solveWith(FlowSolverKind::Hierarchical, mesh, false, 1);
-  const PotentialFlow three = solveWith(FlowSolverKind::Hierarchical, mesh, false, 3);
-  EXPECT_EQ(one.added_mass, three.added_mass);
-  EXPECT_EQ(one.potential, three.potential);
+  for (const FlowSolverKind solver : {FlowSolverKind::Dense, FlowSolverKind::Hierarchical}) {
+    const PotentialFlow one = solveWith(solver, mesh, false, 1);
+    for (const int threads : {2, 3, 7}) {
+      const PotentialFlow many = solveWith(solver, mesh, false, threads);
+      EXPECT_EQ(many.added_mass, one.added_mass) << threads;
+      EXPECT_EQ(many.potential, one.potential) << threads;
+      EXPECT_EQ(many.asymmetry, one.asymmetry) << threads;
+    }
+  }
 }
 
 // Lamb: a sphere has half its volume as added mass.

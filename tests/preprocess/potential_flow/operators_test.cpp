@@ -32,45 +32,6 @@ PanelSurface twoTetrahedra(const Vector3d& distance = {2.5, 1, -0.5}) {
   return makePanelSurface(joined(one, moved(scaled(other, 0.7), distance)), false);
 }
 
-/// Fixed values without structure.
-MatrixX6 someValues(Index rows) {
-  MatrixX6 values(rows, 6);
-  for (Index i = 0; i < values.size(); ++i)
-    values.data()[i] = std::sin(static_cast<double>(i * i + 1));
-  return values;
-}
-
-double hat(const Panel& p, int a, const Vector3d& x) {
-  return 1 + p.hatGradient(a).dot(x - p.corner[a]);
-}
-
-/// int_T f(x) int_S h_b(y) dG/dn_y; outer integral by fine subdivision.
-template <typename Function>
-double layerIntegral(const Panel& t, const Panel& s, int b, const Function& f) {
-  return reference::integrateOverTriangle(
-             t.corner, [&](const Vector3d& x) { return f(x) * computeDoubleLayer(s, x)[b]; }, 0.2) /
-         (4 * kPi);
-}
-
-Eigen::Matrix<double, 3, 6> referenceMoments(const PanelSurface& surface, const MatrixX6& jump,
-                                             Index t) {
-  const Panel& p = surface.panels[t];
-  Eigen::Matrix<double, 3, 6> moments = Eigen::Matrix<double, 3, 6>::Zero();
-  for (Index s = 0; s < surface.panelCount(); ++s)
-    for (int a = 0; a < 3 && s != t; ++a)
-      for (int b = 0; b < 3; ++b) {
-        const Panel& q = surface.panels[s];
-        moments.row(a) += layerIntegral(p, q, b, [&](const Vector3d& x) { return hat(p, a, x); }) *
-                          jump.row(surface.triangles(b, s));
-        for (int c = 0; c < 3; ++c)
-          moments.row(a) -=
-              layerIntegral(p, q, b,
-                            [&](const Vector3d& x) { return hat(p, a, x) * hat(p, c, x); }) *
-              jump.row(surface.triangles(c, t));
-      }
-  return moments;
-}
-
 Eigen::MatrixXd fullHypersingular(const PanelSurface& surface) {
   const Eigen::MatrixXd W =
       assembleHypersingular(surface, numberUnknowns(surface), findNearPanels(surface, 1), 1);
@@ -93,17 +54,6 @@ TEST(Hypersingular, EqualsTheSumOfReferencePairIntegrals) {
   EXPECT_LT((fullHypersingular(surface) - reference).norm(), 1e-5 * reference.norm());
 }
 
-TEST(Hypersingular, AnnihilatesTheConstantsOfEachComponent) {
-  const PanelSurface surface = twoTetrahedra();
-  ASSERT_EQ(surface.component_count, 2);
-  const Eigen::MatrixXd W = fullHypersingular(surface);
-  for (int c = 0; c < 2; ++c) {
-    Eigen::VectorXd m(surface.vertexCount());
-    for (Index v = 0; v < m.size(); ++v) m[v] = surface.component[v] == c;
-    EXPECT_LT((W * m).norm(), 1e-14 * W.norm());
-  }
-}
-
 TEST(Hypersingular, IsPositiveDefiniteButForTheConstants) {
   const PanelSurface surface = makePanelSurface(makeBoxMesh({1, 0.5, 0.01}, 300), false);
   const Eigen::VectorXd values = test::symmetricEigenvalues(fullHypersingular(surface));
@@ -112,62 +62,8 @@ TEST(Hypersingular, IsPositiveDefiniteButForTheConstants) {
   EXPECT_GT(values[1], 1e-5 * largest);
 }
 
-TEST(NormalVelocity, OfAClosedSurfaceSumsToZeroAndMeasuresTheVolume) {
-  const PanelSurface surface = makePanelSurface(moved(unitTetrahedron(), {3, 2, 1}), false);
-  const MatrixX6 B = assembleNormalVelocity(surface, numberUnknowns(surface));
-  EXPECT_LT(B.colwise().sum().norm(), 1e-15);
-  // int z_i n_j = volume delta_ij; hat functions contain the linear function z exactly.
-  Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
-  for (Index t = 0; t < surface.panelCount(); ++t)
-    for (int a = 0; a < 3; ++a) {
-      const Panel& p = surface.panels[t];
-      moment += p.corner[a] * p.normal.transpose() * (p.area / 3);
-    }
-  EXPECT_LT((moment - surface.volume * Eigen::Matrix3d::Identity()).norm(), 1e-15);
-}
-
-TEST(NormalVelocity, IsExactForRotations) {
-  const PanelSurface surface = makePanelSurface(moved(unitTetrahedron(), {3, 2, 1}), false);
-  const MatrixX6 B = assembleNormalVelocity(surface, numberUnknowns(surface));
-  for (int axis = 0; axis < 3; ++axis) {
-    double reference = 0;
-    for (Index t = 0; t < surface.panelCount(); ++t)
-      for (int a = 0; a < 3; ++a) {
-        if (surface.triangles(a, t) != 2) continue;
-        const Panel& p = surface.panels[t];
-        reference += reference::integrateOverTriangle(p.corner, [&](const Vector3d& z) {
-          const double hat = 1 + p.hatGradient(a).dot(z - p.corner[a]);
-          return hat * p.normal.dot(Vector3d::Unit(axis).cross(z));
-        });
-      }
-    EXPECT_NEAR(B(2, axis), reference, 1e-10);
-  }
-}
-
 PanelMoments momentsOf(const PanelSurface& surface, const MatrixX6& jump) {
   return computeExteriorMoments(surface, findNearPanels(surface, 1), jump, 1);
-}
-
-TEST(ExteriorMoments, EqualReferenceIntegralsOverBothPanels) {
-  const PanelSurface surface = twoTetrahedra();
-  const MatrixX6 jump = someValues(surface.vertexCount());
-  const PanelMoments moments = momentsOf(surface, jump);
-  for (Index t : {1, 6}) {
-    const auto reference = referenceMoments(surface, jump, t);
-    // Quadrature of 16 points next to edges; measured 1e-3.
-    EXPECT_LT((moments[t] - reference).norm(), 1.5e-3 * reference.norm()) << t;
-  }
-}
-
-TEST(ExteriorMoments, OfDistantPanelsEqualReferenceIntegrals) {
-  // Jumps on the other body only: no near pairs hide the far field's error. The distance is the
-  // least for far pairs, and most moments cancel. Measured 5.7e-3.
-  const PanelSurface surface = twoTetrahedra({3.5, 3, -2.5});
-  for (Index s = 4; s < 8; ++s) ASSERT_EQ(classifyPair(surface, 1, s), PairKind::Far);
-  MatrixX6 jump = someValues(surface.vertexCount());
-  jump.topRows<4>().setZero();
-  const auto reference = referenceMoments(surface, jump, 1);
-  EXPECT_LT((momentsOf(surface, jump)[1] - reference).norm(), 8e-3 * reference.norm());
 }
 
 TEST(ExteriorMoments, OfAConstantJumpVanish) {
@@ -187,20 +83,6 @@ TEST(ExteriorMoments, OfALinearJumpOnTheSphereAreThoseOfAThirdOfIt) {
   const MatrixX6 potential = projectOnVertices(surface, momentsOf(surface, jump));
   // Error of facets instead of the sphere; measured 5e-4.
   EXPECT_LT((potential.leftCols<3>() - jump.leftCols<3>() / 3).cwiseAbs().maxCoeff(), 1e-3);
-}
-
-TEST(VertexProjection, ReturnsPiecewiseLinearFunctionsUnchanged) {
-  const PanelSurface surface = makePanelSurface(makeConeMesh(1, 2, 200), false);
-  const MatrixX6 values = someValues(surface.vertexCount());
-  PanelMoments moments(surface.panelCount());
-  for (Index t = 0; t < surface.panelCount(); ++t) {
-    const double third = surface.panels[t].area / 12;
-    for (int a = 0; a < 3; ++a) {
-      moments[t].row(a) = third * values.row(surface.triangles(a, t));
-      for (int b = 0; b < 3; ++b) moments[t].row(a) += third * values.row(surface.triangles(b, t));
-    }
-  }
-  EXPECT_LT((projectOnVertices(surface, moments) - values).cwiseAbs().maxCoeff(), 1e-13);
 }
 
 using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -224,39 +106,12 @@ TEST(BlockProduct, AddsTheBlockAndItsTransposeForAllFieldsAndSizes) {
       }
 }
 
-using MatrixX6 = Eigen::Matrix<double, Eigen::Dynamic, 6>;
-
 constexpr double kOpening = 0.7;
 
 PanelSurface twoBodies() {
   const TriangleMesh ball = scaled(makeEllipsoidMesh({1, 0.7, 0.5}, 320), 0.6);
   return makePanelSurface(joined(makeBoxMesh({1, 1, 0.05}, 432), moved(ball, {0.3, 0.2, 1})),
                           false);
-}
-
-TEST(PanelTree, HoldsEveryPanelOnceInItsOrder) {
-  const PanelSurface surface = twoBodies();
-  const PanelTree tree = makePanelTree(surface, 20);
-  ASSERT_EQ(tree.surface.panelCount(), surface.panelCount());
-  Eigen::VectorXi seen = Eigen::VectorXi::Zero(surface.panelCount());
-  for (Index t = 0; t < surface.panelCount(); ++t)
-    for (Index s = 0; s < surface.panelCount(); ++s)
-      seen[s] += tree.surface.triangles.col(t) == surface.triangles.col(s) ? 1 : 0;
-  EXPECT_TRUE((seen.array() == 1).all());
-  Index next = 0;
-  for (const int leaf : tree.leaves) {
-    const PanelCluster& cluster = tree.clusters[leaf];
-    EXPECT_EQ(cluster.first, next);
-    EXPECT_LE(cluster.count, 20);
-    next += cluster.count;
-    for (Index t = cluster.first; t < next; ++t) {
-      EXPECT_EQ(tree.leaves[tree.leaf_of_panel[t]], leaf);
-      EXPECT_EQ(tree.surface.arrays.area[t], tree.surface.panels[t].area);
-      for (const Eigen::Vector3d& corner : tree.surface.panels[t].corner)
-        EXPECT_LE((corner - cluster.centre).norm(), cluster.radius * (1 + 1e-14));
-    }
-  }
-  EXPECT_EQ(next, surface.panelCount());
 }
 
 TEST(PanelTree, EveryPairOfPanelsIsInOnePairOfClusters) {
@@ -348,29 +203,6 @@ TEST(SolidHarmonics, ExpandTheInverseDistance) {
           << degree << " " << k;
     }
   }
-}
-
-TEST(SolidHarmonics, ShiftsAreExact) {
-  const SolidHarmonics harmonics(5);
-  const Vector3d from(0.2, -0.1, 0.3), to(0.5, 0.4, -0.2), y(0.1, 0.25, 0.15);
-  const double from_scale = 0.5, to_scale = 1.3;
-  MatrixXf shift;
-  harmonics.fillShift((from - to) / to_scale, from_scale / to_scale, shift);
-  const VectorXd shifted = shift.cast<double>() * regularAt(harmonics, (y - from) / from_scale);
-  const VectorXd expected = regularAt(harmonics, (y - to) / to_scale);
-  // Single precision.
-  EXPECT_LT((shifted - expected).norm(), 2e-7 * expected.norm());
-}
-
-TEST(SolidHarmonics, SlopeIsTheDerivative) {
-  const SolidHarmonics harmonics(5);
-  const Vector3d a(0.4, -0.3, 0.6), direction(0.2, 1.1, -0.7);
-  VectorXd slope(harmonics.count());
-  harmonics.evaluateSlope(a, direction, slope);
-  const double h = 1e-4;
-  const VectorXd difference =
-      (regularAt(harmonics, a + h * direction) - regularAt(harmonics, a - h * direction)) / (2 * h);
-  EXPECT_LT((slope - difference).norm(), 1e-7 * slope.norm());
 }
 
 }  // namespace

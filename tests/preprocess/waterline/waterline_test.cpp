@@ -77,21 +77,19 @@ constexpr const char* kCube = R"({"type": "box", "size": [1, 1, 1], "faces": 300
 constexpr const char* kBarge = R"({"type": "box", "size": [2, 1, 0.5], "faces": 300})";
 
 // Tables of all divisions have the node of the half submerged barge.
+FluidBody tabledBarge(const WaterlineSettings& settings) {
+  FluidBody made = bodyWith(kBarge, 0);
+  made.waterline = makeWaterlineTable(made, settings);
+  return made;
+}
+
 const FluidBody& bargeWithTable() {
-  static const FluidBody body = [] {
-    FluidBody made = bodyWith(kBarge, 0);
-    made.waterline = makeWaterlineTable(made, {2, 350, 0});
-    return made;
-  }();
+  static const FluidBody body = tabledBarge({2, 350, 0});
   return body;
 }
 
 const FluidBody& bargeWithCoarseTable() {
-  static const FluidBody body = [] {
-    FluidBody made = bodyWith(kBarge, 0);
-    made.waterline = makeWaterlineTable(made, {1, 100, 1});
-    return made;
-  }();
+  static const FluidBody body = tabledBarge({1, 100, 1});
   return body;
 }
 

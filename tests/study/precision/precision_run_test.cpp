@@ -13,9 +13,9 @@ namespace {
 
 class PrecisionRuns : public ::testing::Test {
  protected:
-  void SetUp() override {
-    scene_ = readScene(std::string(AMBIENT_DATA) + "/scenes/underwater_ellipsoid.json",
-                       {{"duration", "0.5"}});
+  explicit PrecisionRuns(const char* scene = "underwater_ellipsoid", const char* duration = "0.5")
+      : scene_(readScene(std::string(AMBIENT_DATA) + "/scenes/" + scene + ".json",
+                         {{"duration", duration}})) {
     SceneBodyCache cache;
     bodies_ = prepareBodies(scene_, cache);
   }
@@ -31,12 +31,7 @@ class PrecisionRuns : public ::testing::Test {
 
 class FlapRuns : public PrecisionRuns {
  protected:
-  void SetUp() override {
-    scene_ =
-        readScene(std::string(AMBIENT_DATA) + "/scenes/flap_in_current.json", {{"duration", "1"}});
-    SceneBodyCache cache;
-    bodies_ = prepareBodies(scene_, cache);
-  }
+  FlapRuns() : PrecisionRuns("flap_in_current", "1") {}
 };
 
 TEST_F(PrecisionRuns, ErrorShrinksWithTheStep) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -281,6 +282,13 @@ FluidBody makeMeasuredShape(const nlohmann::json& shape) {
                         common.name == "delta" || common.name == "shuttlecock";
   // Divided before it is built, the sides of grains count as flat.
   return makeFluidBody(divideTriangles(meshOf(shape), common.least_faces), settings);
+}
+
+const FluidBody& measuredShape(const nlohmann::json& shape) {
+  static std::map<std::string, FluidBody> made;
+  const auto [found, is_new] = made.try_emplace(shape.dump());
+  if (is_new) found->second = makeMeasuredShape(shape);
+  return found->second;
 }
 
 namespace {

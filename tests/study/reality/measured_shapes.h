@@ -49,6 +49,8 @@ TriangleMesh dropMesh(double length);
 /// x). `profile`: (radius, z) of a turned body, from bottom to top.
 /// @throws std::invalid_argument that names an unknown shape, or std::runtime_error.
 FluidBody makeMeasuredShape(const nlohmann::json& shape);
+/// The same, made once in the program.
+const FluidBody& measuredShape(const nlohmann::json& shape);
 
 /// Motion of a measured body, and measured quantity: "flow" in data/reality/measurements.json.
 struct MeasuredFlow {

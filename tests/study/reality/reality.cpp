@@ -3,7 +3,6 @@
 #include <exception>
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -21,14 +20,6 @@ namespace fs = std::filesystem;
 
 constexpr PressureLaw kLaws[] = {PressureLaw::kPublished, PressureLaw::kForm};
 
-/// Makes each shape once.
-const FluidBody& madeShape(const nlohmann::json& shape) {
-  static std::map<std::string, FluidBody> made;
-  const auto [found, is_new] = made.try_emplace(shape.dump());
-  if (is_new) found->second = makeMeasuredShape(shape);
-  return found->second;
-}
-
 std::string numbers(const std::function<double(PressureLaw)>& value) {
   std::string cells;
   for (const PressureLaw law : kLaws) {
@@ -41,14 +32,14 @@ std::string numbers(const std::function<double(PressureLaw)>& value) {
 
 /// Coefficients of a row by both laws.
 std::string coefficientCells(const nlohmann::json& row) {
-  const FluidBody& body = madeShape(row.at("shape"));
+  const FluidBody& body = measuredShape(row.at("shape"));
   const MeasuredFlow flow = readMeasuredFlow(row.at("flow"));
   return numbers([&](PressureLaw law) { return computeCoefficient(body, flow, law); });
 }
 
 /// Terminal speeds by both laws over the measured one.
 std::string settlingCells(const nlohmann::json& row) {
-  const FluidBody& body = madeShape(row.at("shape"));
+  const FluidBody& body = measuredShape(row.at("shape"));
   const MeasuredFlow flow = readMeasuredFlow(row.at("flow"));
   return numbers([&](PressureLaw law) {
     return computeSettling(body, flow, row.at("value").get<double>(), law);
@@ -107,7 +98,7 @@ std::string curves(const fs::path& file) {
 
 /// Table of C_N against the incidence of a plate.
 std::string plateCurve() {
-  const FluidBody& plate = madeShape({{"type", "plate"}, {"size", 1}});
+  const FluidBody& plate = measuredShape({{"type", "plate"}, {"size", 1}});
   std::string table = "incidence,published,form\n";
   for (int degrees = 1; degrees <= 90; ++degrees) {
     const MeasuredFlow flow = readMeasuredFlow({{"of", "normal"}, {"incidence", degrees}});

@@ -5,11 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
-#include <utility>
 
 #include "preprocess/shape/json_schema.h"
 #include "tests/study/reality/falling_cases.h"
@@ -31,16 +29,8 @@ std::vector<FallingCase> fallsOf(const std::string& group) {
   return readFallingCases(kData + "falls.json", group);
 }
 
-/// Each shape is solved once.
-const FluidBody& solvedShape(const nlohmann::json& shape) {
-  static std::map<std::string, FluidBody> made;
-  const auto [found, is_new] = made.try_emplace(shape.dump());
-  if (is_new) found->second = makeMeasuredShape(shape);
-  return found->second;
-}
-
 const FluidBody& solvedShape(const std::string& type, double size) {
-  return solvedShape({{"type", type}, {"size", size}});
+  return measuredShape({{"type", type}, {"size", size}});
 }
 
 double coefficient(const std::string& shape, const nlohmann::json& flow, PressureLaw law) {
@@ -48,7 +38,7 @@ double coefficient(const std::string& shape, const nlohmann::json& flow, Pressur
 }
 
 double coefficient(const nlohmann::json& row, PressureLaw law) {
-  return computeCoefficient(solvedShape(row.at("shape")), readMeasuredFlow(row.at("flow")), law);
+  return computeCoefficient(measuredShape(row.at("shape")), readMeasuredFlow(row.at("flow")), law);
 }
 
 TEST(MeasuredCoefficients, AreTheClosedFormsWithLittleFriction) {
@@ -123,7 +113,7 @@ TEST(Measurements, CanBeComputedOneAndAll) {
     ++count;
   }
   EXPECT_GE(count, 100);
-  for (const nlohmann::json& shape : shapes) EXPECT_NO_THROW(solvedShape(shape)) << shape;
+  for (const nlohmann::json& shape : shapes) EXPECT_NO_THROW(measuredShape(shape)) << shape;
 }
 
 TEST(Measurements, CurvesHaveTheirColumnsSourcesAndFlows) {

@@ -178,6 +178,23 @@ btContactSolverInfo chainSettings(double dt) {
   return info;
 }
 
+// Adds the rows of the contact, its normal first, with friction in a box along `directions`
+// tangents. Returns the number of the normal's.
+std::size_t addBoxContact(ChainTask& task, int directions, Rows& rows) {
+  const btManifoldPoint& contact = task.contact();
+  const std::size_t normal = rows.size();
+  rows.push_back(task.row(exact(contact.m_normalWorldOnB)));
+  rows[normal].lower = 0;
+  btVector3 tangent[2];
+  btPlaneSpace1(contact.m_normalWorldOnB, tangent[0], tangent[1]);
+  for (int t = 0; t < directions; ++t) {
+    rows.push_back(task.row(exact(tangent[t])));
+    rows.back().friction = contact.m_combinedFriction;
+    rows.back().normal_row = static_cast<int>(normal);
+  }
+  return normal;
+}
+
 // Restitution, position error, softness of contact and friction, friction in a box.
 TEST(MultiBodyImpact, WithSoftBoxFrictionEqualsTheDenseSolution) {
   Arbitrary arbitrary(52);
@@ -199,22 +216,13 @@ TEST(MultiBodyImpact, WithSoftBoxFrictionEqualsTheDenseSolution) {
     contact.m_combinedRestitution = btScalar(restitution);
     const BeforeChain before(task);
     auto [bodies, rows] = task.dense(info.m_timeStep);
-    const auto normal = rows.size();
-    rows.push_back(task.row(exact(contact.m_normalWorldOnB)));
-    rows[normal].lower = 0;
+    const std::size_t normal = addBoxContact(task, 2, rows);
     const auto of_body = static_cast<std::size_t>(task.denseBody());
     const Real push = rows[normal].jacobian_a.dot(bodies[of_body].free_velocity - before.body);
     rows[normal].target = contactTarget(-restitution * task.approach(), push,
                                         -Real(contact.m_distance1) * info.m_erp2 / info.m_timeStep);
     rows[normal].softness = Real(info.m_globalCfm) / info.m_timeStep;
-    btVector3 tangent[2];
-    btPlaneSpace1(contact.m_normalWorldOnB, tangent[0], tangent[1]);
-    for (const btVector3& direction : tangent) {
-      rows.push_back(task.row(exact(direction)));
-      rows.back().friction = contact.m_combinedFriction;
-      rows.back().normal_row = static_cast<int>(normal);
-      rows.back().softness = Real(info.m_frictionCFM) / info.m_timeStep;
-    }
+    for (int t : {1, 2}) rows[normal + t].softness = Real(info.m_frictionCFM) / info.m_timeStep;
     const auto expected = reference::onlySolution(bodies, rows);
     if (!expected || !(expected->impulses[normal] > 1e-9L)) continue;
     if (!task.solve(info)) continue;
@@ -262,21 +270,11 @@ TEST(MultiBodyImpact, WithLockedAxesEqualsTheDenseSolution) {
     // Step so short that forces and gyroscopic terms vanish.
     btContactSolverInfo info = chainSettings(task.body().gyroscopicTime(1e-18));
     info.m_solverMode |= SOLVER_DISABLE_IMPLICIT_CONE_FRICTION;
-    btManifoldPoint& contact = task.contact();
-    contact.m_combinedFriction = btScalar(0.3);
+    task.contact().m_combinedFriction = btScalar(0.3);
     const BeforeChain before(task);
     auto [bodies, rows] = task.dense(info.m_timeStep);
     for (const reference::DenseRow& row : planeRows(task)) rows.push_back(row);
-    const auto normal = rows.size();
-    rows.push_back(task.row(exact(contact.m_normalWorldOnB)));
-    rows[normal].lower = 0;
-    btVector3 tangent[2];
-    btPlaneSpace1(contact.m_normalWorldOnB, tangent[0], tangent[1]);
-    for (int t = 0; t < (is_ground ? 1 : 2); ++t) {
-      rows.push_back(task.row(exact(tangent[t])));
-      rows.back().friction = contact.m_combinedFriction;
-      rows.back().normal_row = static_cast<int>(normal);
-    }
+    const std::size_t normal = addBoxContact(task, is_ground ? 1 : 2, rows);
     const auto expected = reference::onlySolution(bodies, rows);
     if (!expected || !(expected->impulses[normal] > 1e-9L)) continue;
     const bool has_finished = task.solve(info);

@@ -3,9 +3,7 @@
 #include <cmath>
 #include <memory>
 #include <stdexcept>
-#include <string>
 
-#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/force/medium/waves.h"
 #include "bullet_ambient/reading.h"
 #include "bullet_ambient/saved_state.h"
@@ -13,7 +11,6 @@
 #include "tests/bullet_ambient/bullet/regions/region_world.h"
 #include "tests/bullet_ambient/bullet/robots/robot_world.h"
 #include "tests/bullet_ambient/bullet/state/state_scene.h"
-#include "tests/support/bits_of.h"
 #include "tests/support/bodies/part_bodies.h"
 #include "tests/support/refusal_of.h"
 
@@ -251,26 +248,6 @@ TEST(WetState, OfABoxIsThatOfItsDraught) {
   EXPECT_NEAR(wet.area, 0.8 * 0.6 + 2 * 0.1 * (0.8 + 0.6), kGeometryRounding);
   EXPECT_NEAR((wet.centre_of_buoyancy - Vector3(3, 4, 0.95)).norm(), 0, 4 * kGeometryRounding);
   EXPECT_EQ(wet.region, sea.id);
-}
-
-TEST(WetState, OfATurnedBoxIsASumOverCutTriangles) {
-  Sea sea;
-  const Quaternion edge_down(Eigen::AngleAxisd(kPi / 4, Vector3::UnitX()));
-  const double depth = 0.2;  // of the edge
-  const double lowest = (0.6 + 0.4) / 2 / std::sqrt(2.0);
-  const WetState wet = sea.wetAt(floatingBox(kBoxSize), {0, 0, 1 + lowest - depth}, edge_down);
-  EXPECT_NEAR(wet.draught, depth, 4 * kGeometryRounding);
-  EXPECT_NEAR(wet.volume, 0.8 * depth * depth, kGeometryRounding);
-  EXPECT_NEAR(wet.area, 2 * 0.8 * std::sqrt(2.0) * depth + 2 * depth * depth,
-              4 * kGeometryRounding);
-}
-
-TEST(WetState, OfABallIsACap) {
-  Sea sea;
-  const WetState wet = sea.wetAt(floatingBall(0.5), {0, 0, 1.3});
-  EXPECT_NEAR(wet.draught, 0.2, kGeometryRounding);
-  EXPECT_NEAR(wet.area / (2 * kPi * 0.5 * 0.2), 1, 0.05);  // its area is that of its triangles
-  EXPECT_NEAR(wet.volume, kPi * 0.04 * (1.5 - 0.2) / 3, kGeometryRounding);
 }
 
 TEST(WetState, OfABodyFarAboveOrBelowIsNothingOrAll) {

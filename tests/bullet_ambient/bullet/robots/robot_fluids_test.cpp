@@ -115,8 +115,6 @@ TEST_F(Robots, SayOfTheirLinksWhatIsDoubtful) {
 
 // Links are light beside what they displace; a robot rises if all of it is.
 TEST_F(Robots, AreLightAsAWhole) {
-  std::vector<std::string> said;
-  world.fluid.setReport([&](const std::string& sentence) { said.push_back(sentence); });
   world.world.setGravity({0, 0, bt(-9.81)});
   AttachDef def;
   FluidBody shape = facelessEllipsoid(Vector3(0.1, 0.1, 0.1));
@@ -137,18 +135,16 @@ TEST_F(Robots, AreLightAsAWhole) {
     world.fluid.add(neutral, link, def);
     world.fluid.add(fixed, link, def);
   }
-  EXPECT_TRUE(said.empty());
+  EXPECT_TRUE(heard.empty());
   for (int link = 0; link < 3; ++link) {
-    EXPECT_TRUE(said.empty()) << link;
+    EXPECT_TRUE(heard.empty()) << link;
     world.fluid.add(light, link, def);
   }
-  ASSERT_EQ(said.size(), 1u);
-  EXPECT_NE(said[0].find("so that it rises"), std::string::npos) << said[0];
+  ASSERT_EQ(heard.size(), 1u);
+  EXPECT_NE(heard[0].find("so that it rises"), std::string::npos) << heard[0];
 }
 
 TEST_F(Robots, ThatAreAttachedTogetherAreLightAsAWhole) {
-  std::vector<std::string> said;
-  world.fluid.setReport([&](const std::string& sentence) { said.push_back(sentence); });
   RobotDef def;
   def.collider_radius = 0.05;
   btMultiBody& light = add(def);
@@ -157,8 +153,8 @@ TEST_F(Robots, ThatAreAttachedTogetherAreLightAsAWhole) {
   OneShape shapes;
   world.world.setGravity({0, 0, bt(-9.81)});
   EXPECT_EQ(world.fluid.addAll(shapes, water()).attached, light.getNumLinks() + 1);
-  ASSERT_EQ(said.size(), 1u);
-  EXPECT_NE(said[0].find("so that it rises"), std::string::npos) << said[0];
+  ASSERT_EQ(heard.size(), 1u);
+  EXPECT_NE(heard[0].find("so that it rises"), std::string::npos) << heard[0];
 }
 
 TEST_F(Robots, OfTheWorldAreAttachedByTheFilterOfLinks) {

@@ -59,22 +59,7 @@ void expectImpacts(RobotDef def, double restitution, int floors) {
   EXPECT_LT(worst, kRowTolerance);
 }
 
-TEST(RobotRows, OneContactEqualsTheDenseSolution) { expectImpacts({}, 0.5, 1); }
-
 TEST(RobotRows, TwoContactsEqualTheDenseSolution) { expectImpacts({}, 0, 2); }
-
-TEST(RobotRows, ContactsOfTreesWithAllJointsEqualTheDenseSolution) {
-  RobotDef def;
-  def.links = 7;
-  def.joints = Joints::kAll;
-  expectImpacts(def, 0.3, 2);
-}
-
-TEST(RobotRows, AFixedBaseEqualsTheDenseSolution) {
-  RobotDef def;
-  def.has_fixed_base = true;
-  expectImpacts(def, 0.5, 1);
-}
 
 // Bullet has no articulated inertia for a base without links.
 TEST(RobotRows, ABaseAloneEqualsTheDenseSolution) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bullet_ambient/force/medium/waves.h"
+#include "bullet_ambient/reading.h"
 #include "tests/bullet_ambient/bullet/robots/robot_world.h"
 #include "tests/support/bodies/vessel_bodies.h"
 
@@ -103,11 +104,6 @@ class FloatingPair {
   btMultiBody multi{0, bt(mass), inertia, false, false};
 };
 
-TEST(LinksAtASurface, FloatAsABody) {
-  FloatingPair pair({});
-  EXPECT_LT(pair.distanceIn(20), byPrecision(1e-6, 1e-2));
-}
-
 /// A barge of 200 kg with 0.2 m^3 of water, and a hole of an area in its floor [m^2].
 Floater bargeWithWater(double hole) {
   OpenBarge barge;
@@ -185,6 +181,29 @@ TEST(LinksAtASurface, FloatInAHoldAsBodiesDo) {
 TEST(LinksAtASurface, RideWavesAsABody) {
   FloatingPair pair({0.1, 0});
   EXPECT_LT(pair.distanceIn(20), byPrecision(1e-6, 1e-2));
+}
+
+// Deep in the water and at its surface, after a step.
+TEST(LinksAtASurface, ReadAsABody) {
+  Floater what;
+  what.shape = floatingEllipsoid(kUnequalAxes, 2);
+  what.gyration_squared = ellipsoidMoments(kUnequalAxes, 1);
+  what.twist_W.linear = {0.5, 0.2, -0.4};
+  for (const double height : {-2.0, 0.05}) {
+    FloatingPair pair({}, btTransform(offBalance().getRotation(), {0, 0, bt(height)}), what);
+    const Immersed link = *pair.world.fluid.find(pair.multi, -1),
+                   body = *pair.world.fluid.find(pair.rigid);
+    link.readWrench(true);
+    body.readWrench(true);
+    pair.world.step(1 / kSurfaceHertz);
+    const FluidWrench of_link = link.wrench(), of_body = body.wrench();
+    const double size = of_body.buoyancy.force.norm();
+    for (const auto part : {&FluidWrench::pressure, &FluidWrench::friction, &FluidWrench::buoyancy,
+                            &FluidWrench::waves, &FluidWrench::added_mass})
+      EXPECT_LT(((of_link.*part).vector() - (of_body.*part).vector()).norm(), 2e-3 * size)
+          << height;  // two means of one way
+    EXPECT_EQ(of_link.constraints.vector().norm(), 0);
+  }
 }
 
 // To rounding for 5 s. Later the two take different numbers of substeps, for rounding, and drift

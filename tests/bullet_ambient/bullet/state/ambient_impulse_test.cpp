@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
 
-#include "bullet_ambient/bullet/members/ambient_bodies.h"
-#include "bullet_ambient/bullet/members/attach.h"
 #include "bullet_ambient/impulse.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/support/bodies/free_body.h"
@@ -61,30 +59,15 @@ TEST(AmbientImpulse, ChangesTheMomentumOfBodyAndFluidByTheImpulse) {
   Arbitrary arbitrary(1);
   for (int i = 0; i < kBodies; ++i) {
     FreeCoupledBody coupled(arbitrary);
-    const Vector3 impulse = arbitrary.vector();
+    const Vector6 wrench = stack(arbitrary.vector(), arbitrary.vector());
     const Vector6 before = coupled.velocity();
-    coupled.push(impulse);
-    const Vector6 wrench = stack(coupled.point.cross(impulse), impulse);
+    coupled.scene.of(*coupled.body).applyImpulse(Wrench::fromVector(wrench));
     const Vector6 expected = before + solve(coupled.K_W, wrench);
     EXPECT_LT((coupled.velocity() - expected).norm(),
               10 * kImpulseTolerance * (expected.norm() + before.norm()));
     const Vector6 momentum = coupled.K_W * (coupled.velocity() - before);
     EXPECT_LT((momentum - wrench).norm(),
               10 * kImpulseTolerance * (wrench.norm() + coupled.K_W.norm() * before.norm()));
-  }
-}
-
-TEST(AmbientImpulse, ATorqueImpulseIsAnsweredByTheWholeTensor) {
-  Arbitrary arbitrary(2);
-  for (int i = 0; i < kBodies; ++i) {
-    FreeCoupledBody coupled(arbitrary);
-    const Vector3 torque = arbitrary.vector();
-    const Vector6 before = coupled.velocity();
-    coupled.scene.of(*coupled.body).applyImpulse({torque, Vector3::Zero()});
-    const Vector6 wrench = stack(torque, Vector3::Zero());
-    const Vector6 expected = before + solve(coupled.K_W, wrench);
-    EXPECT_LT((coupled.velocity() - expected).norm(),
-              10 * kImpulseTolerance * (expected.norm() + before.norm()));
   }
 }
 
@@ -167,59 +150,6 @@ TEST(AmbientImpulse, SeesNewMassProperties) {
   coupled.body->setMassProps(btScalar(1e8), btVector3(1, 1, 1) * btScalar(1e8));
   const btMatrix3x3 heavy = inverseEffectiveMass(coupled.scene.fluid, *coupled.body, origin);
   EXPECT_NEAR(heavy[0][0], 1e-8, 1e-14);
-}
-
-// An ordinary ball hits a resting ambient body off its centre. The solver's velocity change must
-// equal applyImpulse() with these impulses.
-TEST(AmbientImpulse, IsThatOfAContact) {
-  for (const double friction : {0.0, 0.7}) {
-    Arbitrary arbitrary(8);
-    btSphereShape ball_shape(btScalar(0.2));
-    btBoxShape box(btVector3(1, btScalar(0.5), btScalar(0.3)));
-    FluidWorld scene;
-    BodyDef def;
-    def.mass = 3;
-    def.moments = Vector3(0.6, 0.8, 0.9);
-    def.shape = &box;
-    btRigidBody& body = scene.add(def, shapeWithoutFaces(arbitrary.positiveDefinite()), kFluid);
-    BodyDef ball_def;
-    ball_def.mass = 1;
-    ball_def.moments = Vector3::Constant(0.016);
-    ball_def.start.position = {0.6, 0.3, 0.495};
-    ball_def.start.twist.linear = {1, 0.5, -4};
-    ball_def.shape = &ball_shape;
-    btRigidBody& ball = scene.add(ball_def);
-    for (btRigidBody* b : {&body, &ball}) b->setFriction(static_cast<btScalar>(friction));
-
-    btRigidBody struck(body);
-    AttachDef attach = *membersOf(scene.fluid).find(&body)->def;
-    scene.fluid.add(struck, attach);
-    // A solver without an action: the turn within the step is not the contact's.
-    const auto members = std::make_shared<AmbientBodies>();
-    attachBody(*members, body, attach);
-    FluidSolver<> solver(members);
-    scene.world.setConstraintSolver(&solver);
-    scene.step(1e-4);
-
-    ASSERT_EQ(scene.dispatcher.getNumManifolds(), 1);
-    const btPersistentManifold& manifold = *scene.dispatcher.getManifoldByIndexInternal(0);
-    ASSERT_EQ(manifold.getNumContacts(), 1);
-    const btManifoldPoint& contact = manifold.getContactPoint(0);
-    ASSERT_GT(contact.m_appliedImpulse, 0);
-    EXPECT_EQ(contact.m_appliedImpulseLateral1 != 0, friction > 0);
-    const bool is_second = manifold.getBody1() == &body;
-    const btScalar sign = is_second ? -1 : 1;
-    const btVector3 impulse =
-        sign * (contact.m_normalWorldOnB * contact.m_appliedImpulse +
-                contact.m_lateralFrictionDir1 * contact.m_appliedImpulseLateral1 +
-                contact.m_lateralFrictionDir2 * contact.m_appliedImpulseLateral2);
-    const btVector3& at = is_second ? contact.m_positionWorldOnB : contact.m_positionWorldOnA;
-    scene.of(struck).applyImpulse(Wrench::ofForceAt(toVector3(impulse), toVector3(at)));
-    EXPECT_LT((struck.getLinearVelocity() - body.getLinearVelocity()).length(),
-              10 * kImpulseTolerance * static_cast<double>(body.getLinearVelocity().length()));
-    EXPECT_LT((struck.getAngularVelocity() - body.getAngularVelocity()).length(),
-              10 * kImpulseTolerance * static_cast<double>(body.getAngularVelocity().length()));
-  }
 }
 
 }  // namespace

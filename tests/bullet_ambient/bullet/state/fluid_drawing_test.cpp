@@ -283,11 +283,23 @@ TEST_F(Drawing, LeavesOutBodiesWithoutAFluidAndRemovedOnes) {
   EXPECT_EQ(lines(), 0u);
 }
 
-TEST(DrawingOfWater, IsANetOnTheSurfaceWithinTheBounds) {
+class DrawingOfWater : public testing::Test {
+ protected:
+  DrawingOfWater() {
+    scene.world.setDebugDrawer(&recorder);
+    scene.world.setGravity(btVector3(0, 0, btScalar(-kGravity)));
+  }
+  ~DrawingOfWater() override { scene.world.setDebugDrawer(nullptr); }
+  void draw() {
+    recorder.clear();
+    scene.world.debugDrawWorld();
+  }
+
   Recorder recorder;
   FluidWorld scene;
-  scene.world.setDebugDrawer(&recorder);
-  scene.world.setGravity(btVector3(0, 0, btScalar(-kGravity)));
+};
+
+TEST_F(DrawingOfWater, IsANetOnTheSurfaceWithinTheBounds) {
   FluidRegion pool;
   pool.bounds = RegionBounds{{-1, -2, -3}, {1, 2, 3}};
   pool.below = water();
@@ -297,8 +309,7 @@ TEST(DrawingOfWater, IsANetOnTheSurfaceWithinTheBounds) {
   scene.fluid.addRegion(pool);
   scene.step(0.25);
   scene.fluid.drawing.water_surface = true;
-  recorder.clear();
-  scene.world.debugDrawWorld();
+  draw();
   const auto lines = recorder.linesOf(fluid_colours::kWater);
   EXPECT_EQ(lines.size(), 2U * 17 * 16);
   for (const Line& line : lines) {
@@ -307,14 +318,9 @@ TEST(DrawingOfWater, IsANetOnTheSurfaceWithinTheBounds) {
     EXPECT_LE(std::abs(from.x()), 1 + 1e-6);
     EXPECT_LE(std::abs(from.y()), 2 + 1e-6);
   }
-  scene.world.setDebugDrawer(nullptr);
 }
 
-TEST(DrawingOfHolds, IsTheirEdgesAndTheLevelOfTheirWater) {
-  Recorder recorder;
-  FluidWorld scene;
-  scene.world.setDebugDrawer(&recorder);
-  scene.world.setGravity(btVector3(0, 0, btScalar(-kGravity)));
+TEST_F(DrawingOfWater, OfHoldsIsTheirEdgesAndTheLevelOfTheirWater) {
   scene.fluid.addRegion(waterBelow(0));
   BodyDef def;
   def.mass = 200;
@@ -327,10 +333,6 @@ TEST(DrawingOfHolds, IsTheirEdgesAndTheLevelOfTheirWater) {
   attach.holds.water = {0.2};
   const Immersed afloat = scene.fluid.add(body, attach);
   scene.step(1e-3);
-  const auto draw = [&] {
-    recorder.clear();
-    scene.world.debugDrawWorld();
-  };
   draw();
   EXPECT_TRUE(recorder.linesOf(fluid_colours::kHolds).empty());
   scene.fluid.drawing.holds = true;
@@ -351,21 +353,15 @@ TEST(DrawingOfHolds, IsTheirEdgesAndTheLevelOfTheirWater) {
   afloat.setWater(0, water.capacity);
   draw();
   EXPECT_TRUE(recorder.linesOf(fluid_colours::kWater).empty());
-  scene.world.setDebugDrawer(nullptr);
 }
 
-TEST(DrawingOfWater, WithoutBoundsReachesAsFarAsAskedFor) {
-  Recorder recorder;
-  FluidWorld scene;
-  scene.world.setDebugDrawer(&recorder);
-  scene.world.setGravity(btVector3(0, 0, btScalar(-kGravity)));
+TEST_F(DrawingOfWater, WithoutBoundsReachesAsFarAsAskedFor) {
   scene.fluid.addRegion(waterBelow(0.5));
   scene.step(1e-3);
   scene.fluid.drawing.water_surface = true;
   for (const double extent : {10.0, 3.0}) {
     scene.fluid.drawing.surface_extent = extent;
-    recorder.clear();
-    scene.world.debugDrawWorld();
+    draw();
     Vector3 lowest = Vector3::Zero(), highest = Vector3::Zero();
     for (const Line& line : recorder.linesOf(fluid_colours::kWater)) {
       lowest = lowest.cwiseMin(toVector3(line.from));
@@ -374,7 +370,6 @@ TEST(DrawingOfWater, WithoutBoundsReachesAsFarAsAskedFor) {
     EXPECT_LT((lowest - Vector3(-extent, -extent, 0)).norm(), 1e-6 * extent) << extent;
     EXPECT_LT((highest - Vector3(extent, extent, 0.5)).norm(), 1e-6 * extent) << extent;
   }
-  scene.world.setDebugDrawer(nullptr);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -44,22 +45,27 @@ inline void expectSameMotion(const std::vector<std::string>& a, const std::vecto
     ASSERT_TRUE(a[i] == b[i]) << "bits differ after step " << i + 1;
 }
 
+/// Knows the fluid bodies of a state's rigid bodies.
+inline FluidBodyLookup lookupOf(const WorldState& state) {
+  std::map<std::string, std::shared_ptr<const FluidBody>> known;
+  for (const BodyState& body : state.bodies)
+    if (body.ambient) known[body.ambient->def.fluid_body->name] = body.ambient->def.fluid_body;
+  return [known](const std::string& name) { return known.at(name); };
+}
+
 /// Expects that `other`, restored from the bytes of a state of `run`, goes on as that bit for bit.
-/// `other` is `run` itself, or a world that was built by the same code.
-inline void expectGoesOn(const SavedRun& run, const SavedRun& other, const FluidBodyLookup& lookup,
-                         int steps) {
-  const std::string bytes = encodeState(run.fluid.save()), motion = motionBytes(run.fluid);
+/// `other` is `run` itself, or a world that was built by the same code. `lookup`: knows the fluid
+/// bodies; default: those of rigid bodies.
+inline void expectGoesOn(const SavedRun& run, const SavedRun& other, int steps,
+                         const FluidBodyLookup& lookup = {}) {
+  const WorldState state = run.fluid.save();
+  const std::string bytes = encodeState(state), motion = motionBytes(run.fluid);
   const double time = run.fluid.time();
   const auto motions = record(run, steps);
-  other.fluid.restore(decodeState(bytes, "bytes", lookup));
+  other.fluid.restore(decodeState(bytes, "bytes", lookup ? lookup : lookupOf(state)));
   EXPECT_TRUE(motionBytes(other.fluid) == motion);
   EXPECT_EQ(other.fluid.time(), time);
   expectSameMotion(motions, record(other, steps));
-}
-
-/// Knows one fluid body alone.
-inline FluidBodyLookup lookupOf(std::shared_ptr<const FluidBody> shape) {
-  return [shape](const std::string&) { return shape; };
 }
 
 constexpr double kSceneStep = 1.0 / 60;

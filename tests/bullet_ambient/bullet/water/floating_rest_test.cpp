@@ -1,9 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <deque>
 #include <memory>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -180,15 +178,9 @@ TEST(FloatingRest, ABodyOnARailComesToItsBalance) {
   for (const double hertz : {60.0, 240.0, 1000.0}) {
     Pool pool;
     btRigidBody& body = pool.add(boxAfloat({1, 0.8, 0.6}, 240), {0, 0, 0.02});
-    btGeneric6DofConstraint rail(body, btTransform::getIdentity(), false);
-    rail.setLinearLowerLimit({0, 0, -1});
-    rail.setLinearUpperLimit({0, 0, 1});
-    rail.setAngularLowerLimit({0, 0, 0});
-    rail.setAngularUpperLimit({0, 0, 0});
-    pool.scene.world.addConstraint(&rail, true);
+    pool.scene.contents.join(railOf(body, {0, 0, -1}, {0, 0, 1}));
     pool.scene.step(1 / hertz, static_cast<int>(35 * hertz));
     EXPECT_NEAR(heightOf(body), 0.3 - draught, 2e-6) << hertz;
-    pool.scene.world.removeConstraint(&rail);
   }
 }
 

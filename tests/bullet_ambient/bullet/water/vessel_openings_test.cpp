@@ -2,12 +2,14 @@
 
 #include <cmath>
 #include <memory>
+#include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "bullet_ambient/force/medium/waves.h"
+#include "bullet_ambient/saved_state.h"
 #include "tests/bullet_ambient/bullet/water/vessel_world.h"
+#include "tests/support/refusal_of.h"
 #include "tests/support/runs.h"
 
 namespace ambient::test {
@@ -177,33 +179,43 @@ TEST(Vessel, DoorBetweenHoldsIsShutAndOpened) {
   EXPECT_NEAR(sea.water(body) + boat.holds().at(1).volume, 0.05, 1e-12);
 }
 
-TEST(Vessel, StateHasHolesAndShutDoors) {
-  const auto start = [](Sea& sea) -> btRigidBody& {
-    OpenBarge barge;
-    barge.hole = 0.01;
-    return sea.add(barge, {}, {});
-  };
+TEST(Vessel, WhatDoesNotFitIsRefusedInOneLine) {
   Sea sea;
-  btRigidBody& body = start(sea);
-  sea.scene.of(body).setOpening(0, 1, false);
-  sea.scene.of(body).addOpening(0, {0.5, 0.2, -0.23}, {0, 0, -1}, 0.002);
-  sea.scene.step(1 / 60.0, 100);
-  const WorldState state = sea.scene.fluid.save();
-  const auto run = [](Sea& world, btRigidBody& of) {
-    world.scene.step(1 / 60.0, 200);
-    return std::pair(of.getWorldTransform(), world.water(of));
-  };
-  const auto first = run(sea, body);
-  const std::shared_ptr<const FluidBody> shape = sea.scene.of(body).fluidBody();
-  Sea other;
-  btRigidBody& same = start(other);
-  restore(other, state, shape);
-  EXPECT_TRUE(run(other, same) == first);
-  EXPECT_EQ(other.of(same).vessel->changes.holes.size(), 1u);
-  other.scene.of(same).setOpening(0, 2, false);
-  const double water = other.water(same);
-  other.scene.step(1 / 60.0, 60);
-  EXPECT_EQ(other.water(same), water);
+  const auto refusal = [](const auto& action) { return refusalOf<std::invalid_argument>(action); };
+  EXPECT_EQ(refusal([&] {
+              sea.add({}, {}, {true, {1}});
+            }),
+            "add: body with fluid body 'barge' has 1.000000 m^3 of water in hold 0, which must be "
+            "zero to 0.903168");
+  EXPECT_EQ(refusal([&] {
+              sea.add({}, {}, {true, {0.1, 0.1}});
+            }),
+            "add: body with fluid body 'barge' has water for 2 holds, but its fluid body has 1");
+  const Immersed barge = sea.scene.of(sea.add({}, {}));
+  EXPECT_EQ(refusal([&] { barge.setWater(1, 0); }),
+            "setWater: body with fluid body 'barge' has 1 holds, and none has the number 1");
+  EXPECT_EQ(refusal([&] { barge.setWater(0, -1); }),
+            "setWater: body with fluid body 'barge' has -1.000000 m^3 of water in hold 0, which "
+            "must be zero to 0.903168");
+  EXPECT_EQ(refusal([&] { barge.setOpening(0, 1, false); }),
+            "setOpening: hold 0 of body with fluid body 'barge' has no opening with the number 1");
+  EXPECT_EQ(refusal([&] {
+              barge.addOpening(0, {0, 0, 0}, {0, 0, -1}, 0);
+            }),
+            "addOpening: body with fluid body 'barge' would have a hole of 0.000000 m^2, which "
+            "must be positive and finite");
+  EXPECT_EQ(refusal([&] {
+              barge.addOpening(0, {0, 0, 0}, {0, 0, 0}, 1);
+            }),
+            "addOpening: body with fluid body 'barge' would have a hole without a direction out "
+            "of the hold");
+  EXPECT_EQ(refusal([&] {
+              barge.addOpening(0, {0, 3, 0}, {0, 0, 1}, 1);
+            }),
+            "addOpening: body with fluid body 'barge' would have a hole at (0.000000, 3.000000, "
+            "0.000000) m in the frame of its fluid body, which is not at the body");
+  EXPECT_EQ(refusal([&] { barge.pump(0, INFINITY); }),
+            "pump: the rate [m^3/s] is inf, must be finite");
 }
 
 }  // namespace

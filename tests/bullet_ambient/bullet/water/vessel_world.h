@@ -2,14 +2,12 @@
 
 #include <cmath>
 #include <memory>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/motion/surface/stand_lanes.h"
-#include "bullet_ambient/saved_state.h"
 #include "bullet_ambient/spatial/rotation.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/support/bodies/vessel_bodies.h"
@@ -171,11 +169,20 @@ inline Start capsized() {
   return start;
 }
 
-/// Gives another sea of the same bodies a state that went through its bytes.
-inline void restore(Sea& sea, const WorldState& state,
-                    const std::shared_ptr<const FluidBody>& shape) {
-  sea.scene.fluid.restore(
-      decodeState(encodeState(state), "state", [&](const std::string&) { return shape; }));
+/// Steps and expects that the energy of a vessel never grows. Returns in how many steps its first
+/// hold has air that water shuts off.
+inline int expectEnergyNeverGrows(Sea& sea, const btRigidBody& body, double mass, double hertz) {
+  int sealed = 0;
+  sea.scene.step(1 / hertz);
+  double energy = sea.energy(body, mass);
+  for (int k = 0; k < 400; ++k) {
+    sea.scene.step(1 / hertz);
+    const double next = sea.energy(body, mass);
+    EXPECT_LT(next - energy, byPrecision(1e-9, 3e-6) * mass * kGravity) << k;
+    energy = next;
+    sealed += sea.of(body).vessel->holds[0].is_sealed;
+  }
+  return sealed;
 }
 
 }  // namespace ambient::test

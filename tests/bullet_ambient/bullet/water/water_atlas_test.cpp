@@ -11,7 +11,6 @@
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/bullet_ambient/bullet/water/water_run.h"
 #include "tests/support/bodies/part_bodies.h"
-#include "tests/support/bodies/random_bodies.h"
 #include "tests/support/convergence.h"
 #include "tests/support/runs.h"
 
@@ -124,12 +123,7 @@ TEST(SmallCube, ComesToRestAsHydrostaticsSaysAndGainsNoEnergy) {
 struct CubeOnRail : SmallCube {
   CubeOnRail(double specific_gravity, double above_rest)
       : SmallCube(specific_gravity, kEdge * (0.5 - specific_gravity) + above_rest) {
-    auto rail = std::make_unique<btGeneric6DofConstraint>(*body, btTransform::getIdentity(), false);
-    rail->setLinearLowerLimit({0, 0, -1});
-    rail->setLinearUpperLimit({0, 0, 1});
-    rail->setAngularLowerLimit({0, 0, 0});
-    rail->setAngularUpperLimit({0, 0, 0});
-    run.join(std::move(rail));
+    run.join(railOf(*body, {0, 0, -1}, {0, 0, 1}));
   }
   double lowest(double time, double step) {
     double least = 0;
@@ -217,14 +211,7 @@ double leapOf(const FluidBody& shape, double hertz, bool is_on_rail = false) {
   AttachDef attach;
   attach.fluid_body = std::make_shared<FluidBody>(shape);
   world.fluid.add(body, attach);
-  if (is_on_rail) {
-    auto rail = std::make_unique<btGeneric6DofConstraint>(body, btTransform::getIdentity(), false);
-    rail->setLinearLowerLimit({0, 0, -10});
-    rail->setLinearUpperLimit({0, 0, 10});
-    rail->setAngularLowerLimit({0, 0, 0});
-    rail->setAngularUpperLimit({0, 0, 0});
-    world.contents.take(std::move(rail));
-  }
+  if (is_on_rail) world.contents.take(railOf(body, {0, 0, -10}, {0, 0, 10}));
   double before = -kDepth, now = -kDepth;
   for (double time = 0; time < 3; time += 1 / hertz) {
     world.step(1 / hertz);

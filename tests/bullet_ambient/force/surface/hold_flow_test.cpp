@@ -140,24 +140,5 @@ TEST(HoldFlow, NoMoreFlowsThanThereIsWaterOrRoom) {
   EXPECT_DOUBLE_EQ(volumeThrough(hole, {}, full, WaterSide{0.9}, 10), -1e-4);
 }
 
-// A barge of 2 x 1 x 0.5 m and 200 kg, its hold 1.96 x 0.96 m from 0.02 m on, with a hole of 0.01
-// m^2 in its floor, sinks upright until its rim dips at 0.8 m^3: with the head D = D0 - c V, c =
-// 1/A_i - 1/A_o, after 2 (sqrt D0 - sqrt(D0 - c V)) / (C a sqrt(2g) c).
-TEST(HoldFlow, BargeWithAHoleSinksInItsTime) {
-  constexpr double kOuter = 2, kInner = 1.96 * 0.96, kHole = 0.01, kDips = 0.8;
-  const OpeningShape hole(rectangle({0, 0, 0}, {0, 0.1, 0}, {0.1, 0, 0}));
-  const double c = 1 / kInner - 1 / kOuter, D0 = 0.08;
-  const double exact = 2 * (std::sqrt(D0) - std::sqrt(D0 - c * kDips)) / (kFall * kHole * c);
-  EXPECT_NEAR(exact, 116.447, 1e-3);
-  constexpr double kStep = 1.0 / 60;
-  double volume = 0, time = 0;
-  while (volume < kDips) {
-    const WaterSide inside{0.02 + volume / kInner, kInner, volume, 0.903168 - volume};
-    volume += volumeThrough(hole, {}, WaterSide{(0.2 + volume) / kOuter}, inside, kStep);
-    time += kStep;
-  }
-  EXPECT_NEAR(time, exact, 0.001 * exact);
-}
-
 }  // namespace
 }  // namespace ambient

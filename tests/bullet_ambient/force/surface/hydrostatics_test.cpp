@@ -74,15 +74,6 @@ TEST(Hydrostatics, UprightBoxHasItsWaterplaneAndCentreOfBuoyancy) {
   EXPECT_LT((wet.waterplane.spread - spread).norm(), 1e-14);
 }
 
-TEST(Hydrostatics, MetacentricHeightOfABoxIsThatOfItsWaterplane) {
-  const double draught = 0.3, angle = 1e-5;
-  const PackedHull box(boxBody({2, 1, 0.5}));
-  const SurfacePlane plane = planeAt({0, std::sin(angle), std::cos(angle)}, draught - 0.25);
-  const WetVolume wet = computeWetVolume(box, plane);
-  const double metacentre = wet.moment.y() / wet.volume / -std::tan(angle);
-  EXPECT_NEAR(metacentre, 1 / (12 * draught), 1e-6 / (12 * draught));  // B^2 / (12 T)
-}
-
 TEST(Hydrostatics, CapOfASphereHasItsClosedForm) {
   const double R = 1.5;
   const Vector3 centre(0.3, -0.2, 0.5);
@@ -192,40 +183,6 @@ TEST(Hydrostatics, DryAndSubmergedBodiesAreAllOrNothing) {
   EXPECT_NEAR(all.depth_integral, 2, 1e-14);
   EXPECT_LT(all.moment.norm(), 5e-15);
   EXPECT_EQ(all.waterplane.area, 0);
-}
-
-/// Energy about its centre of a floating body of specific gravity `sg` in the attitude s. The
-/// draught is the one that displaces the body's mass.
-double floatingEnergy(const PackedHull& hull, double volume, double sg, const Vector3& s) {
-  double low = -10, high = 10;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = (low + high) / 2;
-    (computeWetVolume(hull, planeAt(s, middle)).volume < sg * volume ? low : high) = middle;
-  }
-  const SurfacePlane plane = planeAt(s, (low + high) / 2);
-  return hydrostaticEnergy(computeWetVolume(hull, plane), plane) - sg * volume * plane.height;
-}
-
-TEST(Hydrostatics, CubeFloatsFlatOrCornerUp) {
-  const PackedHull cube(boxBody({1, 1, 1}));
-  const auto energy = [&](double sg, const Vector3& s) {
-    return floatingEnergy(cube, 1, sg, s.normalized());
-  };
-  Arbitrary arbitrary(5);
-  for (int i = 0; i < 200; ++i) {
-    const Vector3 s = arbitrary.vector();
-    EXPECT_GE(energy(0.2, s), energy(0.2, {0, 0, 1}) - 1e-12);
-    EXPECT_GE(energy(0.8, s), energy(0.8, {0, 0, 1}) - 1e-12);
-    EXPECT_GE(energy(0.5, s), energy(0.5, {1, 1, 1}) - 1e-12);
-  }
-  // Flat is stable where 6 sg (1 - sg) < 1: below 0.2113 and above 0.7887.
-  for (const double tilt_axis : {0.0, 0.7}) {
-    const Vector3 tilted(0.02, 0.02 * tilt_axis, 1);
-    for (const double sg : {0.209, 0.791})
-      EXPECT_GT(energy(sg, tilted), energy(sg, {0, 0, 1})) << sg;
-    for (const double sg : {0.2135, 0.7865})
-      EXPECT_LT(energy(sg, tilted), energy(sg, {0, 0, 1})) << sg;
-  }
 }
 
 TEST(Buoyancy, IsTheWeightOfTheDisplacedFluidAtTheCentreOfVolume) {

@@ -6,12 +6,125 @@
 #include <limits>
 
 #include "bullet_ambient/force/loads/surface_loads.h"
+#include "bullet_ambient/motion/links/link_tree.h"
 #include "demos/integrators/integrators.h"
 #include "tests/reference/ellipsoid_added_mass.h"
 #include "tests/support/bodies/random_trees.h"
 
 namespace ambient {
 namespace {
+
+constexpr JointKind kKinds[] = {JointKind::kFixed, JointKind::kRevolute, JointKind::kPrismatic,
+                                JointKind::kSpherical, JointKind::kPlanar};
+
+using Rotation = Eigen::AngleAxisd;
+using Spin = Eigen::Quaterniond;
+
+Eigen::Vector3d axis(const Joint& joint, int i) {
+  const Vector6& S = joint.axes[i];
+  return i == 0 && joint.kind != JointKind::kPrismatic ? S.head<3>() : S.tail<3>();
+}
+
+// Copy of Bullet 3.24's btMultiBody::stepPositionsMultiDof, for turns of less than pi/4.
+JointPosition movedByBullet(const Joint& joint, JointPosition p, const double* u, double h) {
+  switch (joint.kind) {
+    case JointKind::kFixed:
+      break;
+    case JointKind::kRevolute:
+    case JointKind::kPrismatic:
+      p[0] += h * u[0];
+      break;
+    case JointKind::kSpherical: {
+      const Spin q(p[3], p[0], p[1], p[2]);
+      const Eigen::Vector3d w = q * Eigen::Vector3d(u[0], u[1], u[2]);
+      const Spin turned = Spin(Rotation(h * w.norm(), w.normalized())) * q;
+      p = {turned.x(), turned.y(), turned.z(), turned.w()};
+      break;
+    }
+    case JointKind::kPlanar: {
+      p[0] += h * u[0];
+      const Eigen::Vector3d v =
+          Rotation(p[0], axis(joint, 0)) * (u[1] * axis(joint, 1) + u[2] * axis(joint, 2));
+      p[1] += h * axis(joint, 1).dot(v);
+      p[2] += h * axis(joint, 2).dot(v);
+    }
+  }
+  return p;
+}
+
+double distance(const JointPosition& a, const JointPosition& b) {
+  double sum = 0;
+  for (int i = 0; i < 4; ++i) sum += std::abs(a[i] - b[i]);
+  return sum;
+}
+
+TEST(Joint, MovesAsInBulletButForPlanarOnes) {
+  test::Arbitrary arbitrary(1);
+  for (const JointKind kind : kKinds) {
+    if (kind == JointKind::kPlanar) continue;
+    for (const double speed : {1e-7, 1e-3, 1.0, 20.0}) {
+      const Joint joint = test::randomJoint(arbitrary, kind);
+      const JointPosition start = test::randomPosition(arbitrary, kind);
+      const Vector3 u = arbitrary.vector(speed);
+      const JointPosition expected = movedByBullet(joint, start, u.data(), 0.01);
+      JointPosition end = moved(joint, start, u.data(), 0.01);
+      for (int i = axisCount(kind); i < 4; ++i)
+        if (axisCount(kind) < 3) end[i] = expected[i];  // unused
+      EXPECT_LT(distance(end, expected), 1e-14) << speed;
+    }
+  }
+}
+
+TEST(Joint, BulletComesToTheEndByTheVelocityBetween) {
+  test::Arbitrary arbitrary(2);
+  for (const JointKind kind : kKinds) {
+    for (const double speed : {1e-7, 1e-3, 1.0, 20.0}) {
+      const Joint joint = test::randomJoint(arbitrary, kind);
+      const JointPosition start = test::randomPosition(arbitrary, kind);
+      const Vector3 u = arbitrary.vector(speed);
+      const JointPosition end = moved(joint, start, u.data(), 0.01);
+      Vector3 mean = Vector3::Zero();
+      velocityBetween(joint, start, end, 0.01, mean.data());
+      JointPosition reached = movedByBullet(joint, start, mean.data(), 0.01);
+      for (int i = axisCount(kind); i < 4; ++i)
+        if (axisCount(kind) < 3) reached[i] = end[i];
+      EXPECT_LT(distance(reached, end), 1e-14) << speed;
+    }
+  }
+}
+
+// Rate of the pose must equal the axes S times the joint rates: V = E^T-rotated change of offset.
+TEST(Joint, AxesAreTheRatesOfTheOffset) {
+  test::Arbitrary arbitrary(3);
+  for (const JointKind kind : kKinds) {
+    const Joint joint = test::randomJoint(arbitrary, kind);
+    const JointPosition start = test::randomPosition(arbitrary, kind);
+    const Vector3 u = arbitrary.vector();
+    Vector6 rate = Vector6::Zero();
+    for (int i = 0; i < axisCount(kind); ++i) rate += u[i] * joint.axes[i];
+    constexpr double kTime = 1e-5;
+    const FrameOffset before = linkOffset(joint, moved(joint, start, u.data(), -kTime));
+    const FrameOffset after = linkOffset(joint, moved(joint, start, u.data(), kTime));
+    const Matrix3 R = linkOffset(joint, start).rotation;
+    const Matrix3 turn = R.transpose() * (after.rotation - before.rotation) / (2 * kTime);
+    const Vector3 way = R.transpose() * (after.translation - before.translation) / (2 * kTime);
+    const Vector3 spin(turn(2, 1), turn(0, 2), turn(1, 0));
+    EXPECT_LT((stack(spin, way) - rate).norm(), 1e-8);  // order 2 in kTime
+  }
+}
+
+TEST(Joint, HalfAWayTwiceIsTheWay) {
+  test::Arbitrary arbitrary(4);
+  for (const JointKind kind : kKinds) {
+    const Joint joint = test::randomJoint(arbitrary, kind);
+    const JointPosition start = test::randomPosition(arbitrary, kind);
+    const Vector3 u = arbitrary.vector(10);
+    const JointPosition middle = moved(joint, start, u.data(), 0.05);
+    const JointPosition end = moved(joint, start, u.data(), 0.1);
+    EXPECT_LT(distance(moved(joint, middle, u.data(), 0.05), end), 1e-14);
+    EXPECT_LT(distance(moved(joint, end, u.data(), -0.05), middle), 1e-14);
+  }
+}
 
 using test::Arbitrary;
 using test::randomTree;
@@ -184,69 +297,6 @@ TEST(LinkFlight, SwingsWithTheAddedMassOfAnEllipsoid) {
   const double angle = test.pose.joints[1][0];
   const double quarter = time - kStep * angle / (angle - last);
   EXPECT_NEAR(4 * quarter, period, 2e-6 * period);  // order 2 in the step
-}
-
-TEST(LinkFlight, OfABaseAloneIsTheFlightOfARigidBody) {
-  Arbitrary arbitrary(6);
-  TestTree test = randomTree(arbitrary, {0});
-  test.tree.links[0].surroundings.applied = {arbitrary.vector(), arbitrary.vector()};
-  test.tree.links[0].surroundings.gravity = arbitrary.vector(9);
-  test.tree.links[0].surroundings.ambient_velocity = arbitrary.vector();
-  const Surroundings s = test.tree.links[0].surroundings;
-  const Matrix3 R = test.pose.orientation.toRotationMatrix();
-  RigidState state{test.pose.orientation,
-                   test.pose.position,
-                   {R.transpose() * test.u.head<3>(), R.transpose() * test.u.segment<3>(3)}};
-  double last = 0;
-  for (const int steps : {20, 40}) {
-    const FlightSettings settings{1e-12, 0, flyDormandPrince};
-    TestTree moved;
-    moved.tree = test.tree;
-    moved.pose = test.pose;
-    moved.u = test.u;
-    LinkFlight flight(moved.tree);
-    moved.fly(flight, 0.2 / steps, steps, kConverged);
-    const RigidState end =
-        fly({*test.tree.links[0].model, s, settings, 0.2}, state, FlightMemory{}).state;
-    const double error = (moved.pose.position - end.position).norm() +
-                         moved.pose.orientation.angularDistance(end.orientation);
-    EXPECT_LT(error, 1e-3);
-    if (last > 0) {
-      EXPECT_NEAR(last / error, 4, 0.4);
-    }
-    last = error;
-  }
-}
-
-// Thin plates on a chain: added mass ten thousand times their own, across them only.
-TestTree chainOfPlates(unsigned seed) {
-  Arbitrary arbitrary(seed);
-  TestTree test = randomTree(arbitrary, {5, false, false, 0, 0.5});
-  for (int l = 0; l <= 5; ++l) {
-    const Link& link = test.tree.links[l];
-    Matrix6 added = Matrix6::Zero();
-    added(5, 5) = 1e4 * link.mass;
-    added(0, 0) = added(1, 1) = 1e4 * 0.05 * 0.05 * link.mass;
-    test.setModel(l, test::modelOf({test::shapeWithoutFaces(added, 1e-9),
-                                    {link.mass, link.inertia.asDiagonal()}}));
-  }
-  return test;
-}
-
-TEST(LinkFlight, CarriesPlatesOfTenThousandTimesTheirMassInFluid) {
-  for (const unsigned seed : {8, 9, 10}) {
-    TestTree test = chainOfPlates(seed);
-    LinkFlight flight(test.tree);
-    flight.dynamics().setPose(test.pose);
-    const double energy = flight.dynamics().kineticEnergy(test.u);
-    for (int i = 0; i < 1200; ++i) {
-      ASSERT_TRUE(test.fly(flight, 1.0 / 60).is_finite);
-      flight.dynamics().setPose(test.pose);
-      // Measured: 1.01 at most. Without substeps after a failed midpoint iteration: 20 and
-      // more.
-      ASSERT_LT(flight.dynamics().kineticEnergy(test.u), 1.1 * energy) << seed << ' ' << i;
-    }
-  }
 }
 
 TEST(LinkFlight, EndsWhereItsMeanVelocityLeads) {

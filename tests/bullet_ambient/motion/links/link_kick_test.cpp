@@ -4,8 +4,6 @@
 
 #include <cmath>
 
-#include "bullet_ambient/motion/body/one_body.h"
-#include "bullet_ambient/motion/lanes/body_kernel.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/bodies/random_trees.h"
 
@@ -138,34 +136,6 @@ TEST(LinkKick, TakesLoadsToGrowWithTheSquareOfTheSpeed) {
   kick.kick(dynamics, 0.01, sampled_slowly);
   EXPECT_LT((sampled_slowly - sampled_here).norm(), 1e-12 * test.u.norm());
   EXPECT_GT((sampled_here - test.u).norm(), 0.01 * test.u.norm());
-}
-
-TEST(LinkKick, OfABaseAloneIsThePassiveKickOfARigidBody) {
-  Arbitrary arbitrary(3);
-  for (const bool has_lift : {false, true}) {
-    TestTree test = randomTree(arbitrary, {0});
-    const Matrix6 drag = test.tree.links[0].model->inertia;  // isotropic deceleration
-    setLoads(test, 0, drag, has_lift ? skew(arbitrary) : Matrix6(Matrix6::Zero()));
-    const BodyModel& model = *test.tree.links[0].model;
-    LinkDynamics dynamics(test.tree);
-    LinkKick kick(test.tree);
-    dynamics.setPose(test.pose);
-    kick.sample(dynamics, test.u);
-    const Twist x = dynamics.twist(0);
-    const PairsOf<double> motion = plain(pairOfTwist(model, x.vector()));
-    const PairsOf<double> load = plain(pairOfMomentum(model, model.loads->load(x).vector()));
-    const double step = has_lift ? 1e-3 : 10;
-    const PairsOf<double> expected = passiveKick(motion, motion, load, step);
-    kick.kick(dynamics, step, test.u);
-    dynamics.setVelocity(test.u);
-    // Without lift: equal decay. With lift: equal energy, and equal turn to first order.
-    const Vector6 end = dynamics.twist(0).vector();
-    EXPECT_NEAR(end.dot(model.inertia * end), inner(expected, expected),
-                1e-13 * inner(motion, motion));
-    const double turn = asEigen(expected.twist - motion.twist).norm();
-    EXPECT_LT((end - asEigen(expected.twist)).norm(),
-              has_lift ? 0.03 * turn : 1e-13 * x.vector().norm());
-  }
 }
 
 // A chain under strong drag, where explicit forces would diverge: decay as with tiny steps.

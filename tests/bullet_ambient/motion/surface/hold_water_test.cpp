@@ -1,16 +1,19 @@
+// Numbers by docs/theory.md section 20 and naval architects' formulas.
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/motion/surface/hold_exchange.h"
 #include "bullet_ambient/spatial/rotation.h"
 #include "tests/bullet_ambient/motion/surface/barge_runs.h"
 #include "tests/support/bodies/random_bodies.h"
+#include "tests/support/bodies/vessel_bodies.h"
 
-// Numbers by docs/theory.md section 20 and naval architects' formulas.
 namespace ambient {
 namespace {
 
@@ -79,26 +82,6 @@ TEST(HoldWater, FullVesselIsThatOfOneFluid) {
   EXPECT_NEAR(1000 * wet.volume, full.displaced_mass, 1e-9);
   EXPECT_LT((1000 * wet.moment - full.displaced_mass * full.centre_of_volume).norm(), 1e-9);
   EXPECT_TRUE(areFull(*run.model().holds, run.water.data()));
-}
-
-TEST(HoldWater, EnergyOfABargeWithWaterNeverGrows) {
-  test::Arbitrary arbitrary(5);
-  for (int i = 0; i < 24; ++i) {
-    const double step =
-        std::array{1 / 240.0, 1 / 60.0, 1 / 30.0, 1 / 20.0}[static_cast<std::size_t>(i % 4)];
-    FloatingRun run(bargeDef(0.2));
-    run.water = {{kCapacity * arbitrary.between(0.02, 0.98)}};
-    run.state.position = {0, 0, arbitrary.between(-0.5, 0.3)};
-    run.state.orientation = rotationFromVector(0.5 * arbitrary.vector().normalized());
-    run.state.twist = {arbitrary.vector().normalized(), arbitrary.vector().normalized()};
-    double energy = run.energy();
-    for (int k = 0; k < 200; ++k) {
-      run.step(step);
-      const double next = run.energy();
-      EXPECT_LT(next, energy + 1e-9 * kBargeMass * 9.81) << i << ' ' << k;
-      energy = next;
-    }
-  }
 }
 
 // Flow over the rim of an upright barge: Poleni's formula, section 8's 29.266 l/s.
@@ -176,14 +159,197 @@ TEST(HoldWater, PumpMovesNoMoreThanThereIs) {
   EXPECT_DOUBLE_EQ(water[0].volume, kCapacity);
 }
 
-TEST(HoldWater, HoldsBelowTheSurfaceStartFull) {
-  const FluidBody barge = openBarge();
-  const HoldShapes holds(barge.holds);
+// A cup of 0.14 x 0.14 m whose room is 0.2 m deep, in water of 1000 kg/m^3 below air of 101325 Pa.
+
+using test::energyOfAir;
+using test::OpenBarge;
+
+constexpr double kAir = 101325, kWeight = 9810, kDeep = 0.2, kRim = 0.101, kSide = 0.136;
+
+OpenBarge cup() {
+  OpenBarge def;
+  def.size = {0.14, 0.14, 0.202};
+  def.wall = 0.002;
+  return def;
+}
+
+/// The surface where the cup's rim has a depth; `tilt`: of the cup about x, from upright [rad].
+SurfacePlane planeOver(double depth, double tilt) {
+  const Vector3 normal(0, std::sin(tilt), std::cos(tilt));
+  return {normal, normal.dot(Vector3(0, 0, kRim)) + depth, 1000, 9.81};
+}
+
+/// Column of air of a depth L that is pushed under, mouth down: p_0 L = (p_0 + rho g (d - L + x))
+/// x.
+double columnAt(double depth) {
+  const double outside = kAir / kWeight, b = outside + depth - kDeep;
+  return (std::sqrt(b * b + 4 * outside * kDeep) - b) / 2;
+}
+
+/// Energy of the water in the holds and of the air over it, docs/theory.md eq. (135), (148) [J].
+double energyOf(const HoldShapes& holds, const SurfacePlane& plane,
+                const std::vector<HoldState>& water) {
+  double energy = kWeight * waterInside(holds, water.data(), plane).below.depth_integral;
+  for (std::size_t i = 0; i < water.size(); ++i)
+    energy += water[i].is_sealed
+                  ? energyOfAir(water[i].air, holds.shapes[i].capacity() - water[i].volume, kAir)
+                  : 0;
+  return energy;
+}
+
+TEST(SealedHolds, AirOfABellIsPressedTogetherByBoylesLaw) {
+  const HoldShapes holds(openBarge(cup()).holds);
+  const double area = kSide * kSide;
+  for (const auto& [depth, column] :
+       {std::pair(0.05, 0.199055), {1, 0.182626}, {10, 0.102109}, {100, 0.018754}}) {
+    EXPECT_NEAR(columnAt(depth), column, 1e-6);
+    for (const double step : {1 / 240.0, 1 / 60.0, 1 / 30.0}) {
+      std::vector<HoldState> water(1);
+      for (int i = 0; i < 400; ++i)
+        exchangeWater(holds, planeOver(depth, kPi), {true, step}, water.data());
+      EXPECT_TRUE(water[0].is_sealed);
+      EXPECT_NEAR(water[0].air, kAir * kDeep * area, 1e-12 * kAir);
+      EXPECT_NEAR(kDeep - water[0].volume / area, columnAt(depth), 1e-9) << depth << ' ' << step;
+    }
+  }
+}
+
+TEST(SealedHolds, BellThatIsLiftedGivesItsWaterBack) {
+  const HoldShapes holds(openBarge(cup()).holds);
   std::vector<HoldState> water(1);
-  fillCoveredHolds(holds, nullptr, {{0, 0, 1}, 0.249, 1000, 9.81}, water.data());
-  EXPECT_TRUE(areEmpty(holds, water.data()));
-  fillCoveredHolds(holds, nullptr, {{0, 0, 1}, 0.251, 1000, 9.81}, water.data());
-  EXPECT_TRUE(areFull(holds, water.data()));
+  for (const double depth : {0.1, 1.0, 5.0, 5.0, 1.0, 0.2, 0.05})
+    for (int i = 0; i < 400; ++i)
+      exchangeWater(holds, planeOver(depth, kPi), {true, 1 / 60.0}, water.data());
+  EXPECT_NEAR(kDeep - water[0].volume / (kSide * kSide), columnAt(0.05), 1e-9);
+  for (int i = 0; i < 100; ++i)
+    exchangeWater(holds, planeOver(-0.01, kPi), {true, 1 / 60.0}, water.data());
+  EXPECT_EQ(water[0].volume, 0);
+  EXPECT_FALSE(water[0].is_sealed);
+}
+
+// What is above the highest place of the mouth stays.
+TEST(SealedHolds, TiltedBellKeepsTheAirAboveItsMouth) {
+  const HoldShapes holds(openBarge(cup()).holds);
+  for (const double hertz : {30.0, 60.0, 240.0}) {
+    std::vector<HoldState> water(1);
+    for (int i = 0; i < 200; ++i)
+      exchangeWater(holds, planeOver(1, kPi), {true, 1 / 60.0}, water.data());
+    const double tilt = 120 * kPi / 180;
+    const SurfacePlane plane = planeOver(1, tilt);
+    const double top = holds.openings[0].shape.top(plane.normal);
+    const double above = holds.shapes[0].capacity() -
+                         computeWetVolume(holds.shapes[0].hull(), {plane.normal, top, 0, 0}).volume;
+    for (int i = 0; i < 2 * hertz; ++i)
+      exchangeWater(holds, plane, {true, 1 / hertz}, water.data());
+    const double air = holds.shapes[0].capacity() - water[0].volume;
+    EXPECT_NEAR(air, above, 1e-3 * above) << hertz;
+    EXPECT_LT(air, 0.9 * holds.shapes[0].capacity());
+  }
+}
+
+// Bubbles of 0.35 sqrt(gD) through the mouth let the water in, or out of a cup in the air.
+TEST(SealedHolds, WaterAndAirChangePlacesThroughAMouth) {
+  const HoldShapes holds(openBarge(cup()).holds);
+  const double area = kSide * kSide;
+  const double rate = 0.35 * area * std::sqrt(9.81 * std::sqrt(4 * area / kPi));
+  EXPECT_DOUBLE_EQ(bubblingFlow(holds.openings[0].shape, {}), rate);
+  const double time = kDeep * area / rate;
+  for (const double hertz : {30.0, 60.0, 240.0, 2000.0}) {
+    std::vector<HoldState> in(1), out{{kDeep * area}};
+    int steps_in = 0, steps_out = 0;
+    for (; in[0].volume < kDeep * area && steps_in < 1e4; ++steps_in)
+      exchangeWater(holds, planeOver(0.3, 0), {true, 1 / hertz}, in.data());
+    // The depth presses 3 % in at once.
+    EXPECT_NEAR(steps_in / hertz, time, 0.03 * time + 1.5 / hertz) << hertz;
+    for (; out[0].volume > 0 && steps_out < 1e4; ++steps_out)
+      exchangeWater(holds, planeOver(-1, kPi), {true, 1 / hertz}, out.data());
+    // From where the orifice is slower, C sqrt(2gh) = U, the time is twice as long.
+    const double speed = rate / area, low = speed * speed / (0.72 * 9.81);
+    EXPECT_NEAR(steps_out / hertz, time + low / speed, 0.01 * time + 5 / hertz) << hertz;
+  }
+}
+
+// A glass that is lifted mouth down out of a basin keeps its water while its mouth is under.
+TEST(SealedHolds, AirOutsideHoldsTheWaterInALiftedGlass) {
+  const HoldShapes holds(openBarge(cup()).holds);
+  std::vector<HoldState> water{{holds.shapes[0].capacity()}};
+  for (int i = 0; i < 600; ++i)
+    exchangeWater(holds, planeOver(0.01, kPi), {true, 1 / 60.0}, water.data());
+  EXPECT_NEAR(water[0].volume, holds.shapes[0].capacity(), 1e-15);
+}
+
+// A barge of two holds upside down, with a door at what was its floor: one pressure above.
+TEST(SealedHolds, HoldsWithADoorAboveTheirWaterHaveOneAir) {
+  OpenBarge def;
+  def.holds = 2;
+  def.door = 0.01;
+  const HoldShapes holds(openBarge(def).holds);
+  std::vector<HoldState> water{{0.1}, {0.02}};
+  const SurfacePlane plane{{0, 0, -1}, 3, 1000, 9.81};
+  const double capacity = holds.shapes[0].capacity();
+  exchangeWater(holds, plane, {true, 1e-9}, water.data());
+  const double product = kAir * (2 * capacity - 0.12);
+  EXPECT_NEAR(water[0].air + water[1].air, product, 1e-9 * product);
+  for (int i = 0; i < 1000; ++i) exchangeWater(holds, plane, {true, 1 / 60.0}, water.data());
+  EXPECT_NEAR(water[0].volume, water[1].volume, 1e-9) << "level";
+  EXPECT_NEAR(water[0].air + water[1].air, product, 1e-9 * product);
+  const double air = capacity - water[0].volume;
+  const double head = 3 - (-0.25 + water[0].volume / (capacity / 0.48));
+  EXPECT_NEAR(product / (2 * air), kAir + kWeight * head, 1e-6 * kAir);
+}
+
+// A bulkhead without a door: each hold keeps its own air.
+TEST(SealedHolds, HoldsApartHaveTheirOwnAir) {
+  OpenBarge def;
+  def.holds = 2;
+  const HoldShapes holds(openBarge(def).holds);
+  std::vector<HoldState> water{{0.2}, {0.0}};
+  for (int i = 0; i < 1000; ++i)
+    exchangeWater(holds, {{0, 0, -1}, 3, 1000, 9.81}, {true, 1 / 60.0}, water.data());
+  EXPECT_GT(water[0].volume, water[1].volume + 0.1);
+  EXPECT_LT(water[0].air, 0.6 * water[1].air);
+}
+
+TEST(SealedHolds, EnergyOfWaterAndAirNeverGrowsAndNoWaterIsMade) {
+  test::Arbitrary arbitrary(21);
+  int sealed = 0;
+  for (int i = 0; i < 120; ++i) {
+    OpenBarge def;
+    def.holds = 1 + i % 3;
+    def.door = i % 2 ? 0.01 : 0;
+    def.hole = i % 5 == 0 ? 0.01 : 0;
+    const HoldShapes holds(openBarge(def).holds);
+    std::vector<HoldState> water(holds.shapes.size());
+    for (std::size_t k = 0; k < water.size(); ++k)
+      water[k].volume = holds.shapes[k].capacity() * std::max(0.0, arbitrary.between(-0.3, 1));
+    const double step =
+        std::array{1 / 240.0, 1 / 60.0, 1 / 30.0, 0.5}[static_cast<std::size_t>(i % 4)];
+    for (int pose = 0; pose < 6; ++pose) {
+      const SurfacePlane plane{arbitrary.vector().normalized(), arbitrary.between(-0.7, 2), 1000,
+                               9.81};
+      exchangeWater(holds, plane, {true, 0}, water.data());
+      double energy = energyOf(holds, plane, water);
+      for (int k = 0; k < 40; ++k) {
+        double before = 0, come = 0, after = 0;
+        for (const HoldState& hold : water) before += hold.volume;
+        exchangeWater(holds, plane, {true, step}, water.data());
+        for (const HoldState& hold : water) {
+          after += hold.volume;
+          come += hold.inflow;
+          sealed += hold.is_sealed;
+          ASSERT_GE(hold.volume, 0);
+          ASSERT_GE(hold.air, 0);
+        }
+        for (std::size_t j = 0; j < water.size(); ++j)
+          ASSERT_LE(water[j].volume, holds.shapes[j].capacity() * (1 + 1e-15));
+        ASSERT_NEAR(after - before, come, 1e-14) << i << ' ' << pose << ' ' << k;
+        const double next = energyOf(holds, plane, water);
+        ASSERT_LT(next, energy + 1e-9) << i << ' ' << pose << ' ' << k << " step " << step;
+        energy = next;
+      }
+    }
+  }
+  EXPECT_GT(sealed, 5000);
 }
 
 }  // namespace

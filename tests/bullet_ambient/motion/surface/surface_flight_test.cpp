@@ -87,31 +87,6 @@ TEST(SurfaceFlight, HorizontalMomentumAndVerticalSpinStay) {
   EXPECT_NEAR(after.y(), before.y(), 0.02 * before.norm());
 }
 
-TEST(SurfaceFlight, IsThatInOneFluidFarFromTheSurface) {
-  FloatingDef def;
-  def.shape = test::floatingEllipsoid({0.5, 0.4, 0.3}, 2);
-  def.has_loads = true;
-  def.above = air();
-  for (const double height : {-10.0, 5.0}) {
-    FloatingRun body(def);
-    body.state.position = {0, 0, height};
-    body.state.orientation = Quaternion(0.9, 0.3, -0.2, 0.1).normalized();
-    body.state.twist = {{0.5, -0.3, 1}, {1, 0.5, 0.2}};
-    const RigidState start = body.state;
-    const BodyModel& model = height < 0 ? body.model().below : body.model().above;
-    BodyModel unloaded = model;  // light fluids above have no loads
-    if (height > 0) {
-      unloaded.loads = nullptr;
-      unloaded.resistance = nullptr;
-    }
-    body.step(0.01);
-    const FlightResult flight =
-        fly({unloaded, body.surroundings(), {}, 0.01}, start, FlightMemory{});
-    EXPECT_LT((flight.state.position - body.state.position).norm(), 3e-6);
-    EXPECT_LT((flight.state.twist.vector() - body.state.twist.vector()).norm(), 3e-4);
-  }
-}
-
 TEST(SurfaceFlight, EnergyNeverGrows) {
   test::Arbitrary arbitrary(1);
   const std::vector<FluidBody> shapes{test::floatingEllipsoid({0.5, 0.4, 0.3}, 1),
@@ -223,35 +198,6 @@ TEST(SurfaceFlight, TakesAllSubstepsBeforeItRests) {
   EXPECT_EQ(halted, 0);
 }
 
-TEST(SurfaceFlight, DropConvergesInTheStep) {
-  FloatingDef def;
-  def.shape = test::floatingEllipsoid({1, 0.5, 0.25}, 2);
-  def.gyration = {0.4, 0.6, 0.6};
-  const auto drop = [&](double step) {
-    FloatingRun body(def);
-    body.state.position = {0, 0, 1.2};
-    body.state.orientation = Quaternion(Eigen::AngleAxisd(0.35, Vector3(1, 0.3, 0).normalized()));
-    body.state.twist.linear = {1, 0, 0};
-    body.run(0.6, step);
-    return body.state.position;
-  };
-  const Vector3 fine = drop(1 / 960.0);
-  EXPECT_LT((drop(1 / 240.0) - fine).norm(), 0.005);
-  EXPECT_LT((drop(1 / 60.0) - fine).norm(), 0.02);
-}
-
-/// Extremes of a free heave over its start; their times give the period.
-std::vector<test::Extreme> heaveOf(FloatingRun& body, double start, double time, double step) {
-  body.state.position.z() += start;
-  const double rest = body.state.position.z() - start;
-  std::vector<double> heave;
-  for (int i = 0; i * step < time; ++i) {
-    heave.push_back((body.state.position.z() - rest) / start);
-    body.step(step);
-  }
-  return test::extremesOf(heave, step);
-}
-
 TEST(SurfaceFlight, BodyThatFloatsStaysWhereItIs) {
   FloatingDef def;
   def.shape = test::floatingBox({1, 0.8, 0.5});
@@ -260,19 +206,6 @@ TEST(SurfaceFlight, BodyThatFloatsStaysWhereItIs) {
   box.run(2, 1 / 60.0);
   EXPECT_LT(box.state.position.norm(), 1e-9);
   EXPECT_LT(box.state.twist.vector().norm(), 1e-9);
-}
-
-TEST(SurfaceFlight, SmallCubeKeepsItsHeaveAtLongSteps) {
-  FloatingDef def;
-  def.shape = test::floatingBox(Vector3::Constant(0.01), 1);
-  def.gyration = Vector3::Constant(0.004);
-  def.wave_damping = 0;
-  FloatingRun cube(def), fine(def);
-  const auto coarse = heaveOf(cube, 0.0005, 1, 1 / 60.0);
-  const auto exact = heaveOf(fine, 0.0005, 1, 1 / 960.0);
-  ASSERT_GE(coarse.size(), 6u);
-  const double period = coarse[4].time - coarse[0].time, expected = exact[4].time - exact[0].time;
-  EXPECT_NEAR(period, expected, 0.2 * expected);
 }
 
 TEST(SurfaceFlight, MovesWithAStreamOfWater) {

@@ -55,19 +55,6 @@ TEST(FormLawScenes, TheSameCubeShootsUpByThePublishedLaw) {
       << record.warning;
 }
 
-TEST(FormLawScenes, ASlabFallsFlatInOneSubstepPerStep) {
-  nlohmann::json scene = cubeInWater("form", 1.0 / 60);
-  scene["bodies"][0]["shape"]["size"] = {0.2, 0.2, 0.05};
-  scene["bodies"][0]["mass"] = 5;
-  const RunRecord record = runSharing(sceneFrom(scene));
-  // Drag with C_D of 1.17 balances the weight of 5 kg in water.
-  const double weight = 9.81 * (5 - 998 * 0.002);
-  const double speed = std::sqrt(weight / (0.5 * 998 * 1.17 * 0.04));
-  EXPECT_NEAR(record.motion[0].back().twist.linear.z(), -speed, 0.01 * speed);
-  EXPECT_EQ(record.work[0].substeps, 180);
-  EXPECT_EQ(record.work[0].coarse, 0);
-}
-
 /// A card of 85 x 55 mm and 300 g/m^2 in air, tilted by 60 degrees.
 nlohmann::json cardInAir(double step) {
   nlohmann::json scene = ballScene();
@@ -106,10 +93,55 @@ TEST(FormLawScenes, ACardTumblesAboutItsLongAxis) {
   EXPECT_NEAR(fine.spin / coarse.spin, 1, 0.02);
 }
 
-TEST(FormLawScenes, ACardFallsFlatWithoutTheLag) {
-  nlohmann::json scene = cardInAir(1.0 / 240);
-  scene["bodies"][0]["stall_lag"] = 0;
-  EXPECT_GT(meanOf(runSharing(sceneFrom(scene)).motion[0]).descent, 1.5);
+/// Scene of one flap, released at an angle downstream [rad].
+Scene flapAt(double angle) {
+  // After a step with rows the velocity contains half of the turning part. The stall lag takes this
+  // part for a spin: an error of first order, 1.3 degrees at 1/240 s.
+  Scene scene = readNamedScene(
+      "flap_in_current", {{"duration", "0.1"}, {"time_step", "0.0005"}, {"output_step", "0.01"}});
+  scene.bodies.resize(1);
+  scene.joints.resize(1);
+  const double arm = std::get<Box>(scene.bodies[0].shape.geometry).half_sizes.z();
+  scene.bodies[0].position = arm * Vector3(std::sin(angle), 0, -std::cos(angle));
+  scene.bodies[0].orientation = Quaternion(std::cos(angle / 2), 0, -std::sin(angle / 2), 0);
+  return scene;
+}
+
+/// Lifting moment less restoring moment of a flap at the angle t [N m]. Lift is by the form law on
+/// the windward side, C_N = c (2 cos t - cos^2 t). Restoring: weight, and the attached share of the
+/// potential flow's moment, which turns the flap across the current.
+double liftingMoment(double t, const Scene& scene, const PreparedBody& body) {
+  const Vector3 half = std::get<Box>(scene.bodies[0].shape.geometry).half_sizes;
+  const double rho = scene.medium.density, V = scene.medium.velocity.x();
+  const double arm = half.z(), area = 4 * half.y() * half.z();
+  const double across = std::cos(t), z = across * across / 0.45 - 0.25;
+  const double attached = 0.5 * (1 - z / std::sqrt(1 + z * z));
+  const double pressure = 0.5 * rho * V * V * area * arm * 1.17 * (2 * across - across * across);
+  const double weight = (body.mass - rho * body.fluid_body->volume) * 9.81 * arm;
+  const Matrix6& added = body.fluid_body->added_mass;
+  const double moment = rho * (added(3, 3) - added(5, 5)) * V * V * across;
+  return pressure - (weight + attached * moment) * std::sin(t);
+}
+
+double balanceAngle(const Scene& scene, const PreparedBody& body) {
+  double low = 0, high = kPi / 2;  // rises at low, falls at high
+  while (high - low > 1e-9) {
+    const double middle = (low + high) / 2;
+    (liftingMoment(middle, scene, body) > 0 ? low : high) = middle;
+  }
+  return low;
+}
+
+TEST(FlapInCurrent, RisesBelowAndFallsAboveTheAngleWhereItsMomentsBalance) {
+  const auto bodies = prepare(flapAt(1));
+  const double balance = balanceAngle(flapAt(1), bodies[0]);
+  EXPECT_NEAR(balance * 180 / kPi, 80.6, 0.1);
+  constexpr double kDegree = 0.017453292519943295;
+  const auto spinAfterRelease = [&](double angle) {
+    return runPrepared(flapAt(angle), bodies).motion[0].back().twist.angular.y();
+  };
+  EXPECT_LT(spinAfterRelease(balance - kDegree), 0);
+  EXPECT_GT(spinAfterRelease(balance + kDegree), 0);
 }
 
 // Light bodies on the ground: the scenes leaves and cards_in_wind.
@@ -174,11 +206,6 @@ TEST(CardsInWind, AreCarriedOffOnceItExceedsTheirWeight) {
   }
 }
 
-TEST(CardsInWind, AllLeaveTheirPlaceInTheWindOfTheScene) {
-  for (const double way : carriedBy(readNamedScene("cards_in_wind").medium.velocity.x()))
-    EXPECT_GT(way, 0.5);
-}
-
 // Rival models in the scenes of Padilla et al. 2025, section 5.8, with the paper's findings. Linear
 // drag has no lift; windward flux turns a spinning ball to the wrong side. Both damp the tumbling
 // plate to a steady fall.
@@ -210,25 +237,6 @@ TEST(RivalScenes, OnlyThisLibraryBendsAFreeKickToMagnusSide) {
   EXPECT_GT(ambient.y(), 4);
   EXPECT_LT(std::abs(linear.y()), 1e-3);
   EXPECT_LT(flux.y(), -0.5);
-}
-
-TEST(RivalScenes, BothDampATumblingPlateToASteadyFall) {
-  for (const char* model : {"uwrbd", "gwtf"}) {
-    const Scene scene = readNamedScene("plate_8cm", {{"model", model}});
-    const Fall fall = analyseFall(runSharing(scene).motion[0], Vector3::UnitZ(), scene.gravity);
-    EXPECT_EQ(fallingModeName(fall.mode), fallingModeName(FallingMode::kSteady)) << model;
-  }
-}
-
-TEST(RivalScenes, ShortenTheFlightOfAGolfBallThatThisLibraryLengthens) {
-  const auto range = [](const char* model) {
-    const Scene scene = readNamedScene("golf_dimpled_spin", {{"model", model}});
-    return summarisePath(runSharing(scene).motion[0], scene.gravity).landing->position.x();
-  };
-  const double vacuum = range("vacuum");
-  EXPECT_GT(range("ambient"), 1.3 * vacuum);
-  EXPECT_LT(range("uwrbd"), vacuum);
-  EXPECT_LT(range("gwtf"), vacuum);
 }
 
 // Load laws of the models compared in the demos, on a sphere.

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -52,23 +51,6 @@ TEST(RobotScenes, SwimmerAdvancesByItsConnection) {
   EXPECT_NEAR(coarse / fine, 4, 0.3);
 }
 
-TEST(RobotScenes, SwimmerStaysInItsPlaneAndNeutral) {
-  const Scene scene = readNamedScene("three_link_swimmer", {{"duration", "2"}});
-  for (const auto& link : runSharing(scene).motion)
-    EXPECT_LT(std::abs(link.back().position.z()), 1e-6);
-}
-
-// Waves along the swimmer from the tail, or from the head, propel in opposite directions.
-TEST(RobotScenes, MirroredGaitSwimsTheOtherWay) {
-  const auto end = [](const std::string& phase) {
-    const Scene scene = readNamedScene("three_link_swimmer",
-                                       {{"duration", "2"}, {"robots.0.motors.hip.phase", phase}});
-    return runSharing(scene).motion[0].back().position;
-  };
-  EXPECT_LT(end("-1.5707963267948966").x(), -0.15);
-  EXPECT_GT(end("1.5707963267948966").x(), 0.15);
-}
-
 TEST(RobotScenes, ArmGoesWhereItsMotorsWant) {
   const Scene scene = readNamedScene("underwater_arm", {{"duration", "3"}});
   const std::vector<PreparedBody> bodies = prepare(scene);
@@ -100,31 +82,11 @@ TEST(RobotScenes, ChainTrailsBehindItsTowPoint) {
   }
 }
 
-TEST(RobotScenes, InVacuumARobotFallsAsStockBulletHasIt) {
-  const Scene scene = readNamedScene(
-      "three_link_swimmer", {{"duration", "0.5"}, {"time_step", "0.005"}, {"model", "vacuum"}});
-  const RunRecord record = runSharing(scene);
-  double height = 0;
-  for (const auto& link : record.motion) height += link.back().position.z() / 3;
-  // Fall by Euler's steps: g h^2 n (n + 1) / 2.
-  EXPECT_NEAR(height, -9.81 * 0.005 * 0.005 * 100 * 101 / 2, 1e-9);
-}
-
 TEST(RobotScenes, TrajectoryNamesRobotAndLink) {
   const Scene scene = readNamedScene("three_link_swimmer", {{"duration", "0.04"}});
   const std::string text = makeTrajectoryText(scene, runSharing(scene).motion);
   EXPECT_NE(text.find("\n0,swimmer/middle,0,0,0,1,"), std::string::npos);
   EXPECT_NE(text.find(",swimmer/tail,"), std::string::npos);
-}
-
-TEST(RobotScenes, PaddleBoatDrivesStraightAhead) {
-  const Scene scene = readNamedScene("paddle_boat", {{"duration", "3"}});
-  const RunRecord record = runSharing(scene);
-  const MotionSample& hull = record.motion[0].back();
-  EXPECT_GT(hull.position.x(), 0.4);
-  EXPECT_GT(hull.twist.linear.x(), 0.2);
-  EXPECT_LT(std::abs(hull.position.y()), 0.01);
-  EXPECT_LT(std::abs(hull.position.z()), 0.1);
 }
 
 /// Turn of the boat with a rudder about the vertical per second, after it has begun to drive.
@@ -141,20 +103,6 @@ TEST(RobotScenes, RudderTurnsTheBoatToItsSide) {
   EXPECT_LT(to_left, 0.36 / 1.2);
   EXPECT_NEAR(to_right, -to_left, 0.05 * to_left);
   EXPECT_LT(std::abs(turningRate("0")), 0.05 * to_left);
-}
-
-TEST(RobotScenes, WaderTrotsAheadUpright) {
-  const Scene scene = readNamedScene("wader", {{"duration", "4"}});
-  const RunRecord record = runSharing(scene);
-  const auto trunk = std::find_if(scene.bodies.begin(), scene.bodies.end(),
-                                  [](const BodyDef& body) { return body.name == "wader/trunk"; });
-  for (const MotionSample& at : record.motion[trunk - scene.bodies.begin()]) {
-    EXPECT_GT((at.orientation * Vector3::UnitZ()).z(), 0.95);
-    EXPECT_NEAR(at.position.z(), 0.49, 0.05);
-  }
-  const MotionSample& end = record.motion[trunk - scene.bodies.begin()].back();
-  EXPECT_GT(end.position.x(), 0.6);
-  EXPECT_LT(std::abs(end.position.y()), 0.3);
 }
 
 // The middles of links are 0.6 m from their hinges: v = v_base + w x r.

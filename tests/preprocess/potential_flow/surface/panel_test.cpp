@@ -11,7 +11,6 @@
 #include "bullet_ambient/base/pi.h"
 #include "preprocess/potential_flow/surface/panel_pair.h"
 #include "preprocess/potential_flow/surface/panel_views.h"
-#include "preprocess/potential_flow/surface/quadrature_rules.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 #include "tests/reference/triangle_potentials.h"
 
@@ -132,14 +131,6 @@ TEST(NewtonPotential, EqualsItsEdgeIntegrals) {
   }
 }
 
-TEST(NewtonPotential, EqualsTheIntegralOverTheSurface) {
-  const Panel p = skewPanel();
-  const Vector3d x = p.centroid + 0.4 * p.normal + 0.3 * p.edge[0];
-  const double reference = reference::integrateOverTriangle(
-      p.corner, [&](const Vector3d& y) { return 1 / (x - y).norm(); }, kFineStep);
-  EXPECT_NEAR(computeNewtonPotential(p, x) / reference, 1, 1e-11);
-}
-
 TEST(NewtonPotential, IsFiniteAndContinuousOnThePanelItsEdgesAndCorners) {
   const Panel p = skewPanel();
   for (const Vector3d& x : {p.centroid, Vector3d(p.corner[0] + 0.3 * p.edge[0]), p.corner[2]}) {
@@ -181,47 +172,6 @@ TEST(DoubleLayer, JumpsBy4PiAcrossThePanelAndVanishesBesideIt) {
   const double below = computeDoubleLayer(p, p.centroid - 1e-9 * p.normal).sum();
   EXPECT_NEAR(above - below, 4 * kPi, 1e-6);
   EXPECT_NEAR(computeDoubleLayer(p, p.centroid + 3 * p.edge[0]).norm(), 0, 1e-14);
-}
-
-double factorial(int n) { return std::tgamma(n + 1.0); }
-
-/// Largest error of the mean of l1^i l2^j l3^k over the triangle, i + j + k = degree.
-template <std::size_t N>
-double errorOfDegree(const std::array<TriangleNode, N>& rule, int degree) {
-  double worst = 0;
-  for (int i = 0; i <= degree; ++i)
-    for (int j = 0; i + j <= degree; ++j) {
-      const int k = degree - i - j;
-      double mean = 0;
-      for (const TriangleNode& node : rule)
-        mean += node.weight * std::pow(node.barycentric[0], i) * std::pow(node.barycentric[1], j) *
-                std::pow(node.barycentric[2], k);
-      const double exact = 2 * factorial(i) * factorial(j) * factorial(k) / factorial(degree + 2);
-      worst = std::max(worst, std::abs(mean - exact));
-    }
-  return worst;
-}
-
-TEST(QuadratureRules, SegmentRuleIsExactToDegree11) {
-  for (int degree = 0; degree <= 12; ++degree) {
-    double mean = 0;
-    for (const SegmentNode& node : kSegmentRule)
-      mean += node.weight * std::pow(node.position, degree);
-    const double error = std::abs(mean - 1.0 / (degree + 1));
-    if (degree <= 11)
-      EXPECT_LT(error, 1e-16 * 4) << degree;
-    else
-      EXPECT_GT(error, 1e-9);
-  }
-}
-
-TEST(QuadratureRules, TriangleRulesAreExactToDegree4And8) {
-  for (int degree = 0; degree <= 4; ++degree)
-    EXPECT_LT(errorOfDegree(kTriangleRule6, degree), 4e-16);
-  for (int degree = 0; degree <= 8; ++degree)
-    EXPECT_LT(errorOfDegree(kTriangleRule16, degree), 4e-16);
-  EXPECT_GT(errorOfDegree(kTriangleRule6, 5), 1e-6);
-  EXPECT_GT(errorOfDegree(kTriangleRule16, 9), 1e-8);
 }
 
 // Meshes as sheets: pair integrals do not need a closed surface.
@@ -325,24 +275,6 @@ TEST(PairIntegral, OfAFaceNextToMuchSmallerOnesDoesNotDependOnTheOrder) {
   const double reference = referenceOf(surface, 1, 0, 0.1);
   EXPECT_NEAR(relativeError(surface, 0, 1, reference), 0, 1e-7);
   EXPECT_EQ(computePairIntegral(surface, 0, 1), computePairIntegral(surface, 1, 0));
-}
-
-TEST(PairIntegral, FarFieldErrorFallsWithTheCubeOfTheDistance) {
-  // Monopole and quadrupole leave an error of third power in radius over distance. Without the
-  // quadrupole the order would be 2; measured 2.86.
-  std::vector<double> errors;
-  for (double distance : {8.0, 16.0}) {
-    const PanelSurface surface = surfaceOf({{0, 0, 0},
-                                            {1, 0.1, 0},
-                                            {0.4, 0.9, 0},
-                                            Vector3d(0.1, 0.2, distance),
-                                            Vector3d(1, 0, distance),
-                                            Vector3d(0.4, 0.9, distance + 0.7)},
-                                           {{0, 1, 2}, {3, 4, 5}});
-    ASSERT_EQ(classifyPair(surface, 0, 1), PairKind::Far);
-    errors.push_back(std::abs(relativeError(surface, 0, 1, referenceOf(surface, 0, 1, 0.15))));
-  }
-  EXPECT_GT(std::log2(errors[0] / errors[1]), 2.7);
 }
 
 }  // namespace

@@ -28,9 +28,9 @@ TEST(RobotState, GoesOnBitForBitInTheSameWorldAndInOneBuiltByTheSameCode) {
       RobotStateScene run(kind), other(kind);
       run.step(before);
       const WorldState state = run.save();
-      expectGoesOn(run.saved(), other.saved(), other.lookup(), kAfter);
+      expectGoesOn(run.saved(), other.saved(), kAfter, other.lookup());
       run.restore(state);
-      expectGoesOn(run.saved(), run.saved(), run.lookup(), kAfter);
+      expectGoesOn(run.saved(), run.saved(), kAfter, run.lookup());
     }
   }
 }
