@@ -10,7 +10,7 @@ namespace ambient {
 namespace {
 
 // Whether two planes are one but for a rounding of poses, relative to their place in W.
-bool isNear(const SurfacePlane& a, const SurfacePlane& b, double size, double rounding) {
+bool isSameButRounding(const SurfacePlane& a, const SurfacePlane& b, double size, double rounding) {
   return a.density == b.density && a.gravity == b.gravity && a.sides_F == b.sides_F &&
          (a.normal - b.normal).cwiseAbs().maxCoeff() <= rounding &&
          std::abs(a.height - b.height) <= rounding * size;
@@ -69,7 +69,8 @@ void takePlane(AmbientBody& ambient, const RigidState& state, double rounding) {
   FloatingState& floating = *ambient.floating;
   const SurfacePlane plane_B = planeAt(ambient, state);
   const double size = ambient.surface()->radius + state.position.norm();
-  if (floating.has_plane && isNear(floating.stand.plane, plane_B, size, kRoundings * rounding))
+  if (floating.has_plane &&
+      isSameButRounding(floating.stand.plane, plane_B, size, kRoundings * rounding))
     return;
   moveStandTo(plane_B, floating);
 }

@@ -198,7 +198,7 @@ void discount(std::map<Kind, int>& counts, const Kind& kind) {
 }
 
 template <class Kind>
-std::vector<Kind> without(const std::map<Kind, int>& counts, const std::vector<Kind>& kinds) {
+std::vector<Kind> missingOf(const std::map<Kind, int>& counts, const std::vector<Kind>& kinds) {
   std::vector<Kind> missing;
   for (const Kind& kind : kinds)
     if (counts.count(kind) == 0) missing.push_back(kind);
@@ -236,7 +236,7 @@ RegionFluids FluidRegions::fluids(const RegionFluids& further) const {
 }
 
 RegionFluids FluidRegions::missing(const FluidRegion& region) const {
-  return {without(media_, mediaOf(region)), without(surfaces_, surfacesOf(region))};
+  return {missingOf(media_, mediaOf(region)), missingOf(surfaces_, surfacesOf(region))};
 }
 
 RegionId FluidRegions::add(FluidRegion region) {

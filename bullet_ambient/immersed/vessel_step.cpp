@@ -21,7 +21,7 @@ struct AtWaves {
 };
 
 /// Whether an opening is so near to the plane that waves may reach it: their slope is below 1.
-bool isNear(const AtWaves& at, const SurfacePlane& plane_F, const OpeningShape& opening) {
+bool isNearOpening(const AtWaves& at, const SurfacePlane& plane_F, const OpeningShape& opening) {
   const double reach = at.ambient.surface()->radius;
   const auto& edges = opening.edges();
   return std::any_of(edges.begin(), edges.end(), [&](const OpeningShape::Edge& edge) {
@@ -66,7 +66,7 @@ void findRimWaves(AmbientBody& ambient, const MotionView& now,
                  [&](const HoldShapes::Opening& opening, std::size_t number) {
                    std::vector<double>& rises = vessel.rises[number];
                    std::fill(rises.begin(), rises.end(), 0.0);
-                   if (opening.to >= 0 || !isNear(at, plane_F, opening.shape)) return;
+                   if (opening.to >= 0 || !isNearOpening(at, plane_F, opening.shape)) return;
                    for (std::size_t i = 0; i < rises.size(); ++i)
                      rises[i] = riseAt(at, opening.shape.edges()[i].middle);
                  });

@@ -67,7 +67,7 @@ std::unique_ptr<FluidSolver<Base>> makeLike(const Base& plain, const Members& me
   return made;
 }
 
-void set(btDiscreteDynamicsWorld& world, btConstraintSolver* solver) {
+void setSolver(btDiscreteDynamicsWorld& world, btConstraintSolver* solver) {
   if (auto* multi_bodies = dynamic_cast<btMultiBodyDynamicsWorld*>(&world)) {
     multi_bodies->setMultiBodyConstraintSolver(static_cast<btMultiBodyConstraintSolver*>(solver));
   } else {
@@ -124,7 +124,7 @@ WorldConnection::WorldConnection(btDynamicsWorld& world,
 WorldConnection::~WorldConnection() {
   world_.removeAction(&action_);
   if (isFitted()) {
-    set(world_, given_);
+    setSolver(world_, given_);
     world_.*kOwnsSolver = std::exchange(owns_given_, false);
   }
   dropGiven();
@@ -142,7 +142,7 @@ void WorldConnection::install(MadeSolver solver) {
   given_ = world_.getConstraintSolver();
   // Bullet would free the memory of a solver that it has made.
   owns_given_ = std::exchange(world_.*kOwnsSolver, false);
-  set(world_, made_.get());
+  setSolver(world_, made_.get());
 }
 
 void WorldConnection::dropGiven() {

@@ -48,7 +48,7 @@ double twiceProduct(LinkDynamics& dynamics, const Coordinates& a, const Coordina
   return (sum - dynamics.normSquared(free)) / 2;
 }
 
-void reject(AmbientTree& tree, AmbientBodies& bodies) {
+void countRejected(AmbientTree& tree, AmbientBodies& bodies) {
   ++tree.links.front()->ambient.counters.rejected;
   bodies.complaints.say(Complaint::kNotFinite);
 }
@@ -56,7 +56,7 @@ void reject(AmbientTree& tree, AmbientBodies& bodies) {
 void stopIfNotFinite(AmbientTree& tree, AmbientBodies& bodies) {
   if (tree.step.start.allFinite()) return;
   tree.step.start.setZero();
-  reject(tree, bodies);
+  countRejected(tree, bodies);
 }
 
 // Gives a tree the velocity that it had before the substep; its motion in the fluid is not finite.
@@ -64,7 +64,7 @@ void giveUp(AmbientTree& tree, AmbientBodies& bodies) {
   forgetLoads(tree);
   tree.step.outcome = Outcome::kStock;
   writeVelocity(*tree.multi_body, tree.step.start);
-  reject(tree, bodies);
+  countRejected(tree, bodies);
 }
 
 // Computes the velocity x + X of a tree whose rows turn with it. Returns false if it is not finite.
@@ -112,7 +112,7 @@ void finishFlown(AmbientTree& tree) {
 
 // Flies a tree that no row has moved and that turns slowly; otherwise stores xi and the energy
 // bound of eq. (31a), twice the energy [J].
-void finishRows(AmbientTree& tree, const TreeTask& task) {
+void finishTreeRows(AmbientTree& tree, const TreeTask& task) {
   TreeStep& step = tree.step;
   if (step.change.isZero(0) && step.extent <= kSlowTurn && step.was_awake) {
     if (flyTree(tree, task)) {
@@ -201,7 +201,7 @@ void keepIntegrals(AmbientTree& tree, double h) {
 
 // Computes the velocity that rows are solved against, and sets the outcome. Returns false if the
 // velocity is not finite.
-bool begin(AmbientTree& tree, const TreeTask& task) {
+bool beginTree(AmbientTree& tree, const TreeTask& task) {
   TreeStep& step = tree.step;
   if (!step.was_awake) return prepareWoken(tree);
   if (tree.tree.size() == 1 || wasMovedByOthers(tree, step.start)) forgetLoads(tree);
@@ -216,7 +216,7 @@ bool begin(AmbientTree& tree, const TreeTask& task) {
 
 // Sets the velocity of a tree that does not fly as a body.
 void beginAlone(AmbientTree& tree, const TreeTask& task) {
-  if (!begin(tree, task)) {
+  if (!beginTree(tree, task)) {
     giveUp(tree, task.bodies);
     return;
   }
@@ -282,12 +282,12 @@ void finishTree(AmbientTree& tree, const TreeTask& task) noexcept {
   if (!step.change.allFinite()) {
     clearChange(*tree.multi_body);
     step.change.setZero();
-    reject(tree, task.bodies);
+    countRejected(tree, task.bodies);
   }
   if (step.outcome == Outcome::kFlown) {
     finishFlown(tree);
   } else {
-    finishRows(tree, task);
+    finishTreeRows(tree, task);
   }
   readChangedVelocity(*tree.multi_body, step.moved);
 }
@@ -304,7 +304,7 @@ void completeTree(AmbientTree& tree, const TreeTask& task) noexcept {
   }
   passSurface(tree, task);
   if (!step.end.allFinite()) {
-    reject(tree, task.bodies);
+    countRejected(tree, task.bodies);
     return;
   }
   step.change = step.end - step.moved;

@@ -318,7 +318,7 @@ namespace {
 
 // Scales `step.end` relative to the flow, so that the energy does not exceed the one that
 // keepEnergy() stored. `duration` of the step [s]. Returns the energy removed [J].
-double boundEnergy(AmbientTree& tree, double duration) {
+double boundSurfaceEnergy(AmbientTree& tree, double duration) {
   TreeStep& step = tree.step;
   if (!step.surface.is_bound) return 0;
   const double place = energyOfPlace(tree, originAfter(tree, duration), energyOfWater);
@@ -338,7 +338,7 @@ void passSurface(AmbientTree& tree, const TreeTask& task) noexcept {
   readPose(*tree.multi_body, step.pose);
   const double removed = arriveAtSurface(tree);
   const bool has_rows = step.outcome == Outcome::kRows || !step.change.isZero(0);
-  countEnergyRemoved(removed + (has_rows ? 0 : boundEnergy(tree, task.duration)), tree);
+  countEnergyRemoved(removed + (has_rows ? 0 : boundSurfaceEnergy(tree, task.duration)), tree);
 }
 
 AMBIENT_END

@@ -60,7 +60,7 @@ void checkFactor(const std::string& who, const char* name, double factor) {
                               ", which must be positive and finite");
 }
 
-void checkHolds(const std::string& who, const AttachDef& def) {
+void checkHoldSettings(const std::string& who, const AttachDef& def) {
   const std::vector<double>& water = def.holds.water;
   const std::vector<Hold>& holds = def.fluid_body->holds;
   if (!(def.holds.atmosphere > 0) || !std::isfinite(def.holds.atmosphere))
@@ -92,7 +92,7 @@ void checkDef(const std::string& who, const AttachDef& def) {
   checkFactor(who, "added_mass_factor", def.added_mass_factor);
   checkFactor(who, "load_factor", def.load_factor);
   checkFlight(who, def.flight);
-  checkHolds(who, def);
+  checkHoldSettings(who, def);
   checkChoice(who, "the pressure law", def.flow.law, kPressureLawNames);
   checkChoice(who, "the load precision", def.flow.precision, kLoadPrecisionNames);
 }
@@ -289,7 +289,7 @@ void checkLinkMass(const std::string& who, const btMultiBody& body, int link) {
 }
 
 // Moves a definition to the link that carries the given one. Returns that link.
-int carry(const btMultiBody& body, int link, AttachDef& def) {
+int moveToCarrier(const btMultiBody& body, int link, AttachDef& def) {
   const auto carrier = carrierOf(body, link);
   if (!carrier || carrier->link == link) return link;
   const Matrix3 turn = toQuaternion(carrier->pose.getRotation()).toRotationMatrix();
@@ -312,7 +312,7 @@ AmbientBody& attachLink(AmbientBodies& bodies, btMultiBodyDynamicsWorld& world, 
   const std::string who = def.name.empty()
                               ? link_name + " with fluid body '" + def.fluid_body->name + "'"
                               : link_name + ", '" + def.name + "',";
-  const int at = carry(body, given, def);
+  const int at = moveToCarrier(body, given, def);
   checkLinkMass(who, body, at);
   const AmbientTree* known = bodies.trees.at(&body);
   if (known && !(known->isSame() && hasLinksOf(body, known->tree))) {

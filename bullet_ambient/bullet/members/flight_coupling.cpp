@@ -232,7 +232,7 @@ bool fitsBullet(const Vector3& position, const Twist& twist_W) {
          twist_W.angular.squaredNorm() / kLargest < kLargest;
 }
 
-void add(const FlightCount& count, AmbientBody& ambient) {
+void countFlight(const FlightCount& count, AmbientBody& ambient) {
   ambient.counters.substeps += count.substeps;
   countLoads(ambient, count.load_evaluations);
   ambient.counters.guarded += count.guarded;
@@ -242,9 +242,9 @@ void add(const FlightCount& count, AmbientBody& ambient) {
 
 // Stores the end of a flight in the outcome of the body. An end that is not finite in Bullet's
 // precision is dropped and counted: the body is adrift.
-void keep(const FlightResult& flight, const Twist& end_W, const Twist& mean_W,
-          AmbientBody& ambient) {
-  add(flight.count, ambient);
+void keepFlight(const FlightResult& flight, const Twist& end_W, const Twist& mean_W,
+                AmbientBody& ambient) {
+  countFlight(flight.count, ambient);
   SubstepOutcome& outcome = ambient.outcome;
   // No warning if the user limits max_substeps.
   outcome.is_too_long =
@@ -287,7 +287,7 @@ std::optional<double> missingPart(const AmbientBody& ambient, const LastFlight& 
 }
 
 // Turns a body that Bullet has moved to where its flight was then.
-void settle(AmbientBody& ambient, const LastFlight& flight, double time_step) {
+void settleFlight(AmbientBody& ambient, const LastFlight& flight, double time_step) {
   btRigidBody& body = *ambient.body;
   const auto missing = missingPart(ambient, flight, time_step);
   if (!missing) return;
@@ -328,7 +328,7 @@ void beginFlights(AmbientBody* const* bodies, const Departures& departures, int 
     AmbientBody& ambient = *bodies[i];
     const FlightResult& flight = all[i]->body;
     const Twist &mean_W = means_W[i], &before_W = departures.twists_W[i];
-    keep(flight, ends_W[i], mean_W, ambient);
+    keepFlight(flight, ends_W[i], mean_W, ambient);
     changes_W[i] = {};
     if (ambient.outcome.kind == Outcome::kFlown)
       changes_W[i] = {mean_W.angular - before_W.angular, mean_W.linear - before_W.linear};
@@ -338,7 +338,7 @@ void beginFlights(AmbientBody* const* bodies, const Departures& departures, int 
 void endFlight(AmbientBody& ambient, double time_step) noexcept {
   btRigidBody& body = *ambient.body;
   const LastFlight& flight = std::as_const(ambient.outcome).flight();
-  settle(ambient, flight, time_step);
+  settleFlight(ambient, flight, time_step);
   const Twist &end = flight.left_W, &effective = flight.effective_W;
   addVelocity(body, {end.angular - effective.angular, end.linear - effective.linear});
 }

@@ -116,7 +116,7 @@ void setKept(const RowLanes& lanes, int lane, bool is_kept, RowMotion& rows) {
 }
 
 // Turns a body that Bullet has moved to where it has come on its way.
-void settle(AmbientBody& ambient, double time_step) {
+void settleMoved(AmbientBody& ambient, double time_step) {
   btRigidBody& body = *ambient.body;
   const RowMotion& rows = ambient.outcome.rows();
   const auto part = partOfWay(rows, toVector3(body.getWorldTransform().getOrigin()), time_step);
@@ -199,7 +199,7 @@ void keepMomenta(const Arrival* arrivals, int count, double time_step, BoundedTw
 }
 
 // Bounds the energy of a fast turn, eq. (31a).
-void boundEnergy(const Arrival& arrival, BoundedTwist& end) {
+void boundTurnEnergy(const Arrival& arrival, BoundedTwist& end) {
   const RowMotion& rows = arrival.rows();
   if (!rows.energy_bound) return;
   const BodyModel& model = **arrival.model;
@@ -283,10 +283,10 @@ void endRowMotions(AmbientBody* const* bodies, int count, double time_step,
   AMBIENT_ASSERT(count > 0 && count <= kFlightsTogether);
   Arrival arrivals[kFlightsTogether];
   BoundedTwist ends[kFlightsTogether];
-  for (int i = 0; i < count; ++i) settle(*bodies[i], time_step);
+  for (int i = 0; i < count; ++i) settleMoved(*bodies[i], time_step);
   const int arrived = findArrivals(bodies, count, time_step, arrivals);
   keepMomenta(arrivals, arrived, time_step, ends);
-  for (int i = 0; i < arrived; ++i) boundEnergy(arrivals[i], ends[i]);
+  for (int i = 0; i < arrived; ++i) boundTurnEnergy(arrivals[i], ends[i]);
   passSurfaces(arrivals, arrived, time_step, ends);
   for (int i = 0; i < arrived; ++i) setVelocity(arrivals[i], ends[i], time_step, complaints);
 }

@@ -155,8 +155,8 @@ Twist changeByLoad(const btRigidBody& body, const FlightTask& task, const Quater
 
 // Fills what rows need of a body at the orientation R, B to W. @pre the body's inertia tensor fits
 // it
-void fill(const AmbientBody& ambient, const BodyModel& model, const Matrix3& R,
-          const RowVelocity& row, const btSolverBody& solver_body, RowBody& row_body) {
+void fillRowBody(const AmbientBody& ambient, const BodyModel& model, const Matrix3& R,
+                 const RowVelocity& row, const btSolverBody& solver_body, RowBody& row_body) {
   const btRigidBody& body = *ambient.body;
   row_body.inverse_inertia_T = body.getInvInertiaTensorWorld().transpose();
   row_body.inverse_mass = body.getInvMass();
@@ -257,7 +257,7 @@ void SolverGroup::prepareForRows(Member* const* members, int count,
     row_body.is_held = member.is_held;
     if (member.is_locked)
       lock(row_body, *ambient.body, rowInertia(*models[i], row), R, solver_body);
-    fill(ambient, *models[i], R, row, solver_body, row_body);
+    fillRowBody(ambient, *models[i], R, row, solver_body, row_body);
     row_body.spin_by_load = toBullet(by_load.angular);
     row_body.velocity_by_load = toBullet(by_load.linear);
   }

@@ -62,7 +62,7 @@ std::vector<Place> placesOf(btCollisionWorld& world) {
   return places;
 }
 
-void fill(btPersistentManifold& manifold, const std::vector<btManifoldPoint>& points) {
+void fillManifold(btPersistentManifold& manifold, const std::vector<btManifoldPoint>& points) {
   manifold.setNumContacts(static_cast<int>(points.size()));
   for (std::size_t i = 0; i < points.size(); ++i) {
     btManifoldPoint& point = manifold.getContactPoint(static_cast<int>(i));
@@ -380,7 +380,7 @@ void restoreContacts(const WorldState& state, btCollisionWorld& world) {
   for (const ContactState& contact : state.contacts) {
     const auto found = places.find(nameOf(contact));
     if (found == places.end()) continue;
-    fill(*found->second, contact.points);
+    fillManifold(*found->second, contact.points);
     swapManifolds(restored++, found->second->m_index1a, array);
     places.erase(found);
   }

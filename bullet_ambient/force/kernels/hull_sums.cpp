@@ -280,7 +280,7 @@ HullSums sumHull(const HullBlocks& hull, const HullPlane& plane) noexcept {
 inline double absolute(double a) { return a < 0 ? -a : a; }
 
 /// Returns the extent along s. Skips blocks whose bounding box lies within the extent found so far.
-HullExtent extentOf(const HullCorners& corners, const double (&s)[3]) noexcept {
+HullExtent hullExtent(const HullCorners& corners, const double (&s)[3]) noexcept {
   const Vectors normal = inAllLanes<Doubles>(s);
   const double size[3] = {absolute(s[0]), absolute(s[1]), absolute(s[2])};
   HullExtent extent{};
@@ -308,6 +308,6 @@ HullExtent extentOf(const HullCorners& corners, const double (&s)[3]) noexcept {
 
 }  // namespace
 
-const HullKernel AMBIENT_KERNEL(kHullKernel){sumHull, extentOf};
+const HullKernel AMBIENT_KERNEL(kHullKernel){sumHull, hullExtent};
 
 }  // namespace ambient

@@ -109,7 +109,7 @@ double separatedShareOfBlocks(double xi) noexcept {
 }
 
 /// x^2 / (1 + x^2), from 0 to 1 as |x| grows.
-double grown(double x) noexcept {
+double saturated(double x) noexcept {
   const double square = std::min(x * x, kLargest * kLargest);
   return square / (1 + square);
 }
@@ -160,8 +160,8 @@ double FormLift::separatedShare(double phi, double turning) const noexcept {
   const double of_blocks = separatedShareOfBlocks(phi - turning);
   if (!(wing_ > 0)) return of_blocks;
   const double xi = phi - turning * phi / (phi + kOnset);
-  const double of_wings = xi > 0 ? 1 - attached_ * (1 - grown(xi / stall_sq_))
-                                 : (1 - attached_) * (1 - grown(xi / kOnset));
+  const double of_wings = xi > 0 ? 1 - attached_ * (1 - saturated(xi / stall_sq_))
+                                 : (1 - attached_) * (1 - saturated(xi / kOnset));
   return wing_ * of_wings + (1 - wing_) * of_blocks;
 }
 

@@ -93,7 +93,7 @@ constexpr Term kTorqueTerms[] = {
     {-0.0001843, 0, 0, 2, 2},  {-0.000425399, 0, 3, 2, 2},  {0.0000869243, 3, 3, 2, 2},
     {-0.0004659, 0, 6, 2, 2},  {0.0000554194, 1, 6, 2, 2}};
 
-double power(double base, int exponent) {
+double wholePower(double base, int exponent) {
   double product = 1;
   for (int i = 0; i < exponent; ++i) product *= base;
   return product;
@@ -103,8 +103,8 @@ template <std::size_t kCount>
 double sumOf(const Term (&terms)[kCount], const WageningenScrew& screw, double advance) {
   double sum = 0;
   for (const Term& term : terms)
-    sum += term.factor * power(advance, term.s) * power(screw.pitch_ratio, term.t) *
-           power(screw.area_ratio, term.u) * power(screw.blades, term.v);
+    sum += term.factor * wholePower(advance, term.s) * wholePower(screw.pitch_ratio, term.t) *
+           wholePower(screw.area_ratio, term.u) * wholePower(screw.blades, term.v);
   return sum;
 }
 

@@ -239,7 +239,7 @@ double Foils::reachFrom(const Vector3& point) const noexcept {
 
 namespace {
 
-FrameOffset inverseOf(const FrameOffset& pose) {
+FrameOffset inversePose(const FrameOffset& pose) {
   const Matrix3 back = pose.rotation.transpose();
   return {back, -(back * pose.translation)};
 }
@@ -250,7 +250,7 @@ class WithFoils final : public SurfaceLoads {
   WithFoils(std::shared_ptr<const SurfaceLoads> on_body, std::shared_ptr<const Foils> foils,
             double density)
       : on_body_(std::move(on_body)), foils_(std::move(foils)), density_(density) {
-    if (on_body_) pose_ = inverseOf(on_body_->frame({}));
+    if (on_body_) pose_ = inversePose(on_body_->frame({}));
   }
 
   Wrench load(const Twist& x) const noexcept override {

@@ -14,8 +14,8 @@ constexpr double kNoWater = -std::numeric_limits<double>::infinity();  // height
 
 /// Returns what is on the side of a hold whose level moves towards another height: the area is the
 /// mean on the way, so that the level does not pass it, whatever the shape.
-WaterSide sideOf(const HoldShape& shape, const HoldState& state, double level, double towards,
-                 const Vector3& normal) {
+WaterSide waterSideOf(const HoldShape& shape, const HoldState& state, double level, double towards,
+                      const Vector3& normal) {
   const auto [low, high] = computeExtent(shape.hull(), normal);
   const double end = std::clamp(towards, low, high), head = end - level;
   const double change = computeWetVolume(shape.hull(), {normal, end, 0, 0}).volume - state.filled();
@@ -65,8 +65,9 @@ void exchangeWithSea(const HoldShape& shape, const SeaAt& sea, double duration, 
   if (isClear(sea, level)) return;
   WaterSide outside{sea.plane_F.height};
   outside.rises = sea.data();
-  const double in = volumeThrough(sea.opening, {normal, sea.plane_F.gravity}, outside,
-                                  sideOf(shape, state, level, aimOf(sea, level), normal), duration);
+  const double in =
+      volumeThrough(sea.opening, {normal, sea.plane_F.gravity}, outside,
+                    waterSideOf(shape, state, level, aimOf(sea, level), normal), duration);
   addWater(in, state);
   state.inflow += in;
 }
@@ -80,9 +81,9 @@ void exchangeBetween(const HoldShapes& holds, const HoldShapes::Opening& door,
   const Vector3& normal = plane_F.normal;
   const double level = levelOf(here, normal, from), other = levelOf(there, normal, to);
   if (!(-door.shape.top(-normal) < std::max(level, other))) return;
-  const double passed =
-      volumeThrough(door.shape, {normal, plane_F.gravity}, sideOf(here, from, level, other, normal),
-                    sideOf(there, to, other, level, normal), duration);
+  const double passed = volumeThrough(door.shape, {normal, plane_F.gravity},
+                                      waterSideOf(here, from, level, other, normal),
+                                      waterSideOf(there, to, other, level, normal), duration);
   addWater(-passed, from);
   addWater(passed, to);
 }

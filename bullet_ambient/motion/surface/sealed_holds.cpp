@@ -181,7 +181,7 @@ struct Side {
   }
 };
 
-Side sideOf(const Holds& h, int hold) {
+Side airSideOf(const Holds& h, int hold) {
   if (hold < 0) return {hold, h.plane_F.height, kInfinite, kInfinite, kInfinite, -1};
   Side side{hold,         h.level(hold),           kInfinite, h.states[hold].volume,
             h.room(hold), h.states[hold].air_group};
@@ -199,8 +199,8 @@ class SealedOpening {
       : h_(holds),
         shape_(opening.shape),
         up_{holds.plane_F.normal, holds.plane_F.gravity},
-        here_(ambient::sideOf(holds, opening.from)),
-        there_(ambient::sideOf(holds, opening.to)) {
+        here_(airSideOf(holds, opening.from)),
+        there_(airSideOf(holds, opening.to)) {
     const double rise = shape_.outward().dot(up_.normal);
     Side &lower = rise > 0 ? here_ : there_, &upper = rise > 0 ? there_ : here_;
     const double top = shape_.top(up_.normal);
