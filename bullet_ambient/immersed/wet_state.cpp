@@ -32,7 +32,7 @@ struct WetSurface {
 
 /// Adds a triangle with its part below a plane in F and between the sides of its pool. `share` is
 /// an area here [m^2].
-void addTriangle(const Vector3 (&corners)[3], const SurfacePlane& plane, WetSurface& wet) {
+void addWetTriangle(const Vector3 (&corners)[3], const SurfacePlane& plane, WetSurface& wet) {
   if (plane.sides_F) {
     const WetPolygon part(PoolFrame(plane), corners);
     part.forEachTriangle([&wet](const Vector3& a, const Vector3& b, const Vector3& c) {
@@ -60,7 +60,7 @@ WetSurface wetSurfaceOf(const FluidBody& shape, const Immersion& immersion) {
                                 vertexOf(shape.surface, triangles[i + 1]),
                                 vertexOf(shape.surface, triangles[i + 2])};
     all += (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm() / 2;
-    addTriangle(corners, plane, wet);
+    addWetTriangle(corners, plane, wet);
   }
   wet.share = all > 0 ? wet.share / all : 0;
   if (!plane.sides_F) wet.draught = immersion.draught();

@@ -139,7 +139,7 @@ const btManifoldPoint& pointOf(const void* contact) {
 
 // Returns the change of velocity along a row by the rows, of members.
 template <class Row>
-btScalar changeByRows(const Row& row, const ContactRows& rows) {
+btScalar speedByRows(const Row& row, const ContactRows& rows) {
   btScalar sum = 0;
   visitSides(
       row, rows,
@@ -208,7 +208,7 @@ void Bounces::release(const ContactRows& rows) noexcept {
     row.m_rhs = bounce.right_side;
     if (row.m_rhs == 0) return;  // suspended: it acts along locked axes alone
     const btScalar zero = 0;
-    const btScalar forces = bounce.push + changeByRows(row, rows) - btMax(zero, bounce.load);
+    const btScalar forces = bounce.push + speedByRows(row, rows) - btMax(zero, bounce.load);
     const btScalar speed = btMax(zero, bounce.speed + btMin(zero, forces));
     const btScalar correction = bounce.correction;
     const btScalar wanted = correction < 0 ? speed + correction : btMax(speed, correction);
