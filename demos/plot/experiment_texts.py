@@ -31,7 +31,7 @@ DIFFERENCES = """## Where the model is known to differ from reality
   1/960 s). By the published law the one released at 45° hangs.
 - **Football.** The moments of inertia are those quoted for a real ball, 0.00194 kg m² about the long axis and 0.00321
   across it (after Rae 2003 and Brody 1985; the originals were not at hand); a shell of this shape has 0.00209 and
-  0.00342, a solid 0.00118 and 0.00220. With the shell the axis comes within 6.7°, with the solid within 27°. At the
+  0.00342, a solid 0.00118 and 0.00220. With the shell the axis comes within 6.6°, with the solid within 28°. At the
   height of the throw the range is Rae's, but later: 2.8 s is the time of a throw without lift, and the model's ball,
   its nose above its path, has lift. On the ground that is 0.5 s more than in the paper.
 - **Basketball.** Pebbles of 0.2 mm; smooth balls, which meet their crisis later, drift by 12.7, 17.8 and 26.3 m.

@@ -151,14 +151,24 @@ void addInspect(CLI::App& app) {
 
 namespace {
 
+/// True if the flow leaves a body's smooth sides where only a build knows.
+bool lacksLayers(const FluidBody& body) {
+  return body.sphere_radius == 0 && body.volume > 0 && body.form.shape.edges < 0.5 &&
+         body.form.shape.wing < 1 && body.viscous.separation.smooth_base.isZero(0);
+}
+
 void upgrade(const std::string& file) {
   const bool is_new = isComplete(readFluidBody(file));
+  std::string said = is_new ? ": is up to date" : ": upgraded";
   if (!is_new) {
     const FluidBody body = readPrepared(file);
     const BlockedSignals until_renamed;
     writeFluidBody(body, file);
+    if (lacksLayers(body))
+      said +=
+          "; it has no drag crisis: where the flow leaves its smooth sides only a new build finds";
   }
-  std::cout << plainLine(file) << (is_new ? ": is up to date\n" : ": upgraded\n");
+  std::cout << plainLine(file) << said << "\n";
 }
 
 }  // namespace

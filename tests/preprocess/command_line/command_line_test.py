@@ -212,6 +212,12 @@ class FilesTest(CommandTest):
         self.assertIn("half.ambient", self.refusal("upgrade", half))
         self.assertEqual(self.bytes_of("half.ambient"), upgraded[:3000])
 
+    def test_upgrade_says_which_bodies_keep_their_drag_at_any_speed(self):
+        _, file = self.build({"type": "ellipsoid", "semi_axes": [1, 0.5, 0.5]}, "round.ambient")
+        self.write("round.ambient", programs.without_fields(self.bytes_of("round.ambient"), [VISCOUS]))
+        self.assertEqual(self.run_well("upgrade", file).output,
+                         file + ": upgraded; it has no drag crisis: where the flow leaves its smooth sides only a new build finds\n")
+
 
 class InputTest(CommandTest):
     """What is refused, mended and warned of."""
