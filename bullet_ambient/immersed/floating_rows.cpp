@@ -46,7 +46,7 @@ void StepModel::freeze(const AmbientBody& ambient) noexcept {
 
 void StepModel::stiffen(const SurfaceStand& stand, const FloatingModes& modes,
                         double duration) noexcept {
-  if (!(duration * stand.swing > kLongestSwing)) return;
+  if (!(duration * stand.frequency > kLongestPhase)) return;
   const Matrix6 stiff = stiffInertia(stand, modes, duration);
   const Cholesky<6> factors(stiff);
   if (!factors.isPositive()) return;
@@ -54,11 +54,11 @@ void StepModel::stiffen(const SurfaceStand& stand, const FloatingModes& modes,
   at_surface_->model.inverse_inertia = factors.inverse();
 }
 
-void warnOfCoarseSwing(const AmbientBody& ambient, double duration,
+void warnOfShortPeriod(const AmbientBody& ambient, double duration,
                        Complaints& complaints) noexcept {
-  const double swing = ambient.stand().swing;
-  if (duration * swing > kLongestSwing && duration * swing > kPi / 2)
-    complaints.sayCoarseSwing(*ambient.def, swing, duration);
+  const double frequency = ambient.stand().frequency;
+  if (duration * frequency > kLongestPhase && duration * frequency > kPi / 2)
+    complaints.sayShortPeriod(*ambient.def, frequency, duration);
 }
 
 Vector6 kickByWavesAndWind(AmbientBody& ambient, const RigidState& now, double duration) noexcept {
@@ -85,34 +85,35 @@ Vector6 kickByWavesAndWind(AmbientBody& ambient, const RigidState& now, double d
 namespace {
 
 /// Weight and buoyancy of a body, in B.
-struct Fall {
+struct HydrostaticLoad {
   Vector6 lift;          ///< of the water
   Vector6 wrench;        ///< of both
   double potential = 0;  ///< of both [J]
 
   /// @param mass less that of the fluid above that the body displaces [kg]
-  Fall(const SurfacePlane& plane, const WetVolume& wet, double mass)
+  HydrostaticLoad(const SurfacePlane& plane, const WetVolume& wet, double mass)
       : lift(hydrostaticWrench(wet, plane).vector()), wrench(lift) {
     wrench.tail<3>() -= mass * plane.gravity * plane.normal;
     potential = hydrostaticEnergy(wet, plane) - mass * plane.gravity * plane.height;
   }
 };
 
-/// Place and Fall of a body where its step began, and its response to impulses there, in B.
-struct Departure {
+/// Place and HydrostaticLoad of a body where its step began, and its response to impulses there, in
+/// B.
+struct BeforeRows {
   SurfacePlace place;
-  Fall fall;
+  HydrostaticLoad hydrostatics;
   Matrix6 response;
 };
 
 /// One buoyancy has acted over the whole step, and the body has come to where it is another one:
 /// gives back the energy that weight and water did not have, docs/theory.md eq. (68a). x_before, x:
 /// twists; both have the inertia where the step began.
-BoundedTwist withinPotential(const Departure& before, const Fall& after, double duration,
-                             const Vector6& x_before, const Vector6& x) {
-  const double given = duration / 2 * before.fall.wrench.dot(x_before + x);
-  const double excess = given - (before.fall.potential - after.potential);
-  const Vector6 along = before.fall.lift + after.lift;
+BoundedTwist withinPotential(const BeforeRows& before, const HydrostaticLoad& after,
+                             double duration, const Vector6& x_before, const Vector6& x) {
+  const double given = duration / 2 * before.hydrostatics.wrench.dot(x_before + x);
+  const double excess = given - (before.hydrostatics.potential - after.potential);
+  const Vector6 along = before.hydrostatics.lift + after.lift;
   const double rate = along.dot(x);
   if (!(excess > 0) || rate == 0) return {x};
   const Vector6 response = before.response * along;
@@ -125,30 +126,32 @@ BoundedTwist withinPotential(const Departure& before, const Fall& after, double 
 }
 
 // Returns the mass of a body less that of the fluid above that it displaces [kg].
-double fallingMass(const SurfaceModel& model) {
+double weighingMass(const SurfaceModel& model) {
   return model.above.mass - model.above.displaced_mass;
 }
 
-Fall fallAt(const SurfaceModel& model, const SurfacePlane& plane_B, const WetVolume& wet) {
-  return {plane_B, wet, fallingMass(model)};
+HydrostaticLoad hydrostaticsAt(const SurfaceModel& model, const SurfacePlane& plane_B,
+                               const WetVolume& wet) {
+  return {plane_B, wet, weighingMass(model)};
 }
 
 // Returns weight and buoyancy of a body at its last stand.
-Fall fallOf(const AmbientBody& ambient) {
+HydrostaticLoad hydrostaticsOf(const AmbientBody& ambient) {
   const SurfaceModel& model = *ambient.surface();
   const SurfaceStand& stand = ambient.stand();
-  return fallAt(model, stand.plane, wetVolume(model, stand));
+  return hydrostaticsAt(model, stand.plane, wetVolume(model, stand));
 }
 
 // Returns the same with the energy at a plane in B that differs from that of the stand by the
 // rounding of Bullet's poses.
-Fall fallOf(const AmbientBody& ambient, const SurfacePlane& plane) {
+HydrostaticLoad hydrostaticsOf(const AmbientBody& ambient, const SurfacePlane& plane) {
   const SurfaceModel& model = *ambient.surface();
   const SurfaceStand& stand = ambient.stand();
-  Fall fall = fallOf(ambient);
-  fall.potential += energyOfRounding(model, stand, plane) -
-                    fallingMass(model) * plane.gravity * (plane.height - stand.plane.height);
-  return fall;
+  HydrostaticLoad hydrostatics = hydrostaticsOf(ambient);
+  hydrostatics.potential +=
+      energyOfRounding(model, stand, plane) -
+      weighingMass(model) * plane.gravity * (plane.height - stand.plane.height);
+  return hydrostatics;
 }
 
 // Returns K_eff^-1 of eq. (30) for a body at a stand, in B.
@@ -160,24 +163,24 @@ Matrix6 responseOf(const SurfaceStand& stand, const RowPassage& passage) {
 }
 
 // Returns where a body is before its passage.
-Departure departureOf(const RowPassage& passage) {
+BeforeRows beforeRows(const RowPassage& passage) {
   const AmbientBody& ambient = *passage.body;
   const SurfaceStand& stand = ambient.stand();  // since standNow()
-  Departure departure{stand, fallOf(ambient, ambient.floating->plane_before_rows),
-                      responseOf(stand, passage)};
-  if (passage.fall) departure.fall.wrench = *passage.fall;
-  departure.fall.wrench += ambient.floating->brake;
-  return departure;
+  BeforeRows before{stand, hydrostaticsOf(ambient, ambient.floating->plane_before_rows),
+                    responseOf(stand, passage)};
+  if (passage.hydrostatics) before.hydrostatics.wrench = *passage.hydrostatics;
+  before.hydrostatics.wrench += ambient.floating->brake;
+  return before;
 }
 
 // Lets a body pass from `before` to its present stand, over a time [s].
-void passFrom(const Departure& before, RowPassage& passage, double duration) {
+void passFrom(const BeforeRows& before, RowPassage& passage, double duration) {
   AmbientBody& ambient = *passage.body;
   const SurfaceStand& after = ambient.stand();
   SurfacePlace place = before.place;
   BoundedTwist& end = passage.twist;
-  end = withinPotential(before, fallOf(ambient), duration, ambient.floating->twist_before_rows,
-                        end.twist);
+  end = withinPotential(before, hydrostaticsOf(ambient), duration,
+                        ambient.floating->twist_before_rows, end.twist);
   const double removed = end.energy_removed;
   Vector6 x = end.twist;
   if (after.inside_F)
@@ -198,7 +201,7 @@ Vector6 StepModel::floatAt(const AmbientBody& ambient, const FrameOffset& pose,
   const SurfacePlane plane_B = seenFrom(movedPlane(ambient, time), pose);
   const WetVolume wet = wetVolumeAt(model, plane_B, waterOf(ambient));
   displace(model, wet, at_surface_->model);
-  return fallAt(model, plane_B, wet).wrench;
+  return hydrostaticsAt(model, plane_B, wet).wrench;
 }
 
 double errorOfBuoyancy(const SurfaceModel& model, const SurfacePlane& plane, double speed,
@@ -213,7 +216,7 @@ namespace {
 bool mayReachTooFar(const AmbientBody& ambient, double duration, const Vector6& end) {
   const SurfaceModel& model = *ambient.surface();
   const SurfaceStand& stand = ambient.stand();
-  if (duration * stand.swing > kLongestSwing) return true;
+  if (duration * stand.frequency > kLongestPhase) return true;
   const double speed = end.tail<3>().norm() + model.radius * end.head<3>().norm();
   return end.dot(stand.inertia.full() * end) <
          2 * errorOfBuoyancy(model, stand.plane, speed, duration);
@@ -238,7 +241,7 @@ double reachWithRows(AmbientBody& ambient, const RigidState& start, const Surrou
     const SurfacePlane plane_B =
         seenFrom(floating.plane_W, turned.toRotationMatrix(), start.position + t * velocity_W);
     const WetVolume wet = wetVolumeAt(model, plane_B, waterOf(ambient));
-    return fallAt(model, plane_B, wet).potential - t * velocity_W.dot(pushed_W);
+    return hydrostaticsAt(model, plane_B, wet).potential - t * velocity_W.dot(pushed_W);
   };
   const Vector6& x = floating.twist_before_rows;
   const double kinetic = x.dot(ambient.stand().inertia.full() * x) / 2;
@@ -257,17 +260,17 @@ void brakeWithRows(AmbientBody& ambient, const Vector6& x, double part, double d
 
 void passWithRows(RowPassage* passages, int count, double duration) noexcept {
   AMBIENT_ASSERT(count > 0 && count <= kFlightsTogether);
-  std::optional<Departure> departures[kFlightsTogether];
+  std::optional<BeforeRows> before[kFlightsTogether];
   AmbientBody* bodies[kFlightsTogether] = {};
   for (int i = 0; i < count; ++i) {
     bodies[i] = passages[i].body;
-    departures[i] = departureOf(passages[i]);
+    before[i] = beforeRows(passages[i]);
     moveStandTo(seenFrom(movedPlane(*bodies[i], duration), passages[i].pose), *bodies[i]->floating);
   }
   completeStandsOf(bodies, count);
   for (int i = 0; i < count; ++i) {
     bodies[i]->floating->plane_W = movedPlane(*bodies[i], duration);
-    passFrom(*departures[i], passages[i], duration);
+    passFrom(*before[i], passages[i], duration);
   }
 }
 

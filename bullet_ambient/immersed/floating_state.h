@@ -104,7 +104,7 @@ class StepModel {
 
 /// Reports once a step with rows of more than a quarter of the floating period; apart from that
 /// allocates nothing.
-void warnOfCoarseSwing(const AmbientBody& ambient, double duration,
+void warnOfShortPeriod(const AmbientBody& ambient, double duration,
                        Complaints& complaints) noexcept;
 
 /// Returns the change of velocity in B by the waves that the body makes and by the wind, over a
@@ -155,8 +155,8 @@ struct RowPassage {
   BoundedTwist twist;          ///< in B, relative to the water
   AxisFactors factors;         ///< of the body
   bool keeps_momentum = true;  ///< false: it has locked axes, or the fluid settles it, eq. (124)
-  const Vector6* fall = nullptr;  ///< weight and buoyancy that have acted, in B; null: those where
-                                  ///< the step began
+  const Vector6* hydrostatics = nullptr;  ///< weight and buoyancy that have acted, in B; null:
+                                          ///< those where the step began
 };
 /// Replaces the twists of up to kFlightsTogether bodies by those after the change of their added
 /// mass on the way; without momentum removes only the energy that this change would add. Removes

@@ -35,7 +35,7 @@ Vector6 endTwist(const LinkDynamics& dynamics, int link, const Medium& water, do
 
 // Up to kFlightsTogether links that have come to where a step ends, with the twists that they have
 // there alone.
-struct SurfaceArrivals {
+struct LinkPassages {
   int count = 0;
   AmbientLink* links[kFlightsTogether] = {};
   RowPassage passages[kFlightsTogether];
@@ -51,7 +51,7 @@ Vector3 torqueOnSpin(const AmbientLink& link, const Vector6& x) {
 
 // Lets the links pass the surface side by side, and writes the impulses that change their twists.
 // Returns the energy removed [J].
-double passTogether(SurfaceArrivals& some, double duration, std::vector<Wrench>& impulses) {
+double passTogether(LinkPassages& some, double duration, std::vector<Wrench>& impulses) {
   Vector6 before[kFlightsTogether];
   for (int i = 0; i < some.count; ++i) before[i] = some.passages[i].twist.twist;
   passWithRows(some.passages, some.count, duration);
@@ -103,7 +103,7 @@ void kickAtSurface(AmbientTree& tree, const TreeTask& task) noexcept {
   });
   step.meets_surface = addResponse(tree, step.start);
   forEachAtSurface(tree, [&](AmbientLink& link, int) {
-    warnOfCoarseSwing(link.ambient, task.duration, task.bodies.complaints);
+    warnOfShortPeriod(link.ambient, task.duration, task.bodies.complaints);
   });
 }
 
@@ -123,7 +123,7 @@ void floatInMiddle(AmbientTree& tree) noexcept {
   dynamics.moveTo(surface.middle);
   forEachAtSurface(tree, [&](AmbientLink& link, int i) {
     const SurfaceStand& stand = link.ambient.stand();
-    link.fall =
+    link.hydrostatics =
         link.frozen.floatAt(link.ambient, {dynamics.rotation(i), dynamics.position(i)}, half);
     link.frozen.stiffen(stand, modesOfWaterplane(stand), surface.time);
   });
@@ -136,7 +136,7 @@ double arriveAtSurface(AmbientTree& tree) noexcept {
   const LinkDynamics& dynamics = tree.flight.dynamics();
   std::fill(step.impulses.begin(), step.impulses.end(), Wrench{});
   double energy_removed = 0;
-  SurfaceArrivals some;
+  LinkPassages some;
   const auto arrive = [&] {
     energy_removed += passTogether(some, duration, step.impulses);
     some.count = 0;
@@ -147,7 +147,7 @@ double arriveAtSurface(AmbientTree& tree) noexcept {
     passage.body = &link.ambient;
     passage.pose = {dynamics.rotation(i), dynamics.position(i)};
     passage.twist = {endTwist(dynamics, i, link.ambient.medium, duration)};
-    passage.fall = step.surface.has_flown ? &link.fall : nullptr;
+    passage.hydrostatics = step.surface.has_flown ? &link.hydrostatics : nullptr;
     if (some.count == kFlightsTogether) arrive();
   });
   if (some.count > 0) arrive();
@@ -266,7 +266,7 @@ bool mayGainEnergy(AmbientTree& tree, double duration) noexcept {
     const double speed =
         (dynamics.rotation(i) * twist.linear - flow).norm() + model.radius * twist.angular.norm();
     most += errorOfBuoyancy(model, plane, speed, duration);
-    is_stiff = is_stiff || duration * ambient.stand().swing > kLongestSwing;
+    is_stiff = is_stiff || duration * ambient.stand().frequency > kLongestPhase;
   });
   return is_stiff || twiceKinetic(tree, tree.step.end) < 2 * most;
 }

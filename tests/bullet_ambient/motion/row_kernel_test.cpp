@@ -59,21 +59,21 @@ TEST_P(RowKernels, HaveTheBitsOfTheBaseline) {
       setBody(rows, i, body, duration);
       for (int k = 0; k < 6; ++k) rows.load_B[k][i] = 100 * arbitrary.between(-1, 1);
       setLane(rows.acceleration_W, i, arbitrary.vector());
-      for (FlightLane* row : rows.even_inverse_inertia) setLane(row, i, arbitrary.vector());
-      rows.even_inverse_mass[i] = arbitrary.between(0, 1);
+      for (FlightLane* row : rows.isotropic_inverse_inertia) setLane(row, i, arbitrary.vector());
+      rows.isotropic_inverse_mass[i] = arbitrary.between(0, 1);
       for (FlightLane* twist : {rows.velocity_W, rows.by_rows_W})
         setLane(twist, i, arbitrary.twist(10, 3));
       setLane(rows.way_W, i, arbitrary.vector());
     }
     RowLanes other_rows = rows;
-    kernel_->push(rows);
-    kFlightKernelBaseline.push(other_rows);
+    kernel_->predictRowVelocity(rows);
+    kFlightKernelBaseline.predictRowVelocity(other_rows);
     EXPECT_EQ(std::memcmp(&rows, &other_rows, sizeof rows), 0);
-    kernel_->keep(rows);
-    kFlightKernelBaseline.keep(other_rows);
+    kernel_->conserve(rows);
+    kFlightKernelBaseline.conserve(other_rows);
     EXPECT_EQ(std::memcmp(&rows, &other_rows, sizeof rows), 0);
-    kernel_->carry(rows);
-    kFlightKernelBaseline.carry(other_rows);
+    kernel_->transport(rows);
+    kFlightKernelBaseline.transport(other_rows);
     EXPECT_EQ(std::memcmp(&rows, &other_rows, sizeof rows), 0);
   }
 }
@@ -84,7 +84,7 @@ void expectSame(const RowVelocity& a, const RowVelocity& b) {
   EXPECT_EQ(a.change_W.vector(), b.change_W.vector());
   EXPECT_EQ(a.turning_W.vector(), b.turning_W.vector());
   EXPECT_EQ(a.isotropic_excess_W.vector(), b.isotropic_excess_W.vector());
-  EXPECT_EQ(a.extent, b.extent);
+  EXPECT_EQ(a.turn_number, b.turn_number);
   EXPECT_EQ(a.count.load_evaluations, b.count.load_evaluations);
 }
 
@@ -107,7 +107,7 @@ TEST(RowsTogether, GiveABodyTheBitsThatItHasAlone) {
     setModels(models, count, lanes);
     for (int i = 0; i < count; ++i)
       costs[i] = setStart(tasks[number(i)], bodies[number(i)].state, i, lanes);
-    kFlightKernels.fastest()->push(lanes);
+    kFlightKernels.fastest()->predictRowVelocity(lanes);
     for (int i = 0; i < count; ++i)
       expectSame(rowVelocityOf(lanes, i, costs[i]),
                  computeRowVelocity(tasks[number(i)], bodies[number(i)].state));
@@ -119,7 +119,7 @@ struct Velocities {
   Twist moving, turning, by_rows;
 };
 
-// Returns the lanes of one body after FlightKernel::keep().
+// Returns the lanes of one body after FlightKernel::conserve().
 RowLanes kept(const FreeBody& body, const Quaternion& orientation, const Velocities& velocities,
               double step) {
   RowLanes lanes;
@@ -130,7 +130,7 @@ RowLanes kept(const FreeBody& body, const Quaternion& orientation, const Velocit
   setLane(lanes.velocity_W, 0, velocities.moving);
   setLane(lanes.turning_W, 0, velocities.turning);
   setLane(lanes.by_rows_W, 0, velocities.by_rows);
-  kFlightKernels.fastest()->keep(lanes);
+  kFlightKernels.fastest()->conserve(lanes);
   return lanes;
 }
 
@@ -145,7 +145,7 @@ TEST(KeptMotion, IsCarriedWithTheMomentum) {
     const auto carried = [&lanes](const Quaternion& orientation, const Vector3& way) {
       setLane(lanes.orientation, 0, orientation);
       setLane(lanes.way_W, 0, way);
-      kFlightKernels.fastest()->carry(lanes);
+      kFlightKernels.fastest()->transport(lanes);
       return twistOf(lanes.twist_B, 0);
     };
     const Twist still = turned(start, carried(start, Vector3::Zero()));
@@ -191,7 +191,7 @@ TEST(KeptMotion, HasTheExtentOfItsEquation) {
     Arbitrary arbitrary(300 + seed);
     const Quaternion q(arbitrary.rotation());
     const Twist x = arbitrary.twist(3, seed % 2 == 0 ? 0.1 : 30);
-    const double extent = kept(body, q, {turned(q, x), {}, {}}, kStep).moved_extent[0];
+    const double turn_number = kept(body, q, {turned(q, x), {}, {}}, kStep).moved_turn_number[0];
     const Matrix6& K = body.model().inertia;
     const Momentum m = Momentum::fromVector(K * x.vector());
     const Vector6 wrench =
@@ -200,7 +200,7 @@ TEST(KeptMotion, HasTheExtentOfItsEquation) {
     t.tail<3>() += kStep * x.angular.cross(x.linear);
     const double by_spin = kStep * x.angular.norm() / 0.5;
     const double by_change = std::sqrt(t.dot(K * t) / x.vector().dot(K * x.vector())) / 0.45;
-    EXPECT_NEAR(extent, std::max(by_spin, by_change), 1e-11 * extent) << seed;
+    EXPECT_NEAR(turn_number, std::max(by_spin, by_change), 1e-11 * turn_number) << seed;
     is_by_spin |= by_spin > by_change;
     is_by_change |= by_change > by_spin;
   }
@@ -211,11 +211,11 @@ class PoseKernels : public test::FlightKernelTest {
  protected:
   // Mean twist over a second from one orientation to another.
   Vector3 rotationVector(const Quaternion& from, const Quaternion& to) const {
-    ArrivalLanes lanes{};
+    EndLanes lanes{};
     lanes.duration = 1;
     setLane(lanes.start_orientation, 3, from);
     setLane(lanes.orientation, 3, to);
-    kernel_->arrive(lanes);
+    kernel_->findEnds(lanes);
     return vectorOf(lanes.mean_W, 3);
   }
 };
@@ -223,7 +223,7 @@ class PoseKernels : public test::FlightKernelTest {
 TEST_P(PoseKernels, ReadEveryOrientationOfAMatrix) {
   Arbitrary arbitrary(1);
   for (int round = 0; round < 200; ++round) {
-    DepartureLanes lanes{};
+    StartLanes lanes{};
     Matrix3 rotations[kFlightLanes];
     Twist twists[kFlightLanes];
     for (int i = 0; i < kFlightLanes; ++i) {
@@ -238,7 +238,7 @@ TEST_P(PoseKernels, ReadEveryOrientationOfAMatrix) {
         setLane(lanes.rotation + 3 * row, i, Vector3(rotations[i].row(row).transpose()));
       setLane(lanes.twist_W, i, twists[i]);
     }
-    kernel_->depart(lanes);
+    kernel_->readStarts(lanes);
     for (int i = 0; i < kFlightLanes; ++i) {
       const Quaternion q = orientationOf(lanes.orientation, i);
       EXPECT_NEAR(q.norm(), 1, 4e-16);
@@ -274,7 +274,7 @@ TEST_P(PoseKernels, TakeTheShortWayForEitherSignOfTheQuaternion) {
 
 TEST_P(PoseKernels, GiveTheVelocitiesThatReachTheEnd) {
   Arbitrary arbitrary(3);
-  ArrivalLanes lanes{};
+  EndLanes lanes{};
   lanes.duration = 0.02;
   const Quaternion start(arbitrary.rotation()), end(arbitrary.rotation());
   const Vector3 from = arbitrary.vector(), to = arbitrary.vector();
@@ -284,7 +284,7 @@ TEST_P(PoseKernels, GiveTheVelocitiesThatReachTheEnd) {
   setLane(lanes.start_position, 5, from);
   setLane(lanes.position, 5, to);
   setLane(lanes.twist_B, 5, twist);
-  kernel_->arrive(lanes);
+  kernel_->findEnds(lanes);
   const Twist mean = twistOf(lanes.mean_W, 5), twist_W = twistOf(lanes.twist_W, 5);
   const Quaternion reached = rotationFromVector(0.02 * mean.angular) * start;
   EXPECT_LT(std::abs(std::abs(reached.dot(end)) - 1), 1e-15);
@@ -295,7 +295,7 @@ TEST_P(PoseKernels, GiveTheVelocitiesThatReachTheEnd) {
 
 TEST_P(PoseKernels, LeaveOutVelocitiesBelowTheLeast) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-  ArrivalLanes lanes{};
+  EndLanes lanes{};
   lanes.duration = 0.5;
   lanes.least = 1e-6;
   setLane(lanes.start_orientation, 2, Quaternion::Identity());
@@ -303,13 +303,13 @@ TEST_P(PoseKernels, LeaveOutVelocitiesBelowTheLeast) {
   setLane(lanes.position, 2, Vector3(-0.49e-6, 0.51e-6, 0));
   const Twist twist{Vector3(-0.99e-6, -1.01e-6, kNaN), Vector3(1.01e-6, 0.99e-6, 1)};
   setLane(lanes.twist_B, 2, twist);
-  kernel_->arrive(lanes);
+  kernel_->findEnds(lanes);
   const Twist mean = twistOf(lanes.mean_W, 2);
   EXPECT_EQ(mean.linear.x(), 0);
   EXPECT_EQ(mean.linear.y(), 0.51e-6 / lanes.duration);
   EXPECT_TRUE(std::isnan(lanes.twist_W[2][2]));
   lanes.twist_B[2][2] = 0;
-  kernel_->arrive(lanes);
+  kernel_->findEnds(lanes);
   const Twist end = twistOf(lanes.twist_W, 2);
   EXPECT_EQ(end.angular, Vector3(0, -1.01e-6, 0));
   EXPECT_EQ(end.linear, Vector3(1.01e-6, 0, 1));
@@ -318,8 +318,8 @@ TEST_P(PoseKernels, LeaveOutVelocitiesBelowTheLeast) {
 TEST_P(PoseKernels, HaveTheBitsOfTheBaseline) {
   Arbitrary arbitrary(4);
   for (int round = 0; round < 50; ++round) {
-    DepartureLanes departure{};
-    ArrivalLanes arrival{};
+    StartLanes departure{};
+    EndLanes arrival{};
     arrival.duration = arbitrary.between(1e-3, 1);
     for (int i = 0; i < kFlightLanes; ++i) {
       const Matrix3 rotation = arbitrary.rotation();
@@ -334,12 +334,12 @@ TEST_P(PoseKernels, HaveTheBitsOfTheBaseline) {
       setLane(arrival.position, i, arbitrary.vector());
       setLane(arrival.twist_B, i, arbitrary.twist());
     }
-    DepartureLanes other_departure = departure;
-    ArrivalLanes other_arrival = arrival;
-    kernel_->depart(departure);
-    kernel_->arrive(arrival);
-    kFlightKernelBaseline.depart(other_departure);
-    kFlightKernelBaseline.arrive(other_arrival);
+    StartLanes other_departure = departure;
+    EndLanes other_arrival = arrival;
+    kernel_->readStarts(departure);
+    kernel_->findEnds(arrival);
+    kFlightKernelBaseline.readStarts(other_departure);
+    kFlightKernelBaseline.findEnds(other_arrival);
     EXPECT_EQ(std::memcmp(departure.orientation, other_departure.orientation,
                           sizeof departure.orientation),
               0);
