@@ -96,7 +96,7 @@ class WorldAttachment {
   WorldAttachment(AmbientBodies& bodies, FluidBodySource& source, const Medium& medium,
                   AttachSettings settings);
 
-  /// Adds the objects that this attachment has not met before. Cost: that of the fluid bodies that
+  /// Adds the objects that this attachment has not seen before. Cost: that of the fluid bodies that
   /// the source has to make.
   AttachReport attachNew(btCollisionWorld& world);
 
@@ -107,14 +107,14 @@ class WorldAttachment {
 
  private:
   // An object of the world.
-  struct Met {
+  struct Seen {
     const btCollisionObject* object = nullptr;
     int instance = -1;
   };
 
   bool hasMetAll(const btCollisionWorld& world) const noexcept;
-  // Returns the objects that were not met before; null in place of all others.
-  std::vector<btCollisionObject*> meetAll(const btCollisionWorld& world);
+  // Returns the objects that were not seen before; null in place of all others.
+  std::vector<btCollisionObject*> seeAll(const btCollisionWorld& world);
   const AmbientBody* attach(btCollisionObject& object, AttachReport& report);
   const AmbientBody* attachBody(btRigidBody& body, AttachReport& report);
   const AmbientBody* attachLink(btMultiBody& multi_body, int link, AttachReport& report);
@@ -128,7 +128,7 @@ class WorldAttachment {
   FluidBodySource& source_;
   Medium medium_;
   AttachSettings settings_;
-  std::vector<Met> met_;  // in the order of the world
+  std::vector<Seen> seen_;  // in the order of the world
   // State of attachNew() while it runs.
   btMultiBodyDynamicsWorld* multibody_world_ = nullptr;
   int index_ = 0, number_ = 0, count_ = 0;  // of the object, in the world and among the new ones

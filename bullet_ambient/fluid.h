@@ -134,12 +134,12 @@ class Immersed {
   Immersed(AmbientBodies& bodies, const AmbientBody& ambient);
 
   /// Members of the fluid while it exists, and the one of this handle; null: it was removed.
-  struct Held {
+  struct Access {
     std::shared_ptr<AmbientBodies> bodies;
     AmbientBody* member;
   };
-  Held hold() const noexcept;
-  Held require(const char* function) const;
+  Access lock() const noexcept;
+  Access require(const char* function) const;
 
   std::weak_ptr<AmbientBodies> bodies_;
   std::weak_ptr<AmbientBody*> handle_;

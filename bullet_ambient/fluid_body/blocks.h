@@ -89,7 +89,7 @@ struct FaceBlocks {
   const FaceColumn* sharpness = nullptr;  ///< one per block; null: the published law
   /// One per block: arms in pitching, FormShape::pitchingArm(), in units of length; null: no wing.
   const FaceColumn* arms = nullptr;
-  /// 6 x 21, lee side of the form law, see addEvenPart(); null: the blocks are too few.
+  /// 6 x 21, lee side of the form law, see addQuadraticPart(); null: the blocks are too few.
   const double* lee = nullptr;
 
   /// Returns the blocks from number `block` on, without places and bounds.

@@ -30,10 +30,10 @@ enum class Outcome : std::uint8_t {
                ///< tree also: it sleeps
   kStock,      ///< moves as in stock Bullet: not in a fluid, static, or of no physical mass
   kRows,       ///< moved by rows; a tree: by rows that turn with it (contacts, joints to bodies)
-  kAdrift,     ///< moved by no row and by no flight: locked axes, too fast a spin among rows, or a
+  kNoFlight,   ///< moved by no row and by no flight: locked axes, too fast a spin among rows, or a
                ///< failed flight
   kFlown,      ///< has flown, moved by no row; a tree: by none but those of its own joints
-  kHeld,       ///< moved by nothing: the substep has no finite duration
+  kDisabled,   ///< moved by nothing: the substep has no finite duration
 };
 
 /// Data that the action needs to complete a motion by rows; docs/theory.md eq. (31).
@@ -43,8 +43,9 @@ struct RowMotion {
                                                     ///< position correction of the rows [m]
   Twist velocity_W;                                 ///< xi: Bullet moves it by xi and the flow
   Vector3 flow_W = Vector3::Zero();
-  bool is_held = false;  ///< true: joints, or contacts with bodies that cannot move, hold the body
-  double turn = 0;       ///< largest turn of the body during the step [rad]
+  bool is_anchored =
+      false;        ///< true: joints, or contacts with bodies that cannot move, hold the body
+  double turn = 0;  ///< largest turn of the body during the step [rad]
   /// Momentum relative to the flow, about the centre of mass at the start, which the turn keeps;
   /// none: a body with locked axes, or one that the fluid settles, eq. (124).
   std::optional<Momentum> momentum_W;
@@ -68,7 +69,7 @@ struct SubstepOutcome {
   bool is_too_long = false;  ///< true: with this flight the errors exceed StepErrors::kLargest
   int world_index = -1;  ///< index of the body in its world's array when the solver worked on it
   int activation_state = 0;  ///< kHeld: activation state to restore; meanwhile the body is disabled
-  /// RowMotion: since rows have moved the body, for kRows and kAdrift. It takes the place of the
+  /// RowMotion: since rows have moved the body, for kRows and kNoFlight. It takes the place of the
   /// memory of the last flight, which is of no use then.
   std::variant<LastFlight, RowMotion> motion;
 
@@ -187,7 +188,7 @@ struct AmbientBody {
   std::unique_ptr<VesselState> vessel;   ///< null: the body has no holds
   btMultiBody* multi_body = nullptr;     ///< that of a link; null: a rigid body
   std::shared_ptr<AmbientBody*> handle;  ///< where it is kept, for its Immersed: ends with it
-  int gaping =
+  int open_joint_steps =
       0;  ///< number of steps in a row in which a joint of the body was open by much of its size
 
   bool isInFluid() const { return medium.density > 0; }

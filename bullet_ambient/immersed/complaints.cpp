@@ -47,11 +47,11 @@ const char* sentenceOf(Complaint complaint) {
     case Complaint::kAngle:
     case Complaint::kNoResistance:
     case Complaint::kLight:
-    case Complaint::kSwing:
+    case Complaint::kShortPeriod:
     case Complaint::kTooLong:
     case Complaint::kFastJoint:
     case Complaint::kChange:
-    case Complaint::kGaping:
+    case Complaint::kOpenJoint:
     case Complaint::kCount:
       break;
   }
@@ -71,7 +71,7 @@ std::string tooLong(const AttachDef& def) {
   return sentence + way_out + "; further bodies of which this is true are only counted";
 }
 
-std::string coarseSwing(const AttachDef& def, double period, double step) {
+std::string shortPeriod(const AttachDef& def, double period, double step) {
   return "bullet_ambient: a " + nameOf(def) + " floats with a period of " + std::to_string(period) +
          " s and is moved by joints or " + "contacts in steps of " + std::to_string(step) +
          " s: in less than four steps a period it swings too slowly; take shorter steps";
@@ -86,7 +86,7 @@ std::string fastJoint(const AttachDef& def, double turns, double step) {
          "bodies of which this is true are only counted";
 }
 
-std::string gapingJoint(const AttachDef& def, const AttachDef* other) {
+std::string openJoint(const AttachDef& def, const AttachDef* other) {
   const std::string partner = !other ? "one without fluid"
                               : other->name.empty()
                                   ? "one with fluid body '" + other->fluid_body->name + "'"
@@ -136,12 +136,12 @@ void Complaints::sayMade(Complaint complaint, const MakeSentence& make) noexcept
   }
 }
 
-void Complaints::sayCoarseSwing(const AttachDef& def, double frequency, double step) noexcept {
-  sayMade(Complaint::kSwing, [&] { return coarseSwing(def, 2 * kPi / frequency, step); });
+void Complaints::sayShortPeriod(const AttachDef& def, double frequency, double step) noexcept {
+  sayMade(Complaint::kShortPeriod, [&] { return shortPeriod(def, 2 * kPi / frequency, step); });
 }
 
-void Complaints::sayGaping(const AttachDef& def, const AttachDef* other) noexcept {
-  sayMade(Complaint::kGaping, [&] { return gapingJoint(def, other); });
+void Complaints::sayOpenJoint(const AttachDef& def, const AttachDef* other) noexcept {
+  sayMade(Complaint::kOpenJoint, [&] { return openJoint(def, other); });
 }
 
 void Complaints::sayFastJoint(const AttachDef& def, double turns, double step) noexcept {

@@ -31,12 +31,12 @@ enum class Complaint {
   kAngle,
   kNoResistance,
   kLight,
-  kSwing,
+  kShortPeriod,
   kTooLong,
   kFastJoint,
   kChange,
   kDuration,
-  kGaping,
+  kOpenJoint,
   kCount
 };
 
@@ -54,10 +54,10 @@ class Complaints {
   void sayFastJoint(const AttachDef& def, double turns, double step) noexcept;
   /// Names a floating body moved by constraint rows whose step [s] is too long for its natural
   /// frequency [rad/s].
-  void sayCoarseSwing(const AttachDef& def, double frequency, double step) noexcept;
+  void sayShortPeriod(const AttachDef& def, double frequency, double step) noexcept;
   /// Names a body whose joint comes apart, and the other body of the joint; null: that one has no
   /// fluid.
-  void sayGaping(const AttachDef& def, const AttachDef* other) noexcept;
+  void sayOpenJoint(const AttachDef& def, const AttachDef* other) noexcept;
   /// Names a vessel that is too heavy to float, and its hold of a number that has filled. Said as
   /// often as it is called.
   void saySunk(const AttachDef& def, std::size_t hold) noexcept;

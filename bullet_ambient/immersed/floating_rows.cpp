@@ -44,7 +44,7 @@ void StepModel::freeze(const AmbientBody& ambient) noexcept {
 
 void StepModel::stiffen(const SurfaceStand& stand, const FloatingModes& modes,
                         double duration) noexcept {
-  if (!(duration * stand.swing > kLongestSwing)) return;
+  if (!(duration * stand.frequency > kLongestPhase)) return;
   const Matrix6 stiff = stiffInertia(stand, modes, duration);
   const Cholesky<6> factors(stiff);
   if (!factors.isPositive()) return;
@@ -52,11 +52,11 @@ void StepModel::stiffen(const SurfaceStand& stand, const FloatingModes& modes,
   at_surface_->model.inverse_inertia = factors.inverse();
 }
 
-void warnOfCoarseSwing(const AmbientBody& ambient, double duration,
+void warnOfShortPeriod(const AmbientBody& ambient, double duration,
                        Complaints& complaints) noexcept {
-  const double swing = ambient.stand().swing;
-  if (duration * swing > kLongestSwing && duration * swing > kPi / 2)
-    complaints.sayCoarseSwing(*ambient.def, swing, duration);
+  const double frequency = ambient.stand().frequency;
+  if (duration * frequency > kLongestPhase && duration * frequency > kPi / 2)
+    complaints.sayShortPeriod(*ambient.def, frequency, duration);
 }
 
 Vector6 kickByWavesAndWind(AmbientBody& ambient, const RigidState& now, double duration) noexcept {
@@ -82,34 +82,34 @@ Vector6 kickByWavesAndWind(AmbientBody& ambient, const RigidState& now, double d
 namespace {
 
 /// Weight and buoyancy of a body, in B.
-struct Fall {
+struct HydrostaticLoad {
   Vector6 lift;          ///< of the water
   Vector6 wrench;        ///< of both
   double potential = 0;  ///< of both [J]
 
   /// @param mass less that of the fluid above that the body displaces [kg]
-  Fall(const SurfacePlane& plane, const WetVolume& wet, double mass)
+  HydrostaticLoad(const SurfacePlane& plane, const WetVolume& wet, double mass)
       : lift(hydrostaticWrench(wet, plane).vector()), wrench(lift) {
     wrench.tail<3>() -= mass * plane.gravity * plane.normal;
     potential = hydrostaticEnergy(wet, plane) - mass * plane.gravity * plane.height;
   }
 };
 
-/// Place and Fall of a body where its step began, and the inverse of its inertia there.
-struct Departure {
+/// Place and HydrostaticLoad of a body where its step began, and the inverse of its inertia there.
+struct BeforeRows {
   SurfacePlace place;
-  Fall fall;
+  HydrostaticLoad hydrostatics;
   SymmetricMatrix inverse;
 };
 
 /// One buoyancy has acted over the whole step, and the body has come to where it is another one:
 /// gives back the energy that weight and water did not have, docs/theory.md eq. (68a). x_before, x:
 /// twists; both have the inertia where the step began.
-BoundedTwist withinPotential(const Departure& before, const Fall& after, double duration,
-                             const Vector6& x_before, const Vector6& x) {
-  const double given = duration / 2 * before.fall.wrench.dot(x_before + x);
-  const double excess = given - (before.fall.potential - after.potential);
-  const Vector6 along = before.fall.lift + after.lift;
+BoundedTwist withinPotential(const BeforeRows& before, const HydrostaticLoad& after,
+                             double duration, const Vector6& x_before, const Vector6& x) {
+  const double given = duration / 2 * before.hydrostatics.wrench.dot(x_before + x);
+  const double excess = given - (before.hydrostatics.potential - after.potential);
+  const Vector6 along = before.hydrostatics.lift + after.lift;
   const double rate = along.dot(x);
   if (!(excess > 0) || rate == 0) return {x};
   const Vector6 response = before.inverse.full() * along;
@@ -121,35 +121,37 @@ BoundedTwist withinPotential(const Departure& before, const Fall& after, double 
 }
 
 // Returns the mass of a body less that of the fluid above that it displaces [kg].
-double fallingMass(const SurfaceModel& model) {
+double weighingMass(const SurfaceModel& model) {
   return model.above.mass - model.above.displaced_mass;
 }
 
-Fall fallAt(const SurfaceModel& model, const SurfacePlane& plane_B, const WetVolume& wet) {
-  return {plane_B, wet, fallingMass(model)};
+HydrostaticLoad hydrostaticsAt(const SurfaceModel& model, const SurfacePlane& plane_B,
+                               const WetVolume& wet) {
+  return {plane_B, wet, weighingMass(model)};
 }
 
 // Returns weight and buoyancy of a body at its last stand.
-Fall fallOf(const AmbientBody& ambient) {
+HydrostaticLoad hydrostaticsOf(const AmbientBody& ambient) {
   const SurfaceModel& model = *ambient.surface();
   const SurfaceStand& stand = ambient.stand();
-  return fallAt(model, stand.plane, wetVolume(model, stand));
+  return hydrostaticsAt(model, stand.plane, wetVolume(model, stand));
 }
 
 // Returns the same with the energy at a plane in B that differs from that of the stand by the
 // rounding of Bullet's poses.
-Fall fallOf(const AmbientBody& ambient, const SurfacePlane& plane) {
+HydrostaticLoad hydrostaticsOf(const AmbientBody& ambient, const SurfacePlane& plane) {
   const SurfaceModel& model = *ambient.surface();
   const SurfaceStand& stand = ambient.stand();
-  Fall fall = fallOf(ambient);
-  fall.potential += energyOfRounding(model, stand, plane) -
-                    fallingMass(model) * plane.gravity * (plane.height - stand.plane.height);
-  return fall;
+  HydrostaticLoad hydrostatics = hydrostaticsOf(ambient);
+  hydrostatics.potential +=
+      energyOfRounding(model, stand, plane) -
+      weighingMass(model) * plane.gravity * (plane.height - stand.plane.height);
+  return hydrostatics;
 }
 
 // Returns the twist after the passage from `before` to the present stand of the body, at a pose B
 // to W, over a time [s].
-BoundedTwist passedFrom(const Departure& before, AmbientBody& ambient, Axes axes,
+BoundedTwist passedFrom(const BeforeRows& before, AmbientBody& ambient, Axes axes,
                         const FrameOffset& pose, double duration, const Vector6& x) {
   const SurfaceModel& model = *ambient.surface();
   const SurfaceStand& after = ambient.stand();
@@ -163,8 +165,8 @@ BoundedTwist passedFrom(const Departure& before, AmbientBody& ambient, Axes axes
     withWater(x);
     return scaledWithin(x, x.dot(after.inertia.full() * x), x.dot(before.place.inertia.full() * x));
   }
-  const BoundedTwist moved =
-      withinPotential(before, fallOf(ambient), duration, ambient.floating->twist_before_rows, x);
+  const BoundedTwist moved = withinPotential(before, hydrostaticsOf(ambient), duration,
+                                             ambient.floating->twist_before_rows, x);
   BoundedTwist end = passSurface(model, place, after, duration, withWater(moved.twist));
   end.energy_removed += moved.energy_removed;
   return end;
@@ -178,26 +180,26 @@ Vector6 StepModel::floatAt(const AmbientBody& ambient, const FrameOffset& pose,
   const SurfacePlane plane_B = seenFrom(movedPlane(ambient, time), pose);
   const WetVolume wet = wetVolumeAt(model, plane_B, waterOf(ambient));
   displace(model, wet, at_surface_->model);
-  return fallAt(model, plane_B, wet).wrench;
+  return hydrostaticsAt(model, plane_B, wet).wrench;
 }
 
 void passWithRows(AmbientBody* const* bodies, const FrameOffset* poses, int count, Axes axes,
                   double duration, BoundedTwist* twists, const Vector6* falls) noexcept {
   AMBIENT_ASSERT(count > 0 && count <= kFlightsTogether);
-  std::optional<Departure> departures[kFlightsTogether];
+  std::optional<BeforeRows> before[kFlightsTogether];
   for (int i = 0; i < count; ++i) {
     AmbientBody& ambient = *bodies[i];
-    departures[i] =
-        Departure{ambient.stand(),  // since standNow()
-                  fallOf(ambient, ambient.floating->plane_before_rows), ambient.stand().inverse};
-    if (falls) departures[i]->fall.wrench = falls[i];
+    before[i] = BeforeRows{ambient.stand(),  // since standNow()
+                           hydrostaticsOf(ambient, ambient.floating->plane_before_rows),
+                           ambient.stand().inverse};
+    if (falls) before[i]->hydrostatics.wrench = falls[i];
     moveStandTo(seenFrom(movedPlane(ambient, duration), poses[i]), *ambient.floating);
   }
   completeStandsOf(bodies, count);
   for (int i = 0; i < count; ++i) {
     AmbientBody& ambient = *bodies[i];
     ambient.floating->plane_W = movedPlane(ambient, duration);
-    twists[i] = passedFrom(*departures[i], ambient, axes, poses[i], duration, twists[i].twist);
+    twists[i] = passedFrom(*before[i], ambient, axes, poses[i], duration, twists[i].twist);
   }
 }
 

@@ -104,7 +104,7 @@ class StepModel {
 
 /// Reports once a step with rows of more than a quarter of the floating period; apart from that
 /// allocates nothing.
-void warnOfCoarseSwing(const AmbientBody& ambient, double duration,
+void warnOfShortPeriod(const AmbientBody& ambient, double duration,
                        Complaints& complaints) noexcept;
 
 /// Returns the change of velocity in B by the waves that the body makes and by the wind, over a

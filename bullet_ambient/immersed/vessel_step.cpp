@@ -153,7 +153,7 @@ void mixWater(AmbientBody& ambient, const Matrix3& to_world, const Vector6& x, d
   }
   const SloshingAt at = waterAt(ambient, to_world, {0, 0, 0}).sloshing();
   mixSloshing(vessel.holds.data(), vessel.sloshing.later.data(), at, x, states);
-  meetModes(at, energy, states);
+  projectOnModes(at, energy, states);
   vessel.sloshing_energy = energyOfSloshing(at, states).sum();
 }
 
@@ -252,7 +252,7 @@ Vector6 arriveWithWater(AmbientBody& ambient, const Matrix3& to_world, const Vec
   const WaterAt at = waterAt(ambient, to_world, position_W);
   Vector6 end = x;
   if (axes == Axes::kLocked)
-    meetModes(at.sloshing(), vessel.before_rows.energy, states);
+    projectOnModes(at.sloshing(), vessel.before_rows.energy, states);
   else
     end = shiftWater(vessel.before_rows, at, x, inertia, states);
   std::swap(vessel.sloshing.now, vessel.sloshing.moved);

@@ -100,7 +100,7 @@ class Pair {
     const Momentum m{to_body * (error.angular - arm.cross(error.linear)), to_body * error.linear};
     const double change = std::sqrt(m.vector().dot(model.inverse_inertia * m.vector()));
     const double scale =
-        std::sqrt(inertiaNormSquared(model, end.twist.vector())) + fallScale(task_);
+        std::sqrt(inertiaNormSquared(model, end.twist.vector())) + velocityScale(task_);
     const double turn = 2 * error.orientation.norm() / next_.orientation.norm();
     const double shift = error.position.norm();
     const double length = model.reference_length;

@@ -17,28 +17,28 @@ namespace {
 AmbientLink& baseOf(const AmbientTree& tree) { return *tree.links.front(); }
 
 // Reads where the flights of trees without joints begin, with the roundings of rigid bodies.
-void readDepartures(AmbientTree* const* trees, int count, Departures& departures) {
+void readStartStates(AmbientTree* const* trees, int count, StartStates& starts) {
   btMatrix3x3 rotations[kFlightsTogether];
   const btMatrix3x3* all[kFlightsTogether] = {};
   for (int i = 0; i < count; ++i) {
     const LinkDynamics& dynamics = trees[i]->flight.dynamics();
-    departures.twists_W[i] = baseOf(*trees[i]).now.twist_W;
+    starts.twists_W[i] = baseOf(*trees[i]).now.twist_W;
     rotations[i] = toBulletMatrix(dynamics.rotation(0));
     all[i] = &rotations[i];
   }
   Quaternion orientations[kFlightsTogether];
   Twist twists_B[kFlightsTogether];
-  computeAttitudes(all, departures.twists_W, count, orientations, twists_B);
+  computeAttitudes(all, starts.twists_W, count, orientations, twists_B);
   for (int i = 0; i < count; ++i) {
     const AmbientLink& base = baseOf(*trees[i]);
     const MotionView& now = base.now;
-    departures.states[i] = {orientations[i], now.centre(), twists_B[i]};
+    starts.states[i] = {orientations[i], now.centre(), twists_B[i]};
     // That of the flow along it is added below.
     Wrench applied = trees[i]->flight.dynamics().appliedWrench(0);
     applied -= pushByFlow(base.ambient, now.state.orientation);
-    departures.surroundings[i] = surroundingsOf(base.ambient, now.gravity,
-                                                {rounded(applied.torque), rounded(applied.force)});
-    addFlowAlong(base.ambient, now.state.orientation, departures.surroundings[i]);
+    starts.surroundings[i] = surroundingsOf(base.ambient, now.gravity,
+                                            {rounded(applied.torque), rounded(applied.force)});
+    addFlowAlong(base.ambient, now.state.orientation, starts.surroundings[i]);
   }
 }
 
@@ -84,9 +84,9 @@ void flyAsBodies(AmbientTree* const* trees, int count, const TreeTask& task) noe
     before[i] = base.ambient.outcome.flight();
     if (base.ambient.surface()) base.start = *base.ambient.floating;
   }
-  Departures departures;
-  readDepartures(trees, count, departures);
-  beginFlights(bodies, departures, count, task.duration, changes_W);
+  StartStates starts;
+  readStartStates(trees, count, starts);
+  beginFlights(bodies, starts, count, task.duration, changes_W);
   for (int i = 0; i < count; ++i) {
     if (takeFlight(*trees[i], task)) continue;
     bodies[i]->outcome.motion = before[i];  // in the place where the tree knows its memory

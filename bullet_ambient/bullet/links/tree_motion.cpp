@@ -29,7 +29,8 @@ double fastestSpin(LinkDynamics& dynamics, const CoordinatesIn& u) {
 
 // Returns m of docs/theory.md eq. (28a) for the velocity `x` relative to the flow and its turning
 // part `t` in a step `h` [s].
-double extentOf(LinkDynamics& dynamics, const CoordinatesIn& x, const CoordinatesIn& t, double h) {
+double turnNumberOf(LinkDynamics& dynamics, const CoordinatesIn& x, const CoordinatesIn& t,
+                    double h) {
   const double by_spin = h * fastestSpin(dynamics, x) / kTreeSpin;
   const double size = dynamics.normSquared(x);
   if (!(size > 0)) return by_spin;
@@ -37,7 +38,9 @@ double extentOf(LinkDynamics& dynamics, const CoordinatesIn& x, const Coordinate
 }
 
 // Returns X / t of eq. (28).
-double shareOfTurn(double extent) { return std::min(1.0, std::max(0.0, 2 - 2 * extent)) / 2; }
+double shareOfTurn(double turn_number) {
+  return std::min(1.0, std::max(0.0, 2 - 2 * turn_number)) / 2;
+}
 
 // Returns 2 a.H b; `free` is scratch memory.
 double twiceProduct(LinkDynamics& dynamics, const Coordinates& a, const Coordinates& b,
@@ -80,8 +83,8 @@ bool prepareRows(AmbientTree& tree, double h) {
   step.end = flight.rowVelocity();
   step.moved = step.end;
   subtractFlow(tree.tree, step.moved);
-  step.extent = extentOf(flight.dynamics(), step.moved, flight.turning(), h);
-  step.share = shareOfTurn(step.extent) * flight.turning();
+  step.turn_number = turnNumberOf(flight.dynamics(), step.moved, flight.turning(), h);
+  step.share = shareOfTurn(step.turn_number) * flight.turning();
   step.moved = step.end + step.share;
   return true;
 }
@@ -96,7 +99,7 @@ bool prepareWoken(AmbientTree& tree) {
   step.outcome = Outcome::kRows;
   step.moved = step.end = step.start;
   step.share.setZero();
-  step.extent = 0;
+  step.turn_number = 0;
   return true;
 }
 
@@ -113,7 +116,7 @@ void finishFlown(AmbientTree& tree) {
 // bound of eq. (31a), twice the energy [J].
 void finishRows(AmbientTree& tree, const TreeTask& task) {
   TreeStep& step = tree.step;
-  if (step.change.isZero(0) && step.extent <= kSlowTurn && step.was_awake) {
+  if (step.change.isZero(0) && step.turn_number <= kSlowTurn && step.was_awake) {
     if (flyTree(tree, task)) {
       writeVelocity(*tree.multi_body, step.moved);
     } else {
@@ -140,7 +143,7 @@ double keepWithin(double energy, LinkDynamics& dynamics, TreeStep& step) {
   const double removed = (has - energy) / 2;
   const double had = dynamics.normSquared(from), excess = had - energy;
   if (excess > 0) {
-    const bool is_slow = step.extent <= kSlowTurn;
+    const bool is_slow = step.turn_number <= kSlowTurn;
     to = std::sqrt(energy / (is_slow ? has : had)) * (is_slow ? to : from);
     return removed;
   }
@@ -263,7 +266,7 @@ bool prepareTree(AmbientTree& tree, const TreeTask& task) noexcept {
   return true;
 }
 
-void flyLoneTrees(AmbientTree* const* trees, int count, const TreeTask& task) noexcept {
+void flySingleLinks(AmbientTree* const* trees, int count, const TreeTask& task) noexcept {
   flyAsBodies(trees, count, task);
   for (int i = 0; i < count; ++i) {
     if (isSolved(*trees[i])) {

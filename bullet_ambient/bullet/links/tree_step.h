@@ -180,13 +180,13 @@ void flyAsBodies(AmbientTree* const* trees, int count, const TreeTask& task) noe
 // steps (`reserve`) may be used later.
 
 /// Call before Bullet makes rows. Sets the velocity of a tree to the one that rows are solved
-/// against. Returns false, and sets none, for a tree that flies as a body: call flyLoneTrees() for
-/// it. @pre `step.start` is the velocity before the substep
+/// against. Returns false, and sets none, for a tree that flies as a body: call flySingleLinks()
+/// for it. @pre `step.start` is the velocity before the substep
 bool prepareTree(AmbientTree& tree, const TreeTask& task) noexcept;
 
 /// Flies up to kFlightsTogether trees for which prepareTree() was false, side by side, and sets
 /// their velocities to those at the end of the flights.
-void flyLoneTrees(AmbientTree* const* trees, int count, const TreeTask& task) noexcept;
+void flySingleLinks(AmbientTree* const* trees, int count, const TreeTask& task) noexcept;
 
 /// Call after the rows are solved. Sets the velocity that Bullet moves the tree by.
 void finishTree(AmbientTree& tree, const TreeTask& task) noexcept;

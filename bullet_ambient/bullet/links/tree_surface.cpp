@@ -36,13 +36,13 @@ Vector6 endTwist(const LinkDynamics& dynamics, int link, const Medium& water, do
 
 // Up to kFlightsTogether links that have come to where a step ends, with the twists that they have
 // there alone.
-struct SurfaceArrivals {
+struct LinkPassages {
   int count = 0;
   AmbientLink* links[kFlightsTogether] = {};
   AmbientBody* bodies[kFlightsTogether] = {};  // of the links
   FrameOffset poses[kFlightsTogether];         // of the links, to W
   Vector6 twists[kFlightsTogether];
-  Vector6 falls[kFlightsTogether];  // AmbientLink::fall
+  Vector6 falls[kFlightsTogether];  // AmbientLink::hydrostatics
 };
 
 // Returns the gyroscopic torque about the axis of a body of revolution, along that axis, in a
@@ -55,7 +55,7 @@ Vector3 torqueOnSpin(const AmbientLink& link, const Vector6& x) {
 
 // Lets the links pass the surface side by side, and writes the impulses that change their twists.
 // Returns the energy removed [J].
-double passTogether(const SurfaceArrivals& some, const SurfaceStep& step,
+double passTogether(const LinkPassages& some, const SurfaceStep& step,
                     std::vector<Wrench>& impulses) {
   BoundedTwist after[kFlightsTogether];
   for (int i = 0; i < some.count; ++i) after[i].twist = some.twists[i];
@@ -108,7 +108,7 @@ void kickAtSurface(AmbientTree& tree, const TreeTask& task) noexcept {
   });
   step.meets_surface = addResponse(tree, step.start);
   forEachAtSurface(tree, [&](AmbientLink& link, int) {
-    warnOfCoarseSwing(link.ambient, task.duration, task.bodies.complaints);
+    warnOfShortPeriod(link.ambient, task.duration, task.bodies.complaints);
   });
 }
 
@@ -128,7 +128,7 @@ void floatInMiddle(AmbientTree& tree) noexcept {
   dynamics.moveTo(surface.middle);
   forEachAtSurface(tree, [&](AmbientLink& link, int i) {
     const SurfaceStand& stand = link.ambient.stand();
-    link.fall =
+    link.hydrostatics =
         link.frozen.floatAt(link.ambient, {dynamics.rotation(i), dynamics.position(i)}, half);
     link.frozen.stiffen(stand, modesOfWaterplane(stand), surface.time);
   });
@@ -141,7 +141,7 @@ double arriveAtSurface(AmbientTree& tree) noexcept {
   const LinkDynamics& dynamics = tree.flight.dynamics();
   std::fill(step.impulses.begin(), step.impulses.end(), Wrench{});
   double energy_removed = 0;
-  SurfaceArrivals some;
+  LinkPassages some;
   const auto arrive = [&] {
     energy_removed += passTogether(some, step.surface, step.impulses);
     some.count = 0;
@@ -150,7 +150,7 @@ double arriveAtSurface(AmbientTree& tree) noexcept {
     some.links[some.count] = &link;
     some.bodies[some.count] = &link.ambient;
     some.poses[some.count] = {dynamics.rotation(i), dynamics.position(i)};
-    some.falls[some.count] = link.fall;
+    some.falls[some.count] = link.hydrostatics;
     some.twists[some.count++] = endTwist(dynamics, i, link.ambient.medium, duration);
     if (some.count == kFlightsTogether) arrive();
   });
@@ -272,7 +272,7 @@ bool mayGainEnergy(AmbientTree& tree, double duration) noexcept {
         (dynamics.rotation(i) * twist.linear - flow).norm() + radius * twist.angular.norm();
     const double way = duration * speed;
     most += kPi / 2 * plane.density * plane.gravity * radius * radius * way * way;
-    is_stiff = is_stiff || duration * ambient.stand().swing > kLongestSwing;
+    is_stiff = is_stiff || duration * ambient.stand().frequency > kLongestPhase;
   });
   return is_stiff || twiceKinetic(tree, tree.step.end) < 2 * most;
 }

@@ -43,16 +43,17 @@ struct AmbientLink {
   StepModel frozen;     ///< at a water surface: the model in the present or last step
   FloatingState start;  ///< that of `ambient` at the start of the step, to repeat a flight from
                         ///< there
-  Vector6 fall = Vector6::Zero();  ///< weight and buoyancy of a flight, in the link's frame
+  Vector6 hydrostatics = Vector6::Zero();  ///< weight and buoyancy of a flight, in the link's frame
 };
 
 /// One step of a tree at a water surface, or a part of it.
 struct SurfaceStep {
-  TreePose pose;           ///< q_0
-  TreePose middle;         ///< where the start velocity brings the tree to in half the time
-  Coordinates start;       ///< u_0 before the kicks of the surface
-  double time = 0;         ///< time since these kicks [s]
-  bool has_flown = false;  ///< true: AmbientLink::fall has acted; false: buoyancy of the start
+  TreePose pose;      ///< q_0
+  TreePose middle;    ///< where the start velocity brings the tree to in half the time
+  Coordinates start;  ///< u_0 before the kicks of the surface
+  double time = 0;    ///< time since these kicks [s]
+  bool has_flown =
+      false;  ///< true: AmbientLink::hydrostatics has acted; false: buoyancy of the start
   bool is_bound = false;  ///< true: the energy must not grow in the step, because there is no wind,
                           ///< torque or motor
   double energy = 0;      ///< before the step, docs/theory.md eq. (64), relative to the flow [J]
@@ -65,7 +66,7 @@ struct SurfaceStep {
 struct TreeStep {
   TreeStep(Eigen::Index coordinates, std::size_t links);
 
-  Outcome outcome = Outcome::kNotSolved;  ///< none of kAdrift, kHeld
+  Outcome outcome = Outcome::kNotSolved;  ///< none of kNoFlight, kDisabled
   bool was_awake = false;                 ///< before Bullet's pass
   bool turns_rows = false;  ///< true: rows whose directions turn with the tree act on it (contacts,
                             ///< joints to other bodies)
@@ -82,8 +83,8 @@ struct TreeStep {
   Coordinates spare;   ///< scratch memory; so are share and change once Bullet has moved the tree
   std::vector<Wrench>
       impulses;  ///< impulse of the water surface on each link, in the link's frame [N m s, N s]
-  double extent = 0;  ///< extent m of the turn, docs/theory.md eq. (28a)
-  double energy = 0;  ///< kinetic energy with rows, eq. (31a) [J]
+  double turn_number = 0;  ///< turn number m of the turn, docs/theory.md eq. (28a)
+  double energy = 0;       ///< kinetic energy with rows, eq. (31a) [J]
   double reserve =
       0;  ///< energy lost by earlier turning corrections, which later ones may use, eq. (31a) [J]
 };

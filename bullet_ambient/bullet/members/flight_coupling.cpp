@@ -29,28 +29,28 @@ void readAttitudes(AmbientBody* const* bodies, const Twist* twists_W, int count,
 void computeAttitudes(const btMatrix3x3* const* rotations, const Twist* twists_W, int count,
                       Quaternion* orientations, Twist* twists_B) noexcept {
   AMBIENT_ASSERT(count > 0 && count <= kFlightsTogether);
-  DepartureLanes lanes{};
+  StartLanes lanes{};
   for (int i = 0; i < count; ++i) {
     for (int row = 0; row < 3; ++row)
       setLane(lanes.rotation + 3 * row, i, toVector3((*rotations[i])[row]));
     setLane(lanes.twist_W, i, twists_W[i]);
   }
-  kFlightKernels.fastest()->depart(lanes);
+  kFlightKernels.fastest()->readStarts(lanes);
   for (int i = 0; i < count; ++i) {
     orientations[i] = orientationOf(lanes.orientation, i);
     twists_B[i] = twistOf(lanes.twist_B, i);
   }
 }
 
-void readDepartures(AmbientBody* const* bodies, int count, Departures& departures) noexcept {
-  for (int i = 0; i < count; ++i) departures.twists_W[i] = velocityOf(*bodies[i]->body);
+void readStartStates(AmbientBody* const* bodies, int count, StartStates& starts) noexcept {
+  for (int i = 0; i < count; ++i) starts.twists_W[i] = velocityOf(*bodies[i]->body);
   Quaternion orientations[kFlightsTogether];
   Twist twists_B[kFlightsTogether];
-  readAttitudes(bodies, departures.twists_W, count, orientations, twists_B);
+  readAttitudes(bodies, starts.twists_W, count, orientations, twists_B);
   for (int i = 0; i < count; ++i) {
     const Vector3 position = toVector3(bodies[i]->body->getWorldTransform().getOrigin());
-    departures.states[i] = {orientations[i], position, twists_B[i]};
-    departures.surroundings[i] = readSurroundings(*bodies[i]);
+    starts.states[i] = {orientations[i], position, twists_B[i]};
+    starts.surroundings[i] = readSurroundings(*bodies[i]);
   }
 }
 
@@ -99,7 +99,7 @@ bool prepareFluid(AmbientBody& ambient, const MotionView* now, const Twist& twis
 void hold(AmbientBody& ambient, AmbientBodies& bodies) noexcept {
   bodies.noteSolved(ambient);
   SubstepOutcome& outcome = ambient.outcome;
-  outcome.kind = Outcome::kHeld;
+  outcome.kind = Outcome::kDisabled;
   outcome.world_index = ambient.body->getWorldArrayIndex();
   outcome.activation_state = ambient.body->getActivationState();
   ambient.body->forceActivationState(DISABLE_SIMULATION);
@@ -203,20 +203,20 @@ void flyAll(AmbientBody* const* bodies, Flight* const* flights, int count) {
 
 // Writes the twists at the end of the flights, and the mean twists u_eff of docs/theory.md eq.
 // (29); world axes.
-void computeArrivals(const Departures& departures, const Flight* const* flights, int count,
-                     double time_step, Twist* ends_W, Twist* means_W) {
-  ArrivalLanes lanes{};
+void computeEnds(const StartStates& starts, const Flight* const* flights, int count,
+                 double time_step, Twist* ends_W, Twist* means_W) {
+  EndLanes lanes{};
   lanes.duration = time_step;
   lanes.least = leastVelocity(time_step);
   for (int i = 0; i < count; ++i) {
-    const RigidState &start = departures.states[i], &end = flights[i]->body.state;
+    const RigidState &start = starts.states[i], &end = flights[i]->body.state;
     setLane(lanes.start_orientation, i, start.orientation);
     setLane(lanes.start_position, i, start.position);
     setLane(lanes.orientation, i, end.orientation);
     setLane(lanes.position, i, end.position);
     setLane(lanes.twist_B, i, end.twist);
   }
-  kFlightKernels.fastest()->arrive(lanes);
+  kFlightKernels.fastest()->findEnds(lanes);
   for (int i = 0; i < count; ++i) {
     ends_W[i] = twistOf(lanes.twist_W, i);
     means_W[i] = twistOf(lanes.mean_W, i);
@@ -251,7 +251,7 @@ void keep(const FlightResult& flight, const Twist& end_W, const Twist& mean_W,
       ambient.step_errors.add(flight.count.error) && ambient.def->flight.max_substeps == 0;
   if (outcome.is_too_long) ambient.counters.too_long = 1;
   if (!fitsBullet(flight.state.position, end_W)) {
-    outcome.kind = Outcome::kAdrift;
+    outcome.kind = Outcome::kNoFlight;
     outcome.motion = RowMotion{};
     ++ambient.counters.rejected;
     forgetSurface(ambient);
@@ -305,7 +305,7 @@ void settle(AmbientBody& ambient, const LastFlight& flight, double time_step) {
 
 }  // namespace
 
-void beginFlights(AmbientBody* const* bodies, const Departures& departures, int count,
+void beginFlights(AmbientBody* const* bodies, const StartStates& starts, int count,
                   double time_step, Twist* changes_W) noexcept {
   AMBIENT_ASSERT(count > 0 && count <= kFlightsTogether);
   AMBIENT_ASSERT(time_step > 0);
@@ -313,21 +313,21 @@ void beginFlights(AmbientBody* const* bodies, const Departures& departures, int 
   Flight* all[kFlightsTogether] = {};
   for (int i = 0; i < count; ++i) {
     AmbientBody& ambient = *bodies[i];
-    const RigidState& start = departures.states[i];
+    const RigidState& start = starts.states[i];
     LastFlight& last = ambient.outcome.flight();
-    if (wasMovedByOthers(ambient, last.left_W, start, departures.twists_W[i]))
+    if (wasMovedByOthers(ambient, last.left_W, start, starts.twists_W[i]))
       last.memory.has_load = false;
-    const FlightTask task{ambient.model(), departures.surroundings[i], ambient.def->flight,
-                          time_step, kPrecision};
+    const FlightTask task{ambient.model(), starts.surroundings[i], ambient.def->flight, time_step,
+                          kPrecision};
     all[i] = &flights[i].emplace(task, start, last.memory);
   }
   flyAll(bodies, all, count);
   Twist ends_W[kFlightsTogether], means_W[kFlightsTogether];
-  computeArrivals(departures, all, count, time_step, ends_W, means_W);
+  computeEnds(starts, all, count, time_step, ends_W, means_W);
   for (int i = 0; i < count; ++i) {
     AmbientBody& ambient = *bodies[i];
     const FlightResult& flight = all[i]->body;
-    const Twist &mean_W = means_W[i], &before_W = departures.twists_W[i];
+    const Twist &mean_W = means_W[i], &before_W = starts.twists_W[i];
     keep(flight, ends_W[i], mean_W, ambient);
     changes_W[i] = {};
     if (ambient.outcome.kind == Outcome::kFlown)

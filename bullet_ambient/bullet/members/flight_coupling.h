@@ -17,13 +17,13 @@ void computeAttitudes(const btMatrix3x3* const* rotations, const Twist* twists_W
                       Quaternion* orientations, Twist* twists_B) noexcept;
 
 /// Bodies at the start of a step.
-struct Departures {
+struct StartStates {
   Twist twists_W[kFlightsTogether];  ///< velocities in Bullet
   RigidState states[kFlightsTogether];
   Surroundings surroundings[kFlightsTogether];
 };
 
-void readDepartures(AmbientBody* const* bodies, int count, Departures& departures) noexcept;
+void readStartStates(AmbientBody* const* bodies, int count, StartStates& starts) noexcept;
 
 /// Begins the substep of a body that the solver meets: resets its outcome, reports a missing
 /// action, calls prepareFluid(). Returns true if the fluid acts on the body.
@@ -57,11 +57,11 @@ inline bool drifts(double speed, double spin, double size) noexcept {
 /// not turn over.
 void keepAwake(AmbientBody& ambient, Outcome kind) noexcept;
 
-/// Flies up to kFlightsTogether bodies from `departures` over `time_step` [s] and keeps where they
+/// Flies up to kFlightsTogether bodies from `starts` over `time_step` [s] and keeps where they
 /// end. Writes the velocity changes in world axes that make Bullet's integrateTransform reach those
 /// poses, docs/theory.md eq. (29). A flight that is not finite leaves its body adrift, and nothing
 /// is kept.
-void beginFlights(AmbientBody* const* bodies, const Departures& departures, int count,
+void beginFlights(AmbientBody* const* bodies, const StartStates& starts, int count,
                   double time_step, Twist* changes_W) noexcept;
 
 /// After Bullet has moved the body: gives it the velocity and the attitude of the end of its

@@ -50,8 +50,8 @@ double missedBy(const btSolverConstraint& row, btSolverBody& a, btSolverBody& b)
 
 }  // namespace
 
-void JointGaps::watch(const btConstraintArray& joints, RowBodies& ambient,
-                      btAlignedObjectArray<btSolverBody>& bodies) noexcept {
+void JointErrors::watch(const btConstraintArray& joints, RowBodies& ambient,
+                        btAlignedObjectArray<btSolverBody>& bodies) noexcept {
   rows_.clear();
   for (int i = 0; i < joints.size(); ++i) {
     const btSolverConstraint& row = joints[i];
@@ -62,21 +62,21 @@ void JointGaps::watch(const btConstraintArray& joints, RowBodies& ambient,
   }
 }
 
-void JointGaps::measure(const btConstraintArray& joints, RowBodies& ambient,
-                        btAlignedObjectArray<btSolverBody>& bodies,
-                        double time_step) const noexcept {
+void JointErrors::measure(const btConstraintArray& joints, RowBodies& ambient,
+                          btAlignedObjectArray<btSolverBody>& bodies,
+                          double time_step) const noexcept {
   if (ambient.empty()) return;
   AMBIENT_ASSERT(time_step > 0);
   for (const Row& watched : rows_) {
     const btSolverConstraint& row = joints[watched.index];
     const int a = row.m_solverBodyIdA, b = row.m_solverBodyIdB;
-    const double gap =
+    const double joint_error =
         time_step * std::max(watched.correction, missedBy(row, bodies[a], bodies[b]));
     for (const int id : {a, b}) {
       RowBody* body = ambient.find(id);
-      if (body && gap > body->gap) {
-        body->gap = gap;
-        body->gap_to = id == a ? b : a;
+      if (body && joint_error > body->joint_error) {
+        body->joint_error = joint_error;
+        body->joined_to = id == a ? b : a;
       }
     }
   }

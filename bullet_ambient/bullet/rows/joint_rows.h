@@ -27,23 +27,23 @@ inline bool hasBounds(const btSolverConstraint& row) {
   return row.m_lowerLimit > -most || row.m_upperLimit < most;
 }
 
-/// Gap of a joint per step, relative to the size of its body, that is reported after kLongGape
+/// Gap of a joint per step, relative to the size of its body, that is reported after kStepsToReport
 /// steps in a row.
-constexpr double kWideGap = 0.05;
-constexpr int kLongGape = 10;
+constexpr double kLargeJointError = 0.05;
+constexpr int kStepsToReport = 10;
 
-/// Finds joints that the solver does not hold. The gap of a joint row against translation is the
-/// step times the larger of two velocities [m]: the difference between the velocity that the row
-/// asks for and the one that the iterations have reached (0 if the impulse is at a bound), and the
-/// velocity of position correction. Reuses its memory.
-class JointGaps {
+/// Finds joints that the solver does not hold. The joint_error of a joint row against translation
+/// is the step times the larger of two velocities [m]: the difference between the velocity that the
+/// row asks for and the one that the iterations have reached (0 if the impulse is at a bound), and
+/// the velocity of position correction. Reuses its memory.
+class JointErrors {
  public:
   /// Stores the rows of ambient bodies against translation, and their position corrections. Call
   /// before rows are rewritten: later, Jacobians and right-hand sides no longer tell these.
   void watch(const btConstraintArray& joints, RowBodies& ambient,
              btAlignedObjectArray<btSolverBody>& bodies) noexcept;
-  /// Writes the largest gap of each ambient body to RowBody::gap. Call after the iterations;
-  /// `time_step` [s].
+  /// Writes the largest joint_error of each ambient body to RowBody::joint_error. Call after the
+  /// iterations; `time_step` [s].
   void measure(const btConstraintArray& joints, RowBodies& ambient,
                btAlignedObjectArray<btSolverBody>& bodies, double time_step) const noexcept;
 
@@ -114,8 +114,8 @@ class ChainFactor {
 //   du   velocity change by warm starting
 //
 // Reason: added mass makes a light body hard to push, but hardly harder to turn. Two rows of its
-// joint are then nearly opposite, and ten iterations leave much of them unsolved. The gap that
-// remains comes back as energy by position correction.
+// joint are then nearly opposite, and ten iterations leave much of them unsolved. The joint_error
+// that remains comes back as energy by position correction.
 //
 // The matrix is factored by Cholesky's method. Rows are ordered along the chain of joints, so that
 // only entries from the first nonzero one of a row to its diagonal are stored.

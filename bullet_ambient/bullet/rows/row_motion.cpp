@@ -83,7 +83,7 @@ BoundedTwist keepingMomentum(const BodyModel& model, const RowMotion& rows, cons
   const Vector6 spin = spinAlone(model, to.head<3>()), straight = to - spin;
   const double energy = inertiaNormSquared(model, straight);
   if (energy > bound) {
-    if (rows.is_held) return withinEnergy(model, from, to, bound);
+    if (rows.is_anchored) return withinEnergy(model, from, to, bound);
     return {std::sqrt(bound / energy) * straight, (inertiaNormSquared(model, to) - bound) / 2};
   }
   BoundedTwist end = withinEnergy(model, spinAlone(model, from.head<3>()), spin, bound - energy);
@@ -103,16 +103,16 @@ Quaternion correctedAttitude(const Quaternion& start, const Vector3& turn_W,
 }
 
 // Sets the momentum that the turn of a body keeps, if one is, and the bound of its energy, from the
-// results of FlightKernel::keep().
+// results of FlightKernel::conserve().
 void setKept(const RowLanes& lanes, int lane, bool is_kept, RowMotion& rows) {
   const FlightLane* momentum_W = lanes.momentum_W;
-  AMBIENT_ASSERT(!(lanes.extent[lane] < 0));
-  double extent = lanes.extent[lane];
+  AMBIENT_ASSERT(!(lanes.turn_number[lane] < 0));
+  double turn_number = lanes.turn_number[lane];
   if (is_kept) {
     rows.momentum_W = {vectorOf(momentum_W, lane), vectorOf(momentum_W + 3, lane)};
-    extent = std::max(extent, lanes.moved_extent[lane]);
+    turn_number = std::max(turn_number, lanes.moved_turn_number[lane]);
   }
-  if (extent > kSlowTurn) rows.energy_bound = std::max(0.0, lanes.twice_energy[lane]);
+  if (turn_number > kSlowTurn) rows.energy_bound = std::max(0.0, lanes.twice_energy[lane]);
 }
 
 // Turns a body that Bullet has moved to where it has come on its way.
@@ -126,7 +126,7 @@ void settle(AmbientBody& ambient, double time_step) {
 }
 
 // A body that does not fly, where Bullet has moved it, in the course of endRowMotions().
-struct Arrival {
+struct MovedBody {
   AmbientBody* ambient = nullptr;
   Quaternion orientation;  // B to W
   FrameOffset pose;        // B to W, before Bullet rounded it
@@ -137,8 +137,9 @@ struct Arrival {
   const RowMotion& rows() const { return ambient->outcome.rows(); }
 };
 
-// Fills `arrivals` with the bodies whose velocity may have to change. Returns their number.
-int findArrivals(AmbientBody* const* bodies, int count, double time_step, Arrival* arrivals) {
+// Fills `moved_bodies` with the bodies whose velocity may have to change. Returns their number.
+int findMovedBodies(AmbientBody* const* bodies, int count, double time_step,
+                    MovedBody* moved_bodies) {
   AmbientBody* changing[kFlightsTogether] = {};
   Twist moved_W[kFlightsTogether];
   int found = 0;
@@ -152,7 +153,7 @@ int findArrivals(AmbientBody* const* bodies, int count, double time_step, Arriva
   Quaternion orientations[kFlightsTogether];
   Twist moved_B[kFlightsTogether];
   readAttitudes(changing, moved_W, found, orientations, moved_B);
-  int arrived = 0;
+  int moved_count = 0;
   for (int i = 0; i < found; ++i) {
     AmbientBody& ambient = *changing[i];
     const Vector3 position = toVector3(ambient.body->getWorldTransform().getOrigin());
@@ -161,64 +162,64 @@ int findArrivals(AmbientBody* const* bodies, int count, double time_step, Arriva
     const bool is_turned_by_others =
         isTurnedFurther(rows.orientation, orientations[i], rows.turn + kTurnRounding);
     if (!part || is_turned_by_others) continue;
-    Arrival& arrival = arrivals[arrived++];
-    arrival.ambient = &ambient;
-    arrival.orientation = orientations[i];
-    arrival.part = *part;
+    MovedBody& moved_body = moved_bodies[moved_count++];
+    moved_body.ambient = &ambient;
+    moved_body.orientation = orientations[i];
+    moved_body.part = *part;
     if (ambient.surface())
-      arrival.pose =
-          poseAfter(ambient.outcome.rows(), arrival.orientation, position, *part, time_step);
-    arrival.moved = moved_B[i].vector();
-    arrival.model.emplace(ambient, time_step);
+      moved_body.pose =
+          poseAfter(ambient.outcome.rows(), moved_body.orientation, position, *part, time_step);
+    moved_body.moved = moved_B[i].vector();
+    moved_body.model.emplace(ambient, time_step);
   }
-  return arrived;
+  return moved_count;
 }
 
 // Computes the twists that keep the momenta, eq. (31), of the bodies that keep one.
-void keepMomenta(const Arrival* arrivals, int count, double time_step, BoundedTwist* ends) {
+void keepMomenta(const MovedBody* moved_bodies, int count, double time_step, BoundedTwist* ends) {
   const BodyModel* models[kFlightsTogether] = {};
   int places[kFlightsTogether] = {}, found = 0;
   for (int i = 0; i < count; ++i) {
-    ends[i] = {arrivals[i].moved};
-    if (!arrivals[i].rows().momentum_W) continue;
-    models[found] = &**arrivals[i].model;
+    ends[i] = {moved_bodies[i].moved};
+    if (!moved_bodies[i].rows().momentum_W) continue;
+    models[found] = &**moved_bodies[i].model;
     places[found++] = i;
   }
   if (found == 0) return;
   RowLanes lanes;
   setModels(models, found, lanes);
   for (int i = 0; i < found; ++i) {
-    const Arrival& arrival = arrivals[places[i]];
-    const RowMotion& rows = arrival.rows();
-    setLane(lanes.orientation, i, arrival.orientation);
+    const MovedBody& moved_body = moved_bodies[places[i]];
+    const RowMotion& rows = moved_body.rows();
+    setLane(lanes.orientation, i, moved_body.orientation);
     setLane(lanes.momentum_W, i, *rows.momentum_W);
-    setLane(lanes.way_W, i, Vector3(arrival.part * time_step * rows.velocity_W.linear));
+    setLane(lanes.way_W, i, Vector3(moved_body.part * time_step * rows.velocity_W.linear));
   }
-  kFlightKernels.fastest()->carry(lanes);
+  kFlightKernels.fastest()->transport(lanes);
   for (int i = 0; i < found; ++i) ends[places[i]].twist = twistOf(lanes.twist_B, i).vector();
 }
 
 // Bounds the energy of a fast turn, eq. (31a).
-void boundEnergy(const Arrival& arrival, BoundedTwist& end) {
-  const RowMotion& rows = arrival.rows();
+void boundEnergy(const MovedBody& moved_body, BoundedTwist& end) {
+  const RowMotion& rows = moved_body.rows();
   if (!rows.energy_bound) return;
-  const BodyModel& model = **arrival.model;
-  end = rows.momentum_W ? keepingMomentum(model, rows, arrival.moved, end.twist)
-                        : withinEnergy(model, arrival.moved, end.twist, *rows.energy_bound);
+  const BodyModel& model = **moved_body.model;
+  end = rows.momentum_W ? keepingMomentum(model, rows, moved_body.moved, end.twist)
+                        : withinEnergy(model, moved_body.moved, end.twist, *rows.energy_bound);
 }
 
 // Passes the bodies with these axes that are at a surface through it, side by side.
-void passSurfaces(const Arrival* arrivals, int count, Axes axes, double time_step,
+void passSurfaces(const MovedBody* moved_bodies, int count, Axes axes, double time_step,
                   BoundedTwist* ends) {
   AmbientBody* bodies[kFlightsTogether] = {};
   FrameOffset poses[kFlightsTogether];
   BoundedTwist twists[kFlightsTogether];
   int places[kFlightsTogether] = {}, found = 0;
   for (int i = 0; i < count; ++i) {
-    const bool is_free = arrivals[i].rows().momentum_W.has_value();
-    if (!arrivals[i].ambient->surface() || is_free != (axes == Axes::kFree)) continue;
-    bodies[found] = arrivals[i].ambient;
-    poses[found] = arrivals[i].pose;
+    const bool is_free = moved_bodies[i].rows().momentum_W.has_value();
+    if (!moved_bodies[i].ambient->surface() || is_free != (axes == Axes::kFree)) continue;
+    bodies[found] = moved_bodies[i].ambient;
+    poses[found] = moved_bodies[i].pose;
     twists[found] = ends[i];
     places[found++] = i;
   }
@@ -230,13 +231,13 @@ void passSurfaces(const Arrival* arrivals, int count, Axes axes, double time_ste
   }
 }
 
-void setVelocity(const Arrival& arrival, const BoundedTwist& end, double time_step,
+void setVelocity(const MovedBody& moved_body, const BoundedTwist& end, double time_step,
                  Complaints& complaints) {
-  AmbientBody& ambient = *arrival.ambient;
-  Twist change_B = Twist::fromVector(end.twist - arrival.moved);
+  AmbientBody& ambient = *moved_body.ambient;
+  Twist change_B = Twist::fromVector(end.twist - moved_body.moved);
   if (ambient.surface()) change_B.angular = ambient.surface()->withoutStill(change_B.angular);
-  Twist change_W = withoutTraces(turned(arrival.orientation, change_B), time_step);
-  const bool may_be_locked = !arrival.rows().momentum_W;
+  Twist change_W = withoutTraces(turned(moved_body.orientation, change_B), time_step);
+  const bool may_be_locked = !moved_body.rows().momentum_W;
   if (may_be_locked) change_W = onFreeAxes(change_W, axisFactors(*ambient.body));
   if (!change_W.vector().allFinite()) {
     ++ambient.counters.rejected;
@@ -265,13 +266,13 @@ void beginRowMotions(RowBatch& batch, RowBodies& row_bodies,
     setLane(lanes.velocity_W, i, rows.velocity_W);
     setLane(lanes.by_rows_W, i, changeByRows(solver_body));
   }
-  kFlightKernels.fastest()->keep(lanes);
+  kFlightKernels.fastest()->conserve(lanes);
   for (int i = 0; i < batch.count; ++i) {
     if (lanes.active[i] == 0) continue;
     btSolverBody& solver_body = solver_bodies[batch.solver_bodies[i]];
     const RowBody& row_body = *row_bodies.find(batch.solver_bodies[i]);
     RowMotion& rows = batch.bodies[i]->outcome.rows();
-    rows.is_held = row_body.is_held;
+    rows.is_anchored = row_body.is_anchored;
     rows.orientation = correctedAttitude(
         orientationOf(lanes.orientation, i),
         turn_share * time_step * toVector3(solver_body.internalGetTurnVelocity()), solver_body);
@@ -285,15 +286,16 @@ void beginRowMotions(RowBatch& batch, RowBodies& row_bodies,
 void endRowMotions(AmbientBody* const* bodies, int count, double time_step,
                    Complaints& complaints) noexcept {
   AMBIENT_ASSERT(count > 0 && count <= kFlightsTogether);
-  Arrival arrivals[kFlightsTogether];
+  MovedBody moved_bodies[kFlightsTogether];
   BoundedTwist ends[kFlightsTogether];
   for (int i = 0; i < count; ++i) settle(*bodies[i], time_step);
-  const int arrived = findArrivals(bodies, count, time_step, arrivals);
-  keepMomenta(arrivals, arrived, time_step, ends);
-  for (int i = 0; i < arrived; ++i) boundEnergy(arrivals[i], ends[i]);
+  const int moved_count = findMovedBodies(bodies, count, time_step, moved_bodies);
+  keepMomenta(moved_bodies, moved_count, time_step, ends);
+  for (int i = 0; i < moved_count; ++i) boundEnergy(moved_bodies[i], ends[i]);
   for (const Axes axes : {Axes::kFree, Axes::kLocked})
-    passSurfaces(arrivals, arrived, axes, time_step, ends);
-  for (int i = 0; i < arrived; ++i) setVelocity(arrivals[i], ends[i], time_step, complaints);
+    passSurfaces(moved_bodies, moved_count, axes, time_step, ends);
+  for (int i = 0; i < moved_count; ++i)
+    setVelocity(moved_bodies[i], ends[i], time_step, complaints);
 }
 
 AMBIENT_END

@@ -101,11 +101,11 @@ struct RowBody {
   btVector3 velocity_aside{0, 0, 0};   ///< [m/s]
   btVector3 spin_by_load{0, 0, 0};     ///< part of spin_change by surface loads; 0: no bounces
   btVector3 velocity_by_load{0, 0, 0};  ///< [m/s]
-  bool is_held = false;  ///< true: has a joint, or a contact with a body that cannot move
-  int rows = 0;          ///< number of rewritten rows
-  int joint_rows = 0;    ///< number of joint rows solved together before the iterations
-  double gap = 0;        ///< largest gap of a joint in this step, JointGaps [m]
-  int gap_to = -1;       ///< solver body at the other side of that joint
+  bool is_anchored = false;  ///< true: has a joint, or a contact with a body that cannot move
+  int rows = 0;              ///< number of rewritten rows
+  int joint_rows = 0;        ///< number of joint rows solved together before the iterations
+  double joint_error = 0;    ///< largest joint_error of a joint in this step, JointErrors [m]
+  int joined_to = -1;        ///< solver body at the other side of that joint
 
   bool is_locked = false;
   btVector3 locked_angular{0, 0, 0};  ///< 1 for an axis that is locked, else 0
@@ -196,13 +196,14 @@ void reapplyImpulses(const btAlignedObjectArray<Row>& rows, RowBodies& bodies,
 /// True if a push on the first body of a contact presses the bodies together, and its part along
 /// the face, relative to the part along the normal, is between 0.01 and the coefficient of
 /// friction. `normal_W`: from the second body to the first.
-bool isHeldAslant(const btVector3& push_W, const btVector3& normal_W, btScalar friction) noexcept;
+bool isInFrictionCone(const btVector3& push_W, const btVector3& normal_W,
+                      btScalar friction) noexcept;
 
-/// False: turnsAside() is false for every normal.
-bool mayTurnAside(const AmbientBody& ambient) noexcept;
+/// False: deflects() is false for every normal.
+bool mayDeflect(const AmbientBody& ambient) noexcept;
 
 /// True if a push along the normal also moves the body across the normal, by more than 10^-3 of its
 /// motion, because of added mass.
-bool turnsAside(const AmbientBody& ambient, const btVector3& normal_W) noexcept;
+bool deflects(const AmbientBody& ambient, const btVector3& normal_W) noexcept;
 
 AMBIENT_END

@@ -41,7 +41,7 @@ class FluidSolver : public Base {
                                         std::is_base_of_v<btMultiBodyMLCPConstraintSolver, Base>;
   // True: Base takes no second friction row at single contacts, because it infers the number of
   // rows from the sizes of its pools, or keeps its own pools.
-  static constexpr bool kHasEvenFrictions =
+  static constexpr bool kHasUniformFrictionRows =
       std::is_base_of_v<btMLCPSolver, Base> ||
       std::is_base_of_v<btSequentialImpulseConstraintSolverMt, Base>;
 
@@ -94,10 +94,10 @@ class FluidSolver : public Base {
   // Bullet calls this last in its setup: afterwards all rows exist, and are rewritten.
   void convertContacts(btPersistentManifold** manifolds, int manifold_count,
                        const btContactSolverInfo& info) override {
-    group_.showPush(this->m_tmpSolverBodyPool, SolverGroup::Push::kEven);
+    group_.showExternalChange(this->m_tmpSolverBodyPool, SolverGroup::ExternalChange::kIsotropic);
     Base::convertContacts(manifolds, manifold_count, info);
-    if constexpr (!kHasEvenFrictions) addSecondFrictions(info);
-    group_.showPush(this->m_tmpSolverBodyPool, SolverGroup::Push::kTrue);
+    if constexpr (!kHasUniformFrictionRows) addSecondFrictions(info);
+    group_.showExternalChange(this->m_tmpSolverBodyPool, SolverGroup::ExternalChange::kTrue);
     withMultiBodyRows([&](const MultiBodyRows* multibodies) {
       group_.rewriteRows(this->m_tmpSolverBodyPool, pools(), multibodies, info);
     });
@@ -156,7 +156,7 @@ class FluidSolver : public Base {
 
   btScalar solveGroupCacheFriendlyFinish(btCollisionObject** bodies, int body_count,
                                          const btContactSolverInfo& info) override {
-    if constexpr (!kHasEvenFrictions) reportSecondFrictions();
+    if constexpr (!kHasUniformFrictionRows) reportSecondFrictions();
     group_.finish(this->m_tmpSolverBodyPool, this->m_tmpSolverNonContactConstraintPool, info);
     return Base::solveGroupCacheFriendlyFinish(bodies, body_count, info);
   }
@@ -299,18 +299,19 @@ class FluidSolver : public Base {
     }
   }
 
-  // Adds second friction rows to contacts for which SolverGroup::holdsSlope() is true,
+  // Adds second friction rows to contacts for which SolverGroup::needsSecondFriction() is true,
   // docs/theory.md section 7. One row along the push holds the push itself. The sideways slip that
   // normal impulses cause needs a row across the first, because the iterations end before this slip
   // is zero.
   void addSecondFrictions(const btContactSolverInfo& info) {
-    constexpr int kEvenModes =
+    constexpr int kUniformModes =
         SOLVER_USE_2_FRICTION_DIRECTIONS | SOLVER_INTERLEAVE_CONTACT_AND_FRICTION_CONSTRAINTS;
     const btConstraintArray& contacts = this->m_tmpSolverContactConstraintPool;
     first_frictions_ = this->m_tmpSolverContactFrictionConstraintPool.size();
-    if (!group_.mayHoldSlopes() || (info.m_solverMode & kEvenModes)) return;
+    if (!group_.mayNeedSecondFriction() || (info.m_solverMode & kUniformModes)) return;
     for (int i = 0; i < contacts.size(); ++i)
-      if (group_.holdsSlope(this->m_tmpSolverBodyPool, contacts[i])) addSecondFriction(i, info);
+      if (group_.needsSecondFriction(this->m_tmpSolverBodyPool, contacts[i]))
+        addSecondFriction(i, info);
   }
 
   // Adds a row across the first friction row of contact `index`, as Bullet does with

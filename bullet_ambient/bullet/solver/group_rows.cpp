@@ -75,7 +75,7 @@ void standAll(AmbientBody* const* bodies, const RigidState* states, int count, d
   }
   if (found == 0) return;
   standAt(at_surface, there, found, kBulletRounding);
-  for (int i = 0; i < found; ++i) warnOfCoarseSwing(*at_surface[i], time_step, complaints);
+  for (int i = 0; i < found; ++i) warnOfShortPeriod(*at_surface[i], time_step, complaints);
 }
 
 // Leaves a body of revolution at a surface its spin about its axis, docs/theory.md eq. (66a).
@@ -157,7 +157,7 @@ void fill(const AmbientBody& ambient, const BodyModel& model, const Matrix3& R,
 }  // namespace
 
 void SolverGroup::begin(SolverBodies& solver_bodies) noexcept {
-  may_hold_slopes_ = false;
+  may_need_second_friction_ = false;
   if (members_.empty()) {
     row_bodies_->reset(0);
     return;
@@ -175,7 +175,7 @@ void SolverGroup::begin(SolverBodies& solver_bodies) noexcept {
       setExternalImpulse(solver_bodies[member.solver_body], Twist{});
       continue;
     }
-    may_hold_slopes_ = may_hold_slopes_ || mayTurnAside(*member.ambient);
+    may_need_second_friction_ = may_need_second_friction_ || mayDeflect(*member.ambient);
     waiting[count++] = &member;
     if (count == kFlightsTogether) prepareForRows(waiting, std::exchange(count, 0), solver_bodies);
   }
@@ -195,29 +195,29 @@ void SolverGroup::prepareForRows(Member* const* members, int count,
     // T must fit the inertia tensor; Bullet's setWorldTransform leaves that of the old orientation.
     batch.bodies[i]->body->updateInertiaTensor();
   }
-  Departures departures;
-  readDepartures(batch.bodies, count, departures);
-  standAll(batch.bodies, departures.states, count, time_step_, bodies_.complaints);
+  StartStates starts;
+  readStartStates(batch.bodies, count, starts);
+  standAll(batch.bodies, starts.states, count, time_step_, bodies_.complaints);
   std::optional<StepModel> step_models[kFlightsTogether];
   const BodyModel* models[kFlightsTogether] = {};
   for (int i = 0; i < count; ++i)
     models[i] = &*step_models[i].emplace(*batch.bodies[i], time_step_);
   setModels(models, count, lanes);
   const auto taskOf = [&](int i) -> FlightTask {
-    return {*models[i], departures.surroundings[i], batch.bodies[i]->def->flight, time_step_};
+    return {*models[i], starts.surroundings[i], batch.bodies[i]->def->flight, time_step_};
   };
   RowLoad loads[kFlightsTogether];
   bool is_any_free = false;
   for (int i = 0; i < count; ++i) {
     if (members[i]->is_locked) continue;
-    loads[i] = setStart(taskOf(i), departures.states[i], i, lanes);
+    loads[i] = setStart(taskOf(i), starts.states[i], i, lanes);
     is_any_free = true;
   }
-  if (is_any_free) kFlightKernels.fastest()->push(lanes);
+  if (is_any_free) kFlightKernels.fastest()->predictRowVelocity(lanes);
   for (int i = 0; i < count; ++i) {
     const Member& member = *members[i];
     AmbientBody& ambient = *member.ambient;
-    const RigidState& start = departures.states[i];
+    const RigidState& start = starts.states[i];
     const Matrix3 R = start.orientation.toRotationMatrix();
     RowVelocity row = member.is_locked
                           ? computeLockedVelocity(taskOf(i), start, axisFactors(*ambient.body))
@@ -226,17 +226,17 @@ void SolverGroup::prepareForRows(Member* const* members, int count,
     if (models[i]->loads && mayBounce(*ambient.body))
       by_load = changeByLoad(*ambient.body, taskOf(i), start.orientation, row);
     complete(ambient, models[i]->inertia, start, time_step_, bodies_.complaints, row);
-    // Those of FlightKernel::keep().
+    // Those of FlightKernel::conserve().
     batch.positions[i] = start.position;
     lanes.kick_time[i] = time_step_;
-    lanes.extent[i] = row.extent;
+    lanes.turn_number[i] = row.turn_number;
     batch.settled_inertia[i] = row.settled_inertia;
     setLane(lanes.orientation, i, start.orientation);
     setLane(lanes.turning_W, i, row.turning_W);
     btSolverBody& solver_body = solver_bodies[member.solver_body];
     setExternalImpulse(solver_body, withoutTraces(row.change_W, time_step_));
     RowBody& row_body = row_bodies_->add(member.solver_body);
-    row_body.is_held = member.is_held;
+    row_body.is_anchored = member.is_anchored;
     if (member.is_locked)
       lock(row_body, *ambient.body, rowInertia(*models[i], row), R, solver_body);
     fill(ambient, *models[i], R, row, solver_body, row_body);
@@ -255,9 +255,9 @@ void SolverGroup::prepareJoinedToMultiBodies(SolverBodies& solver_bodies,
   forEachJoinedBody(joints, [&](int id) {
     Member* member = memberOf(id);
     if (!member) return;
-    member->is_held = true;
+    member->is_anchored = true;
     if (RowBody* row_body = row_bodies_->find(id))
-      row_body->is_held = true;
+      row_body->is_anchored = true;
     else if (!std::exchange(member->has_rows, true))
       waiting[count++] = member;
     if (count == kFlightsTogether) prepare();
@@ -305,10 +305,10 @@ void dropRows(btSolverBody& b) {
 // Maps the velocity changes by rows to world axes. Returns false, and drops the changes, if they
 // are not finite.
 bool finishRows(AmbientBody& ambient, const RowBody& row_body, btSolverBody& b) {
-  const bool is_adrift = isUntouched(b);
-  ambient.outcome.kind = is_adrift ? Outcome::kAdrift : Outcome::kRows;
+  const bool is_untouched = isUntouched(b);
+  ambient.outcome.kind = is_untouched ? Outcome::kNoFlight : Outcome::kRows;
   ambient.outcome.motion = RowMotion{};
-  if (!is_adrift) {
+  if (!is_untouched) {
     fromBasis(row_body.basis, b.internalGetDeltaAngularVelocity(),
               b.internalGetDeltaLinearVelocity());
     fromBasis(row_body.basis, b.internalGetTurnVelocity(), b.internalGetPushVelocity());
@@ -326,9 +326,9 @@ bool finishRows(AmbientBody& ambient, const RowBody& row_body, btSolverBody& b) 
 
 void SolverGroup::finish(SolverBodies& solver_bodies, btConstraintArray& joints,
                          const btContactSolverInfo& info) noexcept {
-  joint_gaps_->measure(joints, *row_bodies_, solver_bodies, time_step_);
+  joint_errors_->measure(joints, *row_bodies_, solver_bodies, time_step_);
   restoreFeedbackJacobians(joints);
-  if (is_held_)
+  if (is_disabled_)
     for (int i = 0; i < solver_bodies.size(); ++i) dropRows(solver_bodies[i]);
   for (const Member& member : members_) {
     // Every body that a row has moved has a RowBody since begin() or rewriteRows().
@@ -355,10 +355,10 @@ void SolverGroup::finishBatch(RowBatch& batch, double turn_share,
     btSolverBody& solver_body = solver_bodies[id];
     ambient.counters.rows += row_body.rows;
     ambient.counters.joint_rows += row_body.joint_rows;
-    noteGap(ambient, row_body);
+    noteJointError(ambient, row_body);
     // Rows were solved against the velocity k + X of eq. (28). In a fast turn the flight goes
     // elsewhere, and could pass through what the rows keep apart.
-    const bool may_fly = !row_body.is_locked && batch.lanes.extent[i] <= kSlowTurn;
+    const bool may_fly = !row_body.is_locked && batch.lanes.turn_number[i] <= kSlowTurn;
     bool is_moved = false;
     if (may_fly && isUntouched(solver_body)) {
       flyLater({&ambient, id}, &solver_bodies);
@@ -378,15 +378,15 @@ void SolverGroup::finishBatch(RowBatch& batch, double turn_share,
                batch.settled_inertia[i], time_step_);
 }
 
-// Counts the steps in a row in which a joint of the body misses by more than kWideGap of its size.
-// Reports the body after kLongGape steps.
-void SolverGroup::noteGap(AmbientBody& ambient, const RowBody& row_body) noexcept {
+// Counts the steps in a row in which a joint of the body misses by more than kLargeJointError of
+// its size. Reports the body after kStepsToReport steps.
+void SolverGroup::noteJointError(AmbientBody& ambient, const RowBody& row_body) noexcept {
   const double size = ambient.metric().reference_length;
-  const bool is_wide = size > 0 && row_body.gap > kWideGap * size;
-  ambient.gaping = is_wide ? ambient.gaping + 1 : 0;
-  if (ambient.gaping != kLongGape) return;
-  const Member* other = memberOf(row_body.gap_to);
-  bodies_.complaints.sayGaping(*ambient.def, other ? other->ambient->def.get() : nullptr);
+  const bool is_open = size > 0 && row_body.joint_error > kLargeJointError * size;
+  ambient.open_joint_steps = is_open ? ambient.open_joint_steps + 1 : 0;
+  if (ambient.open_joint_steps != kStepsToReport) return;
+  const Member* other = memberOf(row_body.joined_to);
+  bodies_.complaints.sayOpenJoint(*ambient.def, other ? other->ambient->def.get() : nullptr);
 }
 
 AMBIENT_END

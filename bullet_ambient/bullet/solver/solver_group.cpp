@@ -37,17 +37,17 @@ namespace {
 // Tells what may move a body in this substep. Written into its companion id while bodies are
 // selected: Bullet overwrites the id when it converts the body.
 struct Marks {
-  bool is_near = false;   // has a joint, or a pair with another body in the broadphase
-  bool has_rows = false;  // has a joint or contact
-  bool is_held = false;   // has a joint, or a contact with a body that cannot move
+  bool is_near = false;      // has a joint, or a pair with another body in the broadphase
+  bool has_rows = false;     // has a joint or contact
+  bool is_anchored = false;  // has a joint, or a contact with a body that cannot move
 };
 
 // Companion ids. Bullet's own are from -2 on: -1, not converted; -2, cannot move.
-constexpr int kNear = -3, kRows = -4, kHeld = -5;
+constexpr int kNear = -3, kRows = -4, kAnchored = -5;
 
 Marks marksOf(const btCollisionObject& body) {
   const int id = body.getCompanionId();
-  return {id <= kNear && id >= kHeld, id <= kRows && id >= kHeld, id == kHeld};
+  return {id <= kNear && id >= kAnchored, id <= kRows && id >= kAnchored, id == kAnchored};
 }
 
 // Leaves bodies that cannot move alone: solvers of other groups may read them at the same time.
@@ -67,7 +67,7 @@ void markPairs(const GroupInput& input) {
     const btCollisionObject &a = *manifold.getBody0(), &b = *manifold.getBody1();
     const auto idBeside = [has_rows](const btCollisionObject& other) {
       if (!has_rows) return kNear;
-      return other.isStaticOrKinematicObject() ? kHeld : kRows;
+      return other.isStaticOrKinematicObject() ? kAnchored : kRows;
     };
     mark(a, idBeside(b));
     mark(b, idBeside(a));
@@ -75,8 +75,8 @@ void markPairs(const GroupInput& input) {
   for (int i = 0; i < input.constraint_count; ++i) {
     const btTypedConstraint& constraint = *input.constraints[i];
     if (!constraint.isEnabled()) continue;
-    mark(constraint.getRigidBodyA(), kHeld);
-    mark(constraint.getRigidBodyB(), kHeld);
+    mark(constraint.getRigidBodyA(), kAnchored);
+    mark(constraint.getRigidBodyB(), kAnchored);
   }
 }
 
@@ -86,7 +86,7 @@ SolverGroup::SolverGroup(AmbientBodies& bodies)
     : bodies_(bodies),
       row_bodies_(std::make_unique<RowBodies>()),
       joint_chains_(std::make_unique<JointChains>()),
-      joint_gaps_(std::make_unique<JointGaps>()),
+      joint_errors_(std::make_unique<JointErrors>()),
       bounces_(std::make_unique<Bounces>()) {}
 
 SolverGroup::~SolverGroup() = default;
@@ -97,11 +97,11 @@ GroupBodies SolverGroup::select(const GroupBodies& bodies, const GroupInput& inp
   members_.clear();
   saved_.clear();
   batch_count_ = 0;
-  is_held_ = false;
+  is_disabled_ = false;
   if (bodies_.size() == 0) return bodies;
   bodies_.solved.fetch_add(1, std::memory_order_relaxed);
   if (!std::isfinite(time_step_)) {
-    is_held_ = holdAll(bodies);
+    is_disabled_ = holdAll(bodies);
     return bodies;
   }
   if (!hasAmbientBody(bodies)) return bodies;
@@ -150,7 +150,7 @@ void SolverGroup::findMembers(const GroupBodies& bodies, bool all_stay) noexcept
       beginBodyReading(*ambient, readState(*ambient->body), readSurroundings(*ambient), is_locked);
     if (all_stay || is_locked || marks.is_near) {
       converted_.push_back(&object);
-      members_.push_back({ambient, &object, is_locked, marks.has_rows, marks.is_held});
+      members_.push_back({ambient, &object, is_locked, marks.has_rows, marks.is_anchored});
     } else {
       object.setCompanionId(kAlone);
       flyLater({ambient, kAlone}, nullptr);
@@ -211,9 +211,9 @@ void SolverGroup::flyTogether(int first, int count, SolverBodies* solver_bodies)
   Twist changes_W[kFlightsTogether];
   const FreeBody* free = free_.data() + first;
   for (int i = 0; i < count; ++i) bodies[i] = free[i].ambient;
-  Departures departures;
-  readDepartures(bodies, count, departures);
-  beginFlights(bodies, departures, count, time_step_, changes_W);
+  StartStates starts;
+  readStartStates(bodies, count, starts);
+  beginFlights(bodies, starts, count, time_step_, changes_W);
   for (int i = 0; i < count; ++i) {
     if (free[i].solver_body == kAlone) {
       addVelocity(*bodies[i]->body, changes_W[i]);
@@ -223,29 +223,29 @@ void SolverGroup::flyTogether(int first, int count, SolverBodies* solver_bodies)
   }
 }
 
-void SolverGroup::showPush(SolverBodies& solver_bodies, Push push) noexcept {
+void SolverGroup::showExternalChange(SolverBodies& solver_bodies, ExternalChange change) noexcept {
   for (const Member& member : members_) {
     const RowBody* row_body = row_bodies_->find(member.solver_body);
     if (!row_body) continue;
     btSolverBody& solver_body = solver_bodies[member.solver_body];
     solver_body.m_externalTorqueImpulse = row_body->spin_change;
     solver_body.m_externalForceImpulse = row_body->velocity_change;
-    if (push == Push::kTrue) continue;
+    if (change == ExternalChange::kTrue) continue;
     solver_body.m_externalTorqueImpulse += row_body->spin_aside;
     solver_body.m_externalForceImpulse += row_body->velocity_aside;
   }
 }
 
-bool SolverGroup::holdsSlope(const SolverBodies& solver_bodies,
-                             const btSolverConstraint& contact) const noexcept {
+bool SolverGroup::needsSecondFriction(const SolverBodies& solver_bodies,
+                                      const btSolverConstraint& contact) const noexcept {
   const btVector3& normal =
       static_cast<const btManifoldPoint*>(contact.m_originalContactPoint)->m_normalWorldOnB;
   const btVector3 push = solver_bodies[contact.m_solverBodyIdA].m_externalForceImpulse -
                          solver_bodies[contact.m_solverBodyIdB].m_externalForceImpulse;
-  if (!isHeldAslant(push, normal, contact.m_friction)) return false;
+  if (!isInFrictionCone(push, normal, contact.m_friction)) return false;
   for (const int id : {contact.m_solverBodyIdA, contact.m_solverBodyIdB}) {
     const Member* member = memberOf(id);
-    if (member && turnsAside(*member->ambient, normal)) return true;
+    if (member && deflects(*member->ambient, normal)) return true;
   }
   return false;
 }
@@ -260,7 +260,7 @@ void SolverGroup::rewriteRows(SolverBodies& solver_bodies, const RowPools& rows,
     prepareJoinedToMultiBodies(solver_bodies, multibodies->joints);
   if (row_bodies_->empty() && !has_trees) return;
   saveFeedbackJacobians(rows.joints);
-  joint_gaps_->watch(rows.joints, *row_bodies_, solver_bodies);
+  joint_errors_->watch(rows.joints, *row_bodies_, solver_bodies);
   bounces_->find({rows.contacts, multibodies, *row_bodies_, solver_bodies}, info);
   const auto rewrite = [&](btConstraintArray& pool, RowKind kind, btScalar relaxation) {
     ambient::rewriteRows(pool, kind, relaxation, *row_bodies_, solver_bodies);
@@ -440,9 +440,9 @@ void TreeGroup::prepare(const btContactSolverInfo& info) noexcept {
   forEachTree(*bodies_.trees.world(), bodies_.trees, [&](AmbientTree& tree) {
     if (prepareTree(tree, task)) return;
     lone[count++] = &tree;
-    if (count == kFlightsTogether) flyLoneTrees(lone, std::exchange(count, 0), task);
+    if (count == kFlightsTogether) flySingleLinks(lone, std::exchange(count, 0), task);
   });
-  if (count > 0) flyLoneTrees(lone, count, task);
+  if (count > 0) flySingleLinks(lone, count, task);
 }
 
 const AmbientTrees* TreeGroup::solvedTrees() const noexcept {

@@ -28,7 +28,7 @@ inline void setExternalImpulse(btSolverBody& solver_body, const Twist& change_W)
 class AmbientBodies;
 class Bounces;
 class JointChains;
-class JointGaps;
+class JointErrors;
 class RowBodies;
 struct RowBatch;
 struct RowBody;
@@ -70,19 +70,19 @@ class SolverGroup {
   void begin(SolverBodies& solver_bodies) noexcept;
 
   /// Call around Bullet's conversion of contacts. Sets the velocity change by forces and loads that
-  /// Bullet reads there: kEven, that of a body with isotropic inertia, k' + X, so that Bullet lays
-  /// friction along the force, eq. (28b); kTrue, k + X again.
-  enum class Push { kEven, kTrue };
-  void showPush(SolverBodies& solver_bodies, Push push) noexcept;
+  /// Bullet reads there: kIsotropic, that of a body with isotropic inertia, k' + X, so that Bullet
+  /// lays friction along the force, eq. (28b); kTrue, k + X again.
+  enum class ExternalChange { kIsotropic, kTrue };
+  void showExternalChange(SolverBodies& solver_bodies, ExternalChange change) noexcept;
 
-  /// False: holdsSlope() is false for all contacts of the group.
-  bool mayHoldSlopes() const { return may_hold_slopes_; }
+  /// False: needsSecondFriction() is false for all contacts of the group.
+  bool mayNeedSecondFriction() const { return may_need_second_friction_; }
 
   /// True if a contact needs a second friction row: its bodies are pushed along its face, by no
   /// more than friction can hold, and a push along its normal also moves one of them sideways,
-  /// because of its added mass. @pre showPush(kEven) is in effect
-  bool holdsSlope(const SolverBodies& solver_bodies,
-                  const btSolverConstraint& contact) const noexcept;
+  /// because of its added mass. @pre showExternalChange(kIsotropic) is in effect
+  bool needsSecondFriction(const SolverBodies& solver_bodies,
+                           const btSolverConstraint& contact) const noexcept;
 
   /// Call after Bullet has made rows of joints and contacts. Rewrites every row that touches an
   /// ambient body, eq. (27), and applies the impulses of warm starting in the velocity bases.
@@ -123,7 +123,7 @@ class SolverGroup {
     const btCollisionObject* object;
     bool is_locked;
     bool has_rows;
-    bool is_held;              // true: has a joint, or a contact with a body that cannot move
+    bool is_anchored;          // true: has a joint, or a contact with a body that cannot move
     int solver_body = kAlone;  // index in the solver's pool
   };
   // A body that no row moves.
@@ -149,7 +149,7 @@ class SolverGroup {
                         const MultiBodyRows* multibodies, int solver_mode) noexcept;
   void saveFeedbackJacobians(const btConstraintArray& joints) noexcept;
   void restoreFeedbackJacobians(btConstraintArray& joints) noexcept;
-  void noteGap(AmbientBody& ambient, const RowBody& row_body) noexcept;
+  void noteJointError(AmbientBody& ambient, const RowBody& row_body) noexcept;
   void finishBatch(RowBatch& batch, double turn_share, SolverBodies& solver_bodies) noexcept;
   void flyLater(const FreeBody& body, SolverBodies* solver_bodies) noexcept;
   void flyFreely(SolverBodies* solver_bodies) noexcept;
@@ -159,8 +159,9 @@ class SolverGroup {
 
   AmbientBodies& bodies_;
   double time_step_ = 0;
-  bool may_hold_slopes_ = false;
-  bool is_held_ = false;  // true: the time step is not finite, and no body of the group may move
+  bool may_need_second_friction_ = false;
+  bool is_disabled_ =
+      false;  // true: the time step is not finite, and no body of the group may move
   std::vector<Member> members_;
   std::vector<btCollisionObject*> converted_;  // bodies that Bullet has to convert
   std::vector<int> member_of_solver_body_;     // index in members_; -1: not ambient
@@ -169,7 +170,7 @@ class SolverGroup {
   std::vector<FreeBody> free_;                 // bodies to fly
   std::unique_ptr<RowBodies> row_bodies_;
   std::unique_ptr<JointChains> joint_chains_;
-  std::unique_ptr<JointGaps> joint_gaps_;
+  std::unique_ptr<JointErrors> joint_errors_;
   std::unique_ptr<Bounces> bounces_;
   std::vector<SavedJacobian> saved_;
 };

@@ -346,7 +346,7 @@ AmbientBody makeAmbient(const AmbientState& saved, const InverseMass& mass,
   if (ambient.floating && ambient.place.is_at_surface) {
     ambient.floating->waves = saved.waves;
     if (ambient.vessel) ambient.vessel->sloshing.now = saved.sloshing;
-    if (saved.met_B) ambient.floating->setPlane(*saved.met_B);
+    if (saved.plane_B) ambient.floating->setPlane(*saved.plane_B);
   }
   if (ambient.wake) *ambient.wake = saved.wake;
   ambient.counters = saved.counters;

@@ -222,7 +222,7 @@ void fields(V& v, AmbientState& s) {
     return f.position.allFinite() && f.velocity.allFinite() && f.change.allFinite();
   });
   fields(v, s.waves);
-  v.optional(s.met_B);
+  v.optional(s.plane_B);
   each(v, kAny, s.memory.load_W.torque, s.memory.load_W.force, s.memory.has_load);
   each(v, finiteNotNegative("growth of a resistance is negative or not finite: "),
        s.memory.growth.rotation, s.memory.growth.translation);

@@ -30,7 +30,7 @@ struct AmbientState {
   FlowMemory flow;
   FlightMemory memory;
   WaveMemory waves;
-  std::optional<SurfacePlane> met_B;  ///< lastPlane()
+  std::optional<SurfacePlane> plane_B;  ///< lastPlane()
   Wake wake;
   bool has_met_water = false;         ///< VesselState::is_known
   bool has_sunk = false;              ///< VesselState::has_sunk

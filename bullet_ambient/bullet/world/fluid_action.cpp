@@ -75,7 +75,7 @@ class Completion {
       : time_step_(time_step), complaints_(complaints) {}
 
   void add(Outcome kind, AmbientBody& ambient) {
-    if (kind == Outcome::kHeld) return release(ambient);
+    if (kind == Outcome::kDisabled) return release(ambient);
     const Twist before_W = ambient.reading ? velocityOf(*ambient.body) : Twist{};
     if (kind == Outcome::kFlown) {
       endFlight(ambient, time_step_);

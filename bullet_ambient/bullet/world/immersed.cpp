@@ -140,52 +140,52 @@ void checkHole(const AttachDef& def, const Vector3& place, const Vector3& normal
 Immersed::Immersed(AmbientBodies& bodies, const AmbientBody& ambient)
     : bodies_(bodies.weak_from_this()), handle_(ambient.handle) {}
 
-Immersed::Held Immersed::hold() const noexcept {
+Immersed::Access Immersed::lock() const noexcept {
   const auto handle = handle_.lock();
   return {bodies_.lock(), handle ? *handle : nullptr};
 }
 
-Immersed::Held Immersed::require(const char* function) const {
-  Held held = hold();
-  if (held.member) return held;
-  const bool is_closed = !held.bodies || held.bodies->is_closed;
+Immersed::Access Immersed::require(const char* function) const {
+  Access access = lock();
+  if (access.member) return access;
+  const bool is_closed = !access.bodies || access.bodies->is_closed;
   throw std::logic_error(std::string(function) +
                          (is_closed ? ": the Fluid of this Immersed was destroyed"
                                     : ": this Immersed was removed from its Fluid"));
 }
 
-bool Immersed::isValid() const noexcept { return hold().member; }
+bool Immersed::isValid() const noexcept { return lock().member; }
 
 void Immersed::setMedium(const Medium& medium) const {
-  const Held held = require("setMedium");
-  held.bodies->requireChangeable("setMedium");
-  if (changeMedium(*held.member, medium, *held.bodies)) wake(*held.member);
+  const Access access = require("setMedium");
+  access.bodies->requireChangeable("setMedium");
+  if (changeMedium(*access.member, medium, *access.bodies)) wake(*access.member);
 }
 
 void Immersed::setFluidBody(std::shared_ptr<const FluidBody> fluid_body,
                             const std::optional<FrameOffset>& fluid_frame) const {
-  const Held held = require("setFluidBody");
-  held.bodies->requireChangeable("setFluidBody");
-  changeFluidBody(*held.member, std::move(fluid_body), fluid_frame, *held.bodies);
-  wake(*held.member);
+  const Access access = require("setFluidBody");
+  access.bodies->requireChangeable("setFluidBody");
+  changeFluidBody(*access.member, std::move(fluid_body), fluid_frame, *access.bodies);
+  wake(*access.member);
 }
 
 void Immersed::setFactors(double added_mass, double loads) const {
-  const Held held = require("setFactors");
-  held.bodies->requireChangeable("setFactors");
-  AttachDef def = *held.member->def;
+  const Access access = require("setFactors");
+  access.bodies->requireChangeable("setFactors");
+  AttachDef def = *access.member->def;
   if (added_mass == def.added_mass_factor && loads == def.load_factor) return;
   def.added_mass_factor = added_mass;
   def.load_factor = loads;
   checkDef("setFactors: " + nameOf(def), def);
-  replaceDef(*held.member, std::move(def), *held.bodies);
-  wake(*held.member);
+  replaceDef(*access.member, std::move(def), *access.bodies);
+  wake(*access.member);
 }
 
 Medium Immersed::medium() const {
-  const Held held = require("medium");
-  Medium medium = held.member->medium;
-  medium.velocity += held.member->flow.change;
+  const Access access = require("medium");
+  Medium medium = access.member->medium;
+  medium.velocity += access.member->flow.change;
   return medium;
 }
 
@@ -196,51 +196,52 @@ std::shared_ptr<const FluidBody> Immersed::fluidBody() const {
 RegionId Immersed::region() const { return require("region").member->place.region; }
 
 Matrix6 Immersed::inertia() const {
-  const Held held = require("inertia");
-  return modelNow(*held.member, presentMotion(*held.member, *held.bodies)).inertia;
+  const Access access = require("inertia");
+  return modelNow(*access.member, presentMotion(*access.member, *access.bodies)).inertia;
 }
 
 double Immersed::kineticEnergy() const {
-  const Held held = require("kineticEnergy");
-  if (!held.member->body) placeLinksNow(held.bodies->trees.treeOf(*held.member));
-  return kineticEnergyNow(*held.member, presentMotion(*held.member, *held.bodies));
+  const Access access = require("kineticEnergy");
+  if (!access.member->body) placeLinksNow(access.bodies->trees.treeOf(*access.member));
+  return kineticEnergyNow(*access.member, presentMotion(*access.member, *access.bodies));
 }
 
 AmbientCounters Immersed::counters() const { return require("counters").member->counters; }
 
 void Immersed::readWrench(bool is_read) const {
-  const Held held = require("readWrench");
-  held.bodies->requireChangeable("readWrench");
-  AmbientBody& ambient = *held.member;
+  const Access access = require("readWrench");
+  access.bodies->requireChangeable("readWrench");
+  AmbientBody& ambient = *access.member;
   if (is_read == (ambient.reading != nullptr)) return;
   ambient.reading = is_read ? std::make_shared<FluidReading>() : nullptr;
   if (!is_read) return;
-  if (!held.member->body) placeLinksNow(held.bodies->trees.treeOf(*held.member));
-  ambient.reading->wrench = wrenchNow(ambient, presentMotion(*held.member, *held.bodies));
+  if (!access.member->body) placeLinksNow(access.bodies->trees.treeOf(*access.member));
+  ambient.reading->wrench = wrenchNow(ambient, presentMotion(*access.member, *access.bodies));
 }
 
 FluidWrench Immersed::wrench() const {
-  const Held held = require("wrench");
-  const AmbientBody& ambient = *held.member;
+  const Access access = require("wrench");
+  const AmbientBody& ambient = *access.member;
   if (!ambient.reading)
     throw std::logic_error("wrench: it is not read; call readWrench(true) before a step");
   return ambient.isInFluid() ? ambient.reading->wrench : FluidWrench{};
 }
 
 WetState Immersed::wet() const {
-  const Held held = require("wet");
-  return wetStateOf(*held.member, presentMotion(*held.member, *held.bodies), held.bodies->regions);
+  const Access access = require("wet");
+  return wetStateOf(*access.member, presentMotion(*access.member, *access.bodies),
+                    access.bodies->regions);
 }
 
 std::vector<HoldWater> Immersed::holds() const {
-  const Held held = require("holds");
-  return holdsOf(*held.member, presentMotion(*held.member, *held.bodies));
+  const Access access = require("holds");
+  return holdsOf(*access.member, presentMotion(*access.member, *access.bodies));
 }
 
 void Immersed::setWater(int hold, double volume) const {
-  const Held held = require("setWater");
-  held.bodies->requireChangeable("setWater");
-  AmbientBody& ambient = *held.member;
+  const Access access = require("setWater");
+  access.bodies->requireChangeable("setWater");
+  AmbientBody& ambient = *access.member;
   HoldState& state = holdOf("setWater", ambient, hold);
   checkWater("setWater: " + nameOf(*ambient.def), hold, volume,
              ambient.vessel->shape->holds[static_cast<std::size_t>(hold)].volume);
@@ -249,24 +250,24 @@ void Immersed::setWater(int hold, double volume) const {
   ambient.vessel->sloshing.now[static_cast<std::size_t>(hold)] = {};
   ambient.vessel->is_known = true;
   if (ambient.floating) ambient.floating->is_valid = false;
-  wake(*held.member);
+  wake(*access.member);
 }
 
 void Immersed::pump(int hold, double rate) const {
-  const Held held = require("pump");
-  held.bodies->requireChangeable("pump");
-  HoldState& state = holdOf("pump", *held.member, hold);
+  const Access access = require("pump");
+  access.bodies->requireChangeable("pump");
+  HoldState& state = holdOf("pump", *access.member, hold);
   if (!std::isfinite(rate))
     throw std::invalid_argument("pump: the rate [m^3/s] is " + std::to_string(rate) +
                                 ", must be finite");
   state.pump = rate;
-  wake(*held.member);
+  wake(*access.member);
 }
 
 void Immersed::setOpening(int hold, int opening, bool is_open) const {
-  const Held held = require("setOpening");
-  held.bodies->requireChangeable("setOpening");
-  const AmbientBody& ambient = *held.member;
+  const Access access = require("setOpening");
+  access.bodies->requireChangeable("setOpening");
+  const AmbientBody& ambient = *access.member;
   holdOf("setOpening", ambient, hold);
   const int found = findOpening(*ambient.vessel, hold, opening);
   if (found < 0)
@@ -274,13 +275,13 @@ void Immersed::setOpening(int hold, int opening, bool is_open) const {
                                 nameOf(*ambient.def) + " has no opening with the number " +
                                 std::to_string(opening));
   ambient.vessel->changes.is_shut[static_cast<std::size_t>(found)] = !is_open;
-  wake(*held.member);
+  wake(*access.member);
 }
 
 int Immersed::addOpening(int hold, const Vector3& place, const Vector3& normal, double area) const {
-  const Held held = require("addOpening");
-  held.bodies->requireChangeable("addOpening");
-  const AmbientBody& ambient = *held.member;
+  const Access access = require("addOpening");
+  access.bodies->requireChangeable("addOpening");
+  const AmbientBody& ambient = *access.member;
   holdOf("addOpening", ambient, hold);
   checkHole(*ambient.def, place, normal, area);
   VesselState& vessel = *ambient.vessel;
@@ -290,7 +291,7 @@ int Immersed::addOpening(int hold, const Vector3& place, const Vector3& normal, 
   hole.normal = normal.normalized();
   hole.area = area;
   addHole(hole, vessel);
-  wake(*held.member);
+  wake(*access.member);
   const auto& holes = vessel.changes.holes;
   const auto added = std::count_if(holes.begin(), holes.end(),
                                    [&](const AddedHole& other) { return other.hold == hold; });
@@ -299,23 +300,24 @@ int Immersed::addOpening(int hold, const Vector3& place, const Vector3& normal, 
 }
 
 void Immersed::applyImpulse(const Wrench& impulse) const {
-  const Held held = require("applyImpulse");
-  const AmbientTrees& trees = held.bodies->trees;
-  if (held.member->body) {
-    applyImpulseToBody(*held.member, impulse);
+  const Access access = require("applyImpulse");
+  const AmbientTrees& trees = access.bodies->trees;
+  if (access.member->body) {
+    applyImpulseToBody(*access.member, impulse);
   } else {
-    applyImpulseToLink(trees, trees.treeOf(*held.member), trees.linkOf(*held.member).link, impulse);
+    applyImpulseToLink(trees, trees.treeOf(*access.member), trees.linkOf(*access.member).link,
+                       impulse);
   }
-  wake(*held.member);
+  wake(*access.member);
 }
 
 bool Immersed::remove() const {
-  const Held held = hold();
-  if (!held.member) return false;
-  held.bodies->requireChangeable("remove");
-  if (held.member->body) return held.bodies->erase(*held.member->body);
-  AmbientTrees& trees = held.bodies->trees;
-  return trees.erase(*held.member->multi_body, trees.linkOf(*held.member).link);
+  const Access access = lock();
+  if (!access.member) return false;
+  access.bodies->requireChangeable("remove");
+  if (access.member->body) return access.bodies->erase(*access.member->body);
+  AmbientTrees& trees = access.bodies->trees;
+  return trees.erase(*access.member->multi_body, trees.linkOf(*access.member).link);
 }
 
 AMBIENT_END

@@ -200,19 +200,19 @@ const AmbientBody* WorldAttachment::attach(btCollisionObject& object, AttachRepo
   return attachLink(*collider->m_multiBody, collider->m_link, report);
 }
 
-std::vector<btCollisionObject*> WorldAttachment::meetAll(const btCollisionWorld& world) {
-  std::unordered_map<const btCollisionObject*, Met> before;
-  for (const Met& met : met_) before.emplace(met.object, met);
-  met_.clear();
+std::vector<btCollisionObject*> WorldAttachment::seeAll(const btCollisionWorld& world) {
+  std::unordered_map<const btCollisionObject*, Seen> before;
+  for (const Seen& seen : seen_) before.emplace(seen.object, seen);
+  seen_.clear();
   std::vector<btCollisionObject*> strangers;
   const btCollisionObjectArray& objects = world.getCollisionObjectArray();
   for (int i = 0; i < objects.size(); ++i) {
     if (const auto* collider = btMultiBodyLinkCollider::upcast(objects[i]))
       if (collider->m_multiBody) giveInstanceNumber(*collider->m_multiBody);
-    const Met met{objects[i], instanceOf(*objects[i])};
-    const auto known = before.find(met.object);
-    const bool is_known = known != before.end() && known->second.instance == met.instance;
-    met_.push_back(is_known ? known->second : met);
+    const Seen seen{objects[i], instanceOf(*objects[i])};
+    const auto known = before.find(seen.object);
+    const bool is_known = known != before.end() && known->second.instance == seen.instance;
+    seen_.push_back(is_known ? known->second : seen);
     strangers.push_back(is_known ? nullptr : objects[i]);
   }
   return strangers;
@@ -223,7 +223,7 @@ AttachReport WorldAttachment::attachNew(btCollisionWorld& world) {
   Tally tally;
   multibody_world_ = dynamic_cast<btMultiBodyDynamicsWorld*>(&world);
   if (multibody_world_) tally.gravity = multibody_world_->getGravity();
-  const std::vector<btCollisionObject*> strangers = meetAll(world);
+  const std::vector<btCollisionObject*> strangers = seeAll(world);
   count_ = static_cast<int>(std::count_if(strangers.begin(), strangers.end(), canJoin));
   number_ = 0;
   for (std::size_t i = 0; i < strangers.size(); ++i) {
@@ -252,10 +252,10 @@ AttachReport WorldAttachment::attachNew(btCollisionWorld& world) {
 // Removals swap the world's array, and a new body may stand where a destroyed one did.
 bool WorldAttachment::hasMetAll(const btCollisionWorld& world) const noexcept {
   const btCollisionObjectArray& objects = world.getCollisionObjectArray();
-  if (static_cast<std::size_t>(objects.size()) != met_.size()) return false;
+  if (static_cast<std::size_t>(objects.size()) != seen_.size()) return false;
   for (int i = 0; i < objects.size(); ++i) {
-    const Met& met = met_[static_cast<std::size_t>(i)];
-    if (met.object != objects[i] || met.instance != instanceOf(*objects[i])) return false;
+    const Seen& seen = seen_[static_cast<std::size_t>(i)];
+    if (seen.object != objects[i] || seen.instance != instanceOf(*objects[i])) return false;
   }
   return true;
 }

@@ -162,7 +162,7 @@ struct WrenchTotal {
 /// summed over all faces, as the quadratic map of the twist x in eq. (36). `even`: 6 x 21
 /// coefficients, column by column, for the products x_0 x_0, x_0 x_1 to x_5 x_5. No operation is
 /// fused.
-inline void addEvenPart(const double* even, const double (&x)[6], LoadSums& sums) {
+inline void addQuadraticPart(const double* even, const double (&x)[6], LoadSums& sums) {
   constexpr int kProducts = 21;
   double products[kProducts];
   for (int i = 0, next = 0; i < 6; ++i)

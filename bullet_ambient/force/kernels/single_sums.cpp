@@ -331,7 +331,7 @@ LoadSums sumWhereAttached(const FaceBlocks& faces, const SingleMotion& motion) {
   if (kLeeApart) {
     const float(&w)[3] = motion.angular, (&v)[3] = motion.linear;
     const double x[6] = {w[0], w[1], w[2], v[0], v[1], v[2]};
-    addEvenPart(faces.lee, x, sums);
+    addQuadraticPart(faces.lee, x, sums);
   }
   return sums;
 }

@@ -84,7 +84,7 @@ struct PublishedPressure {
   }
 };
 
-/// FormPressure without its lee, which is a quadratic form of the motion, addEvenPart().
+/// FormPressure without its lee, which is a quadratic form of the motion, addQuadraticPart().
 template <bool kSlender>
 struct WindwardFormPressure : PublishedPressure {
   static constexpr bool kIsSlender = kSlender;
@@ -114,8 +114,9 @@ struct FormPressure {
   }
 };
 
-/// Form law of eq. (43) to (43d) for wings. `kLee`: with the lee side, which addEvenPart() can sum
-/// for a whole body; `kSlender`: for wings that are slender, too; `kPart`: for one part of a body.
+/// Form law of eq. (43) to (43d) for wings. `kLee`: with the lee side, which addQuadraticPart() can
+/// sum for a whole body; `kSlender`: for wings that are slender, too; `kPart`: for one part of a
+/// body.
 template <bool kLee, bool kSlender, bool kPart = false>
 struct WingPressure {
   static constexpr bool kPressesLee = kLee;

@@ -46,8 +46,8 @@ WetVolume computeWetSphere(double radius, const Vector3& centre,
 /// Wrench of the hydrostatic pressure on the wet part about the frame's origin: rho g V s at the
 /// centre of buoyancy S/V, docs/theory.md eq. (53).
 inline Wrench hydrostaticWrench(const WetVolume& wet, const SurfacePlane& plane) noexcept {
-  const Vector3 pull = plane.density * plane.gravity * plane.normal;
-  return {wet.moment.cross(pull), wet.volume * pull};
+  const Vector3 specific_weight = plane.density * plane.gravity * plane.normal;
+  return {wet.moment.cross(specific_weight), wet.volume * specific_weight};
 }
 
 /// Energy of the buoyancy, rho g W [J].

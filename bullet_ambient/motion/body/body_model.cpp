@@ -25,7 +25,7 @@ double largestEigenvalue(const Eigen::Matrix3d& symmetric) {
 
 }  // namespace
 
-Vector6 EvenResponse::beyond(const Vector6& momentum, const Vector6& change) const {
+Vector6 IsotropicResponse::beyond(const Vector6& momentum, const Vector6& change) const {
   constexpr double kRounding = 1e-12;
   const Vector6 even = *this * momentum;
   Vector6 excess = even - change;
@@ -34,7 +34,8 @@ Vector6 EvenResponse::beyond(const Vector6& momentum, const Vector6& change) con
   return excess;
 }
 
-EvenResponse makeEvenResponse(const Matrix6& inverse_inertia, const Matrix3& dry_inertia) {
+IsotropicResponse makeIsotropicResponse(const Matrix6& inverse_inertia,
+                                        const Matrix3& dry_inertia) {
   const Cholesky<3> root(dry_inertia);
   AMBIENT_ASSERT(root.isPositive());
   const Matrix3 L = root.lower();
@@ -174,7 +175,7 @@ BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_fr
   AMBIENT_ASSERT(model.inverse_inertia.diagonal().minCoeff() > 0);
   AMBIENT_ASSERT(isSymmetric(model.inertia));
   AMBIENT_ASSERT(isSymmetric(model.inverse_inertia));
-  model.even_response = makeEvenResponse(model.inverse_inertia, mass.inertia);
+  model.isotropic_response = makeIsotropicResponse(model.inverse_inertia, mass.inertia);
   model.mass = mass.mass;
   model.displaced_mass = medium.density * displaced.volume;
   model.centre_of_volume = fluid_frame.rotation * displaced.centre + fluid_frame.translation;

@@ -53,7 +53,7 @@ struct RigidState {
 
 /// Response to a wrench with isotropic added mass: D' of docs/theory.md eq. (28b), in B. It is the
 /// response of the dry body with mass and moments of inertia scaled by one factor each.
-struct EvenResponse {
+struct IsotropicResponse {
   Matrix3 inverse_inertia{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  ///< [1/(kg m^2)]
   double inverse_mass = 1;                                   ///< [1/kg]
 
@@ -66,7 +66,7 @@ struct EvenResponse {
 
 /// Computes D'. Its blocks are the smallest that are no smaller than those of K^-1 in any
 /// direction. `dry_inertia`: rotational inertia of the body without fluid [kg m^2].
-EvenResponse makeEvenResponse(const Matrix6& inverse_inertia, const Matrix3& dry_inertia);
+IsotropicResponse makeIsotropicResponse(const Matrix6& inverse_inertia, const Matrix3& dry_inertia);
 
 /// Motion of the fluid along a body beside its mean velocity, docs/theory.md eq. (85) to (87). Held
 /// in the axes of the body over one step.
@@ -130,13 +130,13 @@ struct MassProperties {
 /// Parameters of the equations of motion for one body in one medium; constant until body or medium
 /// change. Frame: body frame B at the centre of mass.
 struct BodyModel {
-  Matrix6 inertia;                    ///< K = K_body + rho K_fluid, docs/theory.md eq. (3); SPD
-  Matrix6 inverse_inertia;            ///< K^-1
-  bool has_diagonal_inertia = false;  ///< K and K^-1 are diagonal: three planes of symmetry
-  EvenResponse even_response;         ///< isotropic response k' of eq. (28b)
-  double mass = 0;                    ///< mass of the body without fluid [kg]
-  double displaced_mass = 0;          ///< m_f = rho volume [kg]
-  Vector3 centre_of_volume;           ///< in B [m]
+  Matrix6 inertia;                       ///< K = K_body + rho K_fluid, docs/theory.md eq. (3); SPD
+  Matrix6 inverse_inertia;               ///< K^-1
+  bool has_diagonal_inertia = false;     ///< K and K^-1 are diagonal: three planes of symmetry
+  IsotropicResponse isotropic_response;  ///< isotropic response k' of eq. (28b)
+  double mass = 0;                       ///< mass of the body without fluid [kg]
+  double displaced_mass = 0;             ///< m_f = rho volume [kg]
+  Vector3 centre_of_volume;              ///< in B [m]
   std::shared_ptr<const SurfaceLoads> loads;     ///< null: no surface loads
   FrameOffset load_frame;                        ///< pose in B of the frame of the loads
   std::optional<WetPart> wet;                    ///< that the loads act on; none: all of the body

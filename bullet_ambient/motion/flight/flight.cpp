@@ -27,7 +27,7 @@ double energyOfPlace(const BodyModel& model, const Surroundings& surroundings,
   return of_water - force.dot(place.translation) - buoyancy.dot(arm);
 }
 
-double fallScale(const FlightTask& task) {
+double velocityScale(const FlightTask& task) {
   const BodyModel& model = task.model;
   const Surroundings& s = task.surroundings;
   const double pull = (s.applied.force / model.mass - s.ambient_acceleration).norm();
@@ -41,8 +41,8 @@ static_assert(kFlightsTogether == kFlightLanes);
 
 constexpr int kMaxRetries = 2;
 constexpr double kStepSafety = 0.9;
-constexpr double kFlowPrecision = 1e-6;  // precision of the flow over the tolerance, with loads
-constexpr double kAcceptance = 2;        // error over tolerance above which a step is repeated
+constexpr double kDriftPrecision = 1e-6;  // precision of the flow over the tolerance, with loads
+constexpr double kAcceptance = 2;         // error over tolerance above which a step is repeated
 
 int maxSubsteps(const FlightTask& task) {
   if (task.settings.max_substeps > 0) return task.settings.max_substeps;
@@ -97,7 +97,7 @@ class Leapfrog {
     const BodyModel& model = task.model;
     setModel(lanes_, i, model);
     setSurroundings(lanes_, i, task);
-    lanes_.precision[i] = model.loads ? kFlowPrecision * task.settings.tolerance : task.precision;
+    lanes_.precision[i] = model.loads ? kDriftPrecision * task.settings.tolerance : task.precision;
     const int most = maxSubsteps(task);
     AMBIENT_ASSERT(most > 0 && !(flight.body.memory.substep < 0));
     progress_[i] = {&flight, most,  substepsFor(task.duration, flight.body.memory.substep, most),
@@ -126,15 +126,15 @@ class Leapfrog {
   void advance(int substeps) {
     for (int i = 0; i < count_; ++i) {
       lanes_.active[i] = progress_[i].is_done ? 0 : 1;
-      lanes_.flow_time[i] = lanes_.kick_time[i] / 2;
+      lanes_.drift_time[i] = lanes_.kick_time[i] / 2;
     }
     if (lanes_.has_loads) kernel_.measure(lanes_);
-    kernel_.flow(lanes_);
+    kernel_.drift(lanes_);
     for (int substep = 1; substep <= substeps; ++substep) {
       kick();
       for (int i = 0; i < count_; ++i)
-        lanes_.flow_time[i] = lanes_.kick_time[i] / (substep < progress_[i].substeps ? 1 : 2);
-      kernel_.flow(lanes_);
+        lanes_.drift_time[i] = lanes_.kick_time[i] / (substep < progress_[i].substeps ? 1 : 2);
+      kernel_.drift(lanes_);
       for (int i = 0; i < count_; ++i)
         if (substep == progress_[i].substeps) lanes_.active[i] = 0;
     }
@@ -157,7 +157,8 @@ class Leapfrog {
   void kick() {
     kernel_.applyGravity(lanes_);
     if (lanes_.has_loads) {
-      evaluate(lanes_.twist_B, lanes_.guess_B, [](const StepProgress& p) { return !p.has_load; });
+      evaluate(lanes_.twist_B, lanes_.predicted_load_B,
+               [](const StepProgress& p) { return !p.has_load; });
       kernel_.sample(lanes_);
       evaluate(lanes_.sample_twist, lanes_.load_B, [](const StepProgress&) { return true; });
     }
@@ -205,10 +206,10 @@ class Leapfrog {
       result.state = stateOf(lanes_, i, result.state.position);
       result.memory = {wrenchOf(lanes_.load_W, i), progress.growth, progress.has_load,
                        std::min(next, 4 * h)};
-      const bool is_flow_coarse = lanes_.is_coarse[i] > 0;
-      result.count.coarse = is_flow_coarse || ratio > kAcceptance;
+      const bool is_drift_coarse = lanes_.is_coarse[i] > 0;
+      result.count.coarse = is_drift_coarse || ratio > kAcceptance;
       result.count.energy_removed = lanes_.energy_removed[i];
-      if (result.count.coarse) result.count.error = is_flow_coarse ? 1 : progress.error;
+      if (result.count.coarse) result.count.error = is_drift_coarse ? 1 : progress.error;
       progress.is_done = true;
       return;
     }
@@ -330,7 +331,7 @@ void setForces(BodyLanes& lanes, int body, const FlightTask& task) noexcept {
 
 void setSurroundings(FlightLanes& lanes, int body, const FlightTask& task) noexcept {
   setForces(lanes, body, task);
-  lanes.fall_scale[body] = fallScale(task);
+  lanes.velocity_scale[body] = velocityScale(task);
 }
 
 void setState(FlightLanes& lanes, int body, const BodyModel& model,

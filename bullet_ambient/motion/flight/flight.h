@@ -92,7 +92,7 @@ struct FlightTask {
 /// Norm in the metric of K of the motion after a fall by the body's own size [sqrt(J)]: second
 /// term in the denominator of docs/theory.md eq. (25), which relates velocity errors to the
 /// motion.
-double fallScale(const FlightTask& task);
+double velocityScale(const FlightTask& task);
 
 /// Computes the potential energy of docs/theory.md eq. (64) without T: `of_water`, energy of
 /// surface and waves, minus the work of constant forces on the way [J].

@@ -72,21 +72,21 @@ inline PairsOf<Real> passiveKick(const PairsOf<Real>& x, const PairsOf<Real>& at
   return select(shares.moves, all<Real>(1) / (1 + z) * shares.turned(x, angle), x);
 }
 
-/// Returns the error e of a kick, eq. (25). `surprise`: load that was not predicted. `fall_scale`
-/// avoids tiny substeps where the speed of a swing passes through 0.
-inline Lanes relativeError(const Pairs& x, const Pairs& surprise, const Lanes& duration,
-                           const Lanes& fall_scale) {
+/// Returns the error e of a kick, eq. (25). `load_error`: load that was not predicted.
+/// `velocity_scale` avoids tiny substeps where the speed of a swing passes through 0.
+inline Lanes relativeError(const Pairs& x, const Pairs& load_error, const Lanes& duration,
+                           const Lanes& velocity_scale) {
   const Lanes zero = Lanes{};
-  const Lanes change = duration * squareRoot(larger(inner(surprise, surprise), zero));
-  const Lanes scale = squareRoot(larger(inner(x, x), zero)) + fall_scale;
+  const Lanes change = duration * squareRoot(larger(inner(load_error, load_error), zero));
+  const Lanes scale = squareRoot(larger(inner(x, x), zero)) + velocity_scale;
   return scale > zero ? change / (scale > zero ? scale : all(1)) : zero;
 }
 
-/// Returns the extent m of a turn, docs/theory.md eq. (28a): the larger of |w| / spin and
+/// Returns the turn number m of a turn, docs/theory.md eq. (28a): the larger of |w| / spin and
 /// (|t| / |x|) / largest_change. `change`: pair of t; `motion`: pair of x.
 template <class Real>
-inline Real extentOf(const PairsOf<Real>& change, const PairsOf<Real>& motion, const Real& spin,
-                     const Real& largest_change) {
+inline Real turnNumberOf(const PairsOf<Real>& change, const PairsOf<Real>& motion, const Real& spin,
+                         const Real& largest_change) {
   const Real zero = Real{};
   const Real energy = inner(motion, motion);
   const MaskOf<Real> moves = energy > zero;
@@ -96,10 +96,10 @@ inline Real extentOf(const PairsOf<Real>& change, const PairsOf<Real>& motion, c
   return larger<Real>(part / largest_change, squareRoot(dot(w, w)) / spin);
 }
 
-/// Turning part t of eq. (28) over a step, in B, and its extent.
+/// Turning part t of eq. (28) over a step, in B, and its turn_number.
 struct Turnings {
   Spatials change;
-  Lanes extent;
+  Lanes turn_number;
 };
 
 /// Computes the turnings of free bodies explicitly. `motion`: relative to the flow; duration [s].
@@ -111,9 +111,9 @@ Turnings computeTurnings(const Matrices& inertia, const Matrices& inverse, const
                         cross(m.linear, x.angular)};  // eq. (2)
   Spatials change = duration * (inverse * wrench);
   change.linear = change.linear + duration * cross(x.angular, x.linear);
-  const Lanes extent =
-      extentOf<Lanes>({change, inertia * change}, motion, 0.5 / duration, all(0.45));
-  return {change, extent};
+  const Lanes turn_number =
+      turnNumberOf<Lanes>({change, inertia * change}, motion, 0.5 / duration, all(0.45));
+  return {change, turn_number};
 }
 
 }  // namespace

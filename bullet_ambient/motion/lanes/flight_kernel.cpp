@@ -3,8 +3,8 @@
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/instruction_set.h"
 #include "bullet_ambient/motion/lanes/body_kernel.h"
+#include "bullet_ambient/motion/lanes/drift_kernel.h"
 #include "bullet_ambient/motion/lanes/flight_lanes.h"
-#include "bullet_ambient/motion/lanes/flow_kernel.h"
 #include "bullet_ambient/motion/lanes/motion_lanes.h"
 #include "bullet_ambient/motion/lanes/spatial_lanes.h"
 
@@ -55,8 +55,8 @@ inline Vectors rotationVectors(const Orientations& q) {
   return (q.w < Lanes{} ? -2 * ratio : 2 * ratio) * q.u;
 }
 
-/// Implements FlightKernel::depart.
-inline void depart(DepartureLanes& bodies) noexcept {
+/// Implements FlightKernel::readStarts.
+inline void readStarts(StartLanes& bodies) noexcept {
   for (int at = 0; at < kFlightLanes; at += kWidth) {
     const Vectors rows[3] = {load(bodies.rotation, at), load(bodies.rotation + 3, at),
                              load(bodies.rotation + 6, at)};
@@ -79,8 +79,8 @@ inline Spatials withoutTraces(const Spatials& a, const Lanes& least) {
   return {withoutTraces(a.angular, least), withoutTraces(a.linear, least)};
 }
 
-/// Implements FlightKernel::arrive.
-inline void arrive(ArrivalLanes& bodies) noexcept {
+/// Implements FlightKernel::findEnds.
+inline void findEnds(EndLanes& bodies) noexcept {
   const Lanes per_duration = all(1 / bodies.duration), least = all(bodies.least);
   for (int at = 0; at < kFlightLanes; at += kWidth) {
     const Orientations q{load(bodies.orientation, at), load(bodies.orientation[3] + at)};
@@ -96,7 +96,7 @@ inline void arrive(ArrivalLanes& bodies) noexcept {
   }
 }
 
-/// Sets vectors to zero that are only the rounding of others, as EvenResponse::beyond() does.
+/// Sets vectors to zero that are only the rounding of others, as IsotropicResponse::beyond() does.
 inline Vectors withoutRounding(const Vectors& a, const Vectors& of) {
   constexpr double kRounding = 1e-12;
   const Mask is_rounding = dot(a, a) <= kRounding * kRounding * dot(of, of);
@@ -105,15 +105,15 @@ inline Vectors withoutRounding(const Vectors& a, const Vectors& of) {
 
 /// Returns k' - k of docs/theory.md eq. (28b): the response with isotropic added mass to a momentum
 /// K k, minus k.
-inline Spatials beyondEven(const RowLanes& push, int at, const Pairs& kick) {
+inline Spatials isotropicExcess(const RowLanes& push, int at, const Pairs& kick) {
   const Vectors& m = kick.momentum.angular;
   Lanes spin[3];
   for (int i = 0; i < 3; ++i) {
-    const FlightLane* row = push.even_inverse_inertia[i];
+    const FlightLane* row = push.isotropic_inverse_inertia[i];
     spin[i] = load(row[0] + at) * m.x + load(row[1] + at) * m.y + load(row[2] + at) * m.z;
   }
   const Spatials even{{spin[0], spin[1], spin[2]},
-                      load(push.even_inverse_mass + at) * kick.momentum.linear};
+                      load(push.isotropic_inverse_mass + at) * kick.momentum.linear};
   const Spatials excess = even - kick.twist;
   return {withoutRounding(excess.angular, even.angular),
           withoutRounding(excess.linear, even.linear)};
@@ -137,12 +137,12 @@ void settleInStep(RowLanes& bodies, int at, const Pairs& x, const Spatials& wren
   kick = select(settles, settled.twist - x.twist, kick);
   push = select(settles, duration * met, push);
   turning.change = select(settles, noWrench<Lanes>().twist, turning.change);
-  turning.extent = settles ? Lanes{} : turning.extent;
+  turning.turn_number = settles ? Lanes{} : turning.turn_number;
 }
 
-/// Implements FlightKernel::push for the lanes from `at` on.
+/// Implements FlightKernel::predictRowVelocity for the lanes from `at` on.
 template <class Matrices>
-void push(RowLanes& bodies, int at, const Mask&) {
+void predictRowVelocity(RowLanes& bodies, int at, const Mask&) {
   const Matrices inertia(bodies.inertia, at), inverse(bodies.inverse_inertia, at);
   const Orientations q = orientationOf(bodies, at);
   const Lanes duration = load(bodies.kick_time + at);
@@ -168,20 +168,20 @@ void push(RowLanes& bodies, int at, const Mask&) {
   Spatials push = inertia * kick;
   if (anyOf(load(bodies.settling + at) > Lanes{}))
     settleInStep<Matrices>(bodies, at, motion, wrench, kick, push, turning);
-  const Lanes zero = Lanes{}, rest = 1 - turning.extent;
+  const Lanes zero = Lanes{}, rest = 1 - turning.turn_number;
   const Lanes share = rest < zero ? zero : (rest > all(0.5) ? all(0.5) : rest);
   const Spatials turning_W = toWorld(q, share * turning.change);
   Spatials change_W = turning_W + toWorld(q, kick);
   change_W.linear = change_W.linear + duration * load(bodies.acceleration_W, at);
   store6(bodies.change_W, at, change_W);
   store6(bodies.turning_W, at, turning_W);
-  store6(bodies.isotropic_excess_W, at, toWorld(q, beyondEven(bodies, at, {kick, push})));
-  store(bodies.extent + at, turning.extent);
+  store6(bodies.isotropic_excess_W, at, toWorld(q, isotropicExcess(bodies, at, {kick, push})));
+  store(bodies.turn_number + at, turning.turn_number);
 }
 
-/// Implements FlightKernel::keep for the lanes from `at` on.
+/// Implements FlightKernel::conserve for the lanes from `at` on.
 template <class Matrices>
-void keep(RowLanes& bodies, int at, const Mask&) {
+void conserve(RowLanes& bodies, int at, const Mask&) {
   const Matrices inertia(bodies.inertia, at), inverse(bodies.inverse_inertia, at);
   const Orientations q = orientationOf(bodies, at);
   const Spatials x = toBody(q, load6(bodies.velocity_W, at));
@@ -191,16 +191,16 @@ void keep(RowLanes& bodies, int at, const Mask&) {
   const Pairs kept_pair{kept, inertia * kept};
   store6(bodies.momentum_W, at, toWorld(q, kept_pair.momentum));
   const Lanes duration = load(bodies.kick_time + at);
-  store(bodies.moved_extent + at,
-        computeTurnings(inertia, inverse, {x, inertia * x}, duration).extent);
+  store(bodies.moved_turn_number + at,
+        computeTurnings(inertia, inverse, {x, inertia * x}, duration).turn_number);
   const Lanes on_share = 2 * dot(share, inertia * by_rows);
   const Lanes taken = on_share < Lanes{} ? on_share : Lanes{};
   store(bodies.twice_energy + at, inner(kept_pair, kept_pair) + taken);
 }
 
-/// Implements FlightKernel::carry for the lanes from `at` on.
+/// Implements FlightKernel::transport for the lanes from `at` on.
 template <class Matrices>
-void carry(RowLanes& bodies, int at, const Mask&) {
+void transport(RowLanes& bodies, int at, const Mask&) {
   const Orientations q = orientationOf(bodies, at);
   Spatials m = load6(bodies.momentum_W, at);
   m.angular = m.angular - cross(load(bodies.way_W, at), m.linear);
@@ -231,13 +231,13 @@ void applyGravity(FlightLanes& bodies, int at, const Mask& active) {
     }
   }
   const Pairs fall = 0.5 * load(bodies.kick_time + at) * Pairs{inverse * wrench, wrench};
-  store6(bodies.fall_twist, at, fall.twist);
-  store6(bodies.fall_momentum, at, fall.momentum);
+  store6(bodies.gravity_twist, at, fall.twist);
+  store6(bodies.gravity_momentum, at, fall.momentum);
   // Bodies with a resistance fall in sample() and kick().
   const Mask falls = bodies.has_resistance ? active & ~viscousOf(bodies, at) : active;
   setMotion(bodies, at, falls, motionOf(bodies, at) + fall);
   if (!bodies.has_loads) return;
-  store6(bodies.guess_B, at, toBody(q, load6(bodies.load_W, at)));
+  store6(bodies.predicted_load_B, at, toBody(q, load6(bodies.load_W, at)));
 }
 
 template <class Matrices>
@@ -250,7 +250,7 @@ void kick(FlightLanes& bodies, int at, const Mask& active) {
   Pairs x = motionOf(bodies, at);
   if (bodies.has_loads)
     x = underLoad<Matrices>(bodies, at, active, x, load(bodies.kick_time + at), true);
-  Pairs fallen = x + Pairs{load6(bodies.fall_twist, at), load6(bodies.fall_momentum, at)};
+  Pairs fallen = x + Pairs{load6(bodies.gravity_twist, at), load6(bodies.gravity_momentum, at)};
   if (bodies.has_resistance) fallen = select(viscousOf(bodies, at), x, fallen);
   setMotion(bodies, at, active, fallen);
 }
@@ -310,16 +310,16 @@ void forAll(AnyLanes& bodies) noexcept {
 }  // namespace
 
 const FlightKernel AMBIENT_KERNEL(kFlightKernel){
-    depart,
-    arrive,
+    readStarts,
+    findEnds,
     forAll<flow<DiagonalMatrices>, flow<FullMatrices>>,
     forAll<applyGravity<DiagonalMatrices>, applyGravity<FullMatrices>>,
     forAll<sample<DiagonalMatrices>, sample<FullMatrices>>,
     forAll<kick<DiagonalMatrices>, kick<FullMatrices>>,
     forAll<measureEnergy, measureEnergy>,
     forAll<withinEnergy, withinEnergy>,
-    forAll<push<DiagonalMatrices>, push<FullMatrices>>,
-    forAll<keep<DiagonalMatrices>, keep<FullMatrices>>,
-    forAll<carry<DiagonalMatrices>, carry<FullMatrices>>};
+    forAll<predictRowVelocity<DiagonalMatrices>, predictRowVelocity<FullMatrices>>,
+    forAll<conserve<DiagonalMatrices>, conserve<FullMatrices>>,
+    forAll<transport<DiagonalMatrices>, transport<FullMatrices>>};
 
 }  // namespace ambient

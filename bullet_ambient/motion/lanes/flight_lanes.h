@@ -58,26 +58,26 @@ struct alignas(64) BodyLanes {
 
 /// Input and output of the kernels of free flight.
 struct alignas(64) FlightLanes : BodyLanes {
-  FlightLane fall_scale;  ///< result of fallScale()
-  FlightLane precision;   ///< largest error of flow(), relative to the motion [1]
+  FlightLane velocity_scale;  ///< result of velocityScale()
+  FlightLane precision;       ///< largest error of flow(), relative to the motion [1]
 
   FlightLane energy;          ///< kinetic and potential energy at the last measure(), eq. (25a) [J]
-  FlightLane flow_time;       ///< duration of the next flow [s]
+  FlightLane drift_time;      ///< duration of the next flow [s]
   FlightLane is_coarse;       ///< flow() sets 1 if it did not reach its precision
   FlightLane energy_removed;  ///< flow() and bound() add the energy they remove [J]
 
   // Within a kick, in which load_B is the load at the sampled twist.
-  FlightLane load_W[6];         ///< surface load of the last kick
-  FlightLane guess_B[6];        ///< load by which sample() predicts the middle of the kick
-  FlightLane fall_twist[6];     ///< change of twist in half the kick by all but surface loads
-  FlightLane fall_momentum[6];  ///< change of momentum belonging to it
+  FlightLane load_W[6];            ///< surface load of the last kick
+  FlightLane predicted_load_B[6];  ///< load by which sample() predicts the middle of the kick
+  FlightLane gravity_twist[6];     ///< change of twist in half the kick by all but surface loads
+  FlightLane gravity_momentum[6];  ///< change of momentum belonging to it
   FlightLane sample_twist[6];
   FlightLane sample_momentum[6];
   FlightLane error;  ///< error e of the kick, docs/theory.md eq. (25)
 };
 
-/// Input and output of depart(): poses and velocities of a world, converted to body axes.
-struct alignas(64) DepartureLanes {
+/// Input and output of readStarts(): poses and velocities of a world, converted to body axes.
+struct alignas(64) StartLanes {
   FlightLane rotation[9];  ///< B to W, row by row; orthogonal up to its rounding
   FlightLane twist_W[6];
 
@@ -85,8 +85,8 @@ struct alignas(64) DepartureLanes {
   FlightLane twist_B[6];      ///< result
 };
 
-/// Input and output of arrive(): poses at start and end, and velocities in world axes.
-struct alignas(64) ArrivalLanes {
+/// Input and output of findEnds(): poses at start and end, and velocities in world axes.
+struct alignas(64) EndLanes {
   FlightLane start_orientation[4], start_position[3];
   FlightLane orientation[4], position[3], twist_B[6];
   double duration;  ///< > 0
@@ -99,21 +99,22 @@ struct alignas(64) ArrivalLanes {
 
 struct RowLanes;
 
-/// Kernels of one instruction set. depart() and arrive() compute all lanes, others
+/// Kernels of one instruction set. readStarts() and findEnds() compute all lanes, others
 /// only active bodies unless their comment says otherwise.
 struct FlightKernel {
-  void (*depart)(DepartureLanes&) noexcept;
-  void (*arrive)(ArrivalLanes&) noexcept;
+  void (*readStarts)(StartLanes&) noexcept;
+  void (*findEnds)(EndLanes&) noexcept;
 
-  /// Moves bodies without loads over flow_time, eq. (22), by power series in time. Energy and
+  /// Moves bodies without loads over drift_time, eq. (22), by power series in time. Energy and
   /// world momenta are conserved up to `precision`; the energy never grows. A body that turns by
   /// more than about 500 rad makes the rest of the way in one stride that keeps the world momenta;
   /// is_coarse is set.
-  void (*flow)(FlightLanes&) noexcept;
+  void (*drift)(FlightLanes&) noexcept;
   /// Applies the first half of the kick by gravity, buoyancy and other forces; to a body with a
-  /// resistance sample() and kick() do. Sets guess_B to load_W in B.
+  /// resistance sample() and kick() do. Sets predicted_load_B to load_W in B.
   void (*applyGravity)(FlightLanes&) noexcept;
-  /// Predicts the motion in the middle of the kick from guess_B: sample_twist, sample_momentum.
+  /// Predicts the motion in the middle of the kick from predicted_load_B: sample_twist,
+  /// sample_momentum.
   void (*sample)(FlightLanes&) noexcept;
   /// Applies load_B over the whole kick, eq. (23), then the second half of applyGravity(); to a
   /// body with a resistance all of it by eq. (122). Sets error and load_W.
@@ -127,41 +128,43 @@ struct FlightKernel {
   // For bodies that constraint rows may move; for all lanes of a register with an active body.
 
   /// Computes the change of velocity that rows are solved against, eq. (28).
-  void (*push)(RowLanes&) noexcept;
+  void (*predictRowVelocity)(RowLanes&) noexcept;
   /// Computes what a body keeps that rows have moved: momentum and energy, eq. (31), (31a).
-  void (*keep)(RowLanes&) noexcept;
+  void (*conserve)(RowLanes&) noexcept;
   /// Computes the twist from the kept momentum at the end of the step, eq. (31).
-  void (*carry)(RowLanes&) noexcept;
+  void (*transport)(RowLanes&) noexcept;
 };
 
 /// No operation is fused, and lanes are independent: the bits of a body do not depend on the
 /// instruction set or on the bodies in other lanes.
 extern const FlightKernel kFlightKernelBaseline, kFlightKernelAvx2, kFlightKernelAvx512;
 
-/// Bodies that constraint rows may move, docs/theory.md section 7: input and output of push(),
-/// keep() and carry(), one after the other. Twists relative to the flow; momenta about the centre
-/// of mass.
+/// Bodies that constraint rows may move, docs/theory.md section 7: input and output of
+/// predictRowVelocity(), conserve() and transport(), one after the other. Twists relative to the
+/// flow; momenta about the centre of mass.
 struct alignas(64) RowLanes : BodyLanes {
-  // Input of push(), with orientations and twist_B at the start of the step, and load_B there.
-  FlightLane acceleration_W[3];           ///< acceleration of the flow [m/s^2]
-  FlightLane even_inverse_inertia[3][3];  ///< D' of eq. (28b), in B [1/(kg m^2)]
-  FlightLane even_inverse_mass;           ///< [1/kg]
+  // Input of predictRowVelocity(), with orientations and twist_B at the start of the step, and
+  // load_B there.
+  FlightLane acceleration_W[3];                ///< acceleration of the flow [m/s^2]
+  FlightLane isotropic_inverse_inertia[3][3];  ///< D' of eq. (28b), in B [1/(kg m^2)]
+  FlightLane isotropic_inverse_mass;           ///< [1/kg]
 
-  // Results of push(), see RowVelocity.
+  // Results of predictRowVelocity(), see RowVelocity.
   FlightLane change_W[6];
-  FlightLane turning_W[6];  ///< X, input of keep(), too
+  FlightLane turning_W[6];  ///< X, input of conserve(), too
   FlightLane isotropic_excess_W[6];
-  FlightLane extent;
+  FlightLane turn_number;
 
-  // Input of keep(), with orientations at the start of the step.
+  // Input of conserve(), with orientations at the start of the step.
   FlightLane velocity_W[6];  ///< xi of eq. (31)
   FlightLane by_rows_W[6];   ///< d
 
-  // Results of keep().
-  FlightLane momentum_W[6];  ///< P of eq. (31) at the start; input of carry(), with orientations at
-                             ///< the end of the step and way_W, which sets twist_B and momentum_B
-  FlightLane moved_extent;   ///< m of eq. (28a) for xi
-  FlightLane twice_energy;   ///< 2 E of eq. (31a) [J]
+  // Results of conserve().
+  FlightLane
+      momentum_W[6];  ///< P of eq. (31) at the start; input of transport(), with orientations at
+                      ///< the end of the step and way_W, which sets twist_B and momentum_B
+  FlightLane moved_turn_number;  ///< m of eq. (28a) for xi
+  FlightLane twice_energy;       ///< 2 E of eq. (31a) [J]
 };
 
 }  // namespace ambient

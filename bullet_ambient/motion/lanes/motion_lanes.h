@@ -75,17 +75,17 @@ Lanes settlingRate(const BodyLanes& bodies, int at, const Pairs& x) {
   return is_met ? drag / (is_met ? energy : all(1)) : zero;
 }
 
-/// Predicts the motion x in the middle of a kick from guess_B: sample_twist, sample_momentum.
-/// `duration` [s]: half of the kick. Bodies with a resistance fall on the way.
+/// Predicts the motion x in the middle of a kick from predicted_load_B: sample_twist,
+/// sample_momentum. `duration` [s]: half of the kick. Bodies with a resistance fall on the way.
 template <class Matrices>
 void sampleLoad(FlightLanes& bodies, int at, const Pairs& x, const Lanes& duration, bool falls) {
-  const Spatials guess = load6(bodies.guess_B, at);
+  const Spatials predicted = load6(bodies.predicted_load_B, at);
   const Matrices inverse(bodies.inverse_inertia, at);
-  const Pairs response{inverse * guess, guess};
+  const Pairs response{inverse * predicted, predicted};
   const Pairs sample = whereViscous(
       bodies, at, falls, [&] { return passiveKick(x, x, response, duration); },
       [&] {
-        const Pairs fall{load6(bodies.fall_twist, at), load6(bodies.fall_momentum, at)};
+        const Pairs fall{load6(bodies.gravity_twist, at), load6(bodies.gravity_momentum, at)};
         return withResistance<Matrices>(bodies, at, [&](const auto& terms) {
           return viscousSample<Lanes>(x, response, fall, terms, 2 * duration);
         });
@@ -102,11 +102,11 @@ Pairs underLoad(FlightLanes& bodies, int at, const Mask& active, const Pairs& x,
                 const Lanes& duration, bool falls) {
   const Matrices inverse(bodies.inverse_inertia, at);
   const Spatials load_B = load6(bodies.load_B, at);
-  const Spatials surprise = load_B - load6(bodies.guess_B, at);
+  const Spatials load_error = load_B - load6(bodies.predicted_load_B, at);
   const Lanes time = load(bodies.kick_time + at);
   const Pairs sampled{load6(bodies.sample_twist, at), load6(bodies.sample_momentum, at)};
   Lanes error =
-      relativeError(x, {inverse * surprise, surprise}, time, load(bodies.fall_scale + at));
+      relativeError(x, {inverse * load_error, load_error}, time, load(bodies.velocity_scale + at));
   if (bodies.has_resistance)
     error = error / (1 + time * settlingRate<Matrices>(bodies, at, sampled));
   store(bodies.error + at, error);
@@ -116,7 +116,7 @@ Pairs underLoad(FlightLanes& bodies, int at, const Mask& active, const Pairs& x,
   return whereViscous(
       bodies, at, falls, [&] { return passiveKick(x, sampled, response, duration); },
       [&] {
-        const Pairs fall{load6(bodies.fall_twist, at), load6(bodies.fall_momentum, at)};
+        const Pairs fall{load6(bodies.gravity_twist, at), load6(bodies.gravity_momentum, at)};
         return withResistance<Matrices>(bodies, at, [&](const auto& terms) {
           return viscousKick<Lanes>(x, sampled, response, fall, terms, duration);
         });

@@ -21,7 +21,7 @@ struct PassageOf {
   Real draught, cover;                     ///< MeanDepths [m]
   Real gravity;                            ///< [m/s^2], >= 0
   Real duration;                           ///< [s], > 0
-  Real fall_scale = {};                    ///< second term of the denominator of eq. (25) [sqrt(J)]
+  Real velocity_scale = {};                ///< second term of the denominator of eq. (25) [sqrt(J)]
 };
 
 /// Returns theta sigma of eq. (67), the share of the momentum that goes into spray, in [-1, 1].
@@ -80,7 +80,7 @@ struct PassedOf {
 template <class Real>
 inline Real passageError(const PassageOf<Real>& p, const PassageWorks<Real>& works,
                          const Real& spray_share, const Real& twice_energy) {
-  const Real norm = squareRoot(twice_energy), scale = norm * (norm + p.fall_scale);
+  const Real norm = squareRoot(twice_energy), scale = norm * (norm + p.velocity_scale);
   const Real missed = (1 - spray_share) * (works.of_change - works.of_gradient);
   const MaskOf<Real> moves = scale > Real{};
   return moves ? larger<Real>(missed, -missed) / (moves ? scale : all<Real>(1)) : Real{};

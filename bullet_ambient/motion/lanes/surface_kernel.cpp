@@ -31,15 +31,15 @@ void computeStand(StandLanes& stand, int at) {
   store(stand.is_indefinite + at, is_fine ? Lanes{} : all(1));
   Waterplanes section{load(stand.area + at), load(stand.centroid, at), {}};
   for (int i = 0; i < 6; ++i) section.spread[i] = load(stand.spread[i] + at);
-  const Lanes pull = load(stand.pull + at);
+  const Lanes specific_weight = load(stand.specific_weight + at);
   Modes modes;
-  setRestoring(section, load(stand.moment, at), load(stand.normal, at), pull, modes);
+  setRestoring(section, load(stand.moment, at), load(stand.normal, at), specific_weight, modes);
   setWaves({section.area, load(stand.volume + at), load(stand.heave_inertia + at),
-            load(stand.damping + at), pull, load(stand.gravity + at)},
+            load(stand.damping + at), specific_weight, load(stand.gravity + at)},
            modes);
   forEachNumber(stand.modes, modes,
                 [&](FlightLane& to, const Lanes& from) { store(to + at, from); });
-  store(stand.swing + at, squareRoot(swingSquared(modes, inertia)));
+  store(stand.frequency + at, squareRoot(frequencySquared(modes, inertia)));
 }
 
 /// Returns the present twists and momenta.
@@ -66,7 +66,8 @@ void pass(SurfaceLanes& bodies, int at, const Mask& active) {
   const PassedOf<Lanes> passed = passSurface(
       {before, after, inverse_after, load6(bodies.gradient, at), load(bodies.stand.normal, at),
        load(bodies.centre_of_buoyancy, at), load(bodies.draught + at), load(bodies.cover + at),
-       load(bodies.stand.gravity + at), load(flight.flow_time + at), load(flight.fall_scale + at)},
+       load(bodies.stand.gravity + at), load(flight.drift_time + at),
+       load(flight.velocity_scale + at)},
       load6(flight.twist_B, at));
   setTwist(flight, at, active, passed.twist);
   store(bodies.passage_error + at, passed.error);
@@ -85,12 +86,12 @@ Spatials wrenchAt(const SurfaceLanes& bodies, int at) {
   const FlightLanes& flight = bodies.flight;
   const StandLanes& stand = bodies.stand;
   const Spatials dry = externalWrench(flight, at, orientationOf(flight, at));
-  const Vectors up = load(stand.pull + at) * load(stand.normal, at);
+  const Vectors up = load(stand.specific_weight + at) * load(stand.normal, at);
   return {dry.angular + cross(load(stand.moment, at), up),
           dry.linear + load(stand.volume + at) * up};
 }
 
-void fall(SurfaceLanes& bodies, int at, const Mask& active) {
+void kickByGravity(SurfaceLanes& bodies, int at, const Mask& active) {
   FlightLanes& flight = bodies.flight;
   const FullMatrices inertia(flight.inertia, at);
   const Spatials wrench = wrenchAt(bodies, at);
@@ -112,7 +113,7 @@ void exchangeWithWaves(SurfaceLanes& bodies, int at, const Mask& active) {
   WavesOf<Lanes> waves;
   forEachNumber(waves, bodies.waves,
                 [&](Lanes& to, const FlightLane& from) { to = load(from + at); });
-  meetModes(modes, waves);
+  projectOnModes(modes, waves);
   const Spatials x =
       exchangeWaves(modes, FullMatrices(bodies.flight.inverse_inertia, at),
                     halfKick(bodies.flight, at), load6(bodies.flight.twist_B, at), waves);
@@ -133,7 +134,7 @@ void keepLoad(SurfaceLanes& bodies, int at, const Mask& active) {
 
 void predictLoad(SurfaceLanes& bodies, int at, const Mask&) {
   FlightLanes& flight = bodies.flight;
-  store6(flight.guess_B, at, toBody(orientationOf(flight, at), load6(flight.load_W, at)));
+  store6(flight.predicted_load_B, at, toBody(orientationOf(flight, at), load6(flight.load_W, at)));
   const Lanes time = halfKick(flight, at);
   const Pairs x = underResistance(flight, at, motionOf(flight, at), time);
   sampleLoad<FullMatrices>(flight, at, x, time, false);
@@ -151,7 +152,7 @@ Spatials windAt(const SurfaceLanes& bodies, int at) {
   return {zeroVectors(), orientationOf(bodies.flight, at).toBody(load(bodies.wind_W, at))};
 }
 
-void meetWind(SurfaceLanes& bodies, int at, const Mask&) {
+void sampleWind(SurfaceLanes& bodies, int at, const Mask&) {
   store6(bodies.flight.sample_twist, at, load6(bodies.flight.twist_B, at) + windAt(bodies, at));
 }
 
@@ -170,8 +171,9 @@ void measure(SurfaceLanes& bodies, int at, const Mask&) {
   const Vectors buoyancy = load(flight.buoyancy_W, at);
   const Vectors way = load(flight.way_W, at);
   const Vectors arm = way + orientationOf(flight, at).toWorld(load(flight.centre_of_volume_B, at));
-  const Lanes of_water = load(bodies.stand.pull + at) * load(bodies.stand.depth_integral + at) +
-                         load(bodies.waves.heave_energy + at) + load(bodies.waves.tilt_energy + at);
+  const Lanes of_water =
+      load(bodies.stand.specific_weight + at) * load(bodies.stand.depth_integral + at) +
+      load(bodies.waves.heave_energy + at) + load(bodies.waves.tilt_energy + at);
   store(bodies.kinetic2 + at, inner(x, x));
   store(bodies.potential + at, of_water - dot(load(flight.force_W, at), way) - dot(buoyancy, arm));
 }
@@ -195,12 +197,12 @@ void computeStands(StandLanes& stand) noexcept {
 const SurfaceKernel AMBIENT_KERNEL(kSurfaceKernel){computeStands,
                                                    forAll<see>,
                                                    forAll<pass>,
-                                                   forAll<fall>,
+                                                   forAll<kickByGravity>,
                                                    forAll<exchangeWithWaves>,
                                                    forAll<keepLoad>,
                                                    forAll<predictLoad>,
                                                    forAll<takeLoad>,
-                                                   forAll<meetWind>,
+                                                   forAll<sampleWind>,
                                                    forAll<takeWind>,
                                                    forAll<measure>};
 

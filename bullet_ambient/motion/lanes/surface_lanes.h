@@ -84,7 +84,7 @@ struct alignas(64) StandLanes {
   // Input.
   FlightLane normal[3], height;           ///< plane of the surface: s and h of docs/theory.md
   FlightLane gravity;                     ///< SurfacePlane::gravity
-  FlightLane pull;                        ///< SurfacePlane::density times gravity
+  FlightLane specific_weight;             ///< SurfacePlane::density times gravity
   FlightLane volume, moment[3];           ///< WetVolume
   FlightLane depth_integral;              ///< WetVolume
   FlightLane area, centroid[3];           ///< Waterplane
@@ -97,7 +97,7 @@ struct alignas(64) StandLanes {
   FlightLane inverse[kSymmetricEntries];  ///< K^-1
   FlightLane is_indefinite;               ///< 1: K less `least` is not positive definite
   FloatingModesOf<FlightLane> modes;
-  FlightLane swing;  ///< largest natural frequency [1/s]
+  FlightLane frequency;  ///< largest natural frequency [1/s]
 };
 
 /// Bodies in flight near a surface. `flight` holds pose, motion, forces, loads, and the inertia of
@@ -107,7 +107,7 @@ struct alignas(64) SurfaceLanes {
   StandLanes stand;
 
   FlightLane normal_W[3], height_W;  ///< plane of the surface at the start of the step, in W
-  FlightLane is_stiff;               ///< 1: fall() includes the stiffness of buoyancy
+  FlightLane is_stiff;               ///< 1: kickByGravity() includes the stiffness of buoyancy
   FlightLane wind_W[3];  ///< velocity of the water minus that of the fluid above, in W [m/s]
 
   FlightLane gradient[6];     ///< F_K of docs/theory.md eq. (66) at the start of the flow
@@ -123,28 +123,29 @@ struct alignas(64) SurfaceLanes {
 /// Kernels of one instruction set; all sets give the same bits, see FlightKernel. A kick by one of
 /// them lasts half of flight.kick_time.
 struct SurfaceKernel {
-  /// Computes K^-1, restoring modes, waves and swing of the bodies that are active in the stand.
+  /// Computes K^-1, restoring modes, waves and frequencies of the bodies that are active in the
+  /// stand.
   void (*stand)(StandLanes&) noexcept;
   /// Sets normal and height of the stand to the plane of the surface in B at the present pose.
   void (*see)(SurfaceLanes&) noexcept;
   /// Changes the inertia from that of the flight to that of the stand, and the twist by the passage
-  /// of the surface over flow_time; eq. (66) to (68b).
+  /// of the surface over drift_time; eq. (66) to (68b).
   void (*pass)(SurfaceLanes&) noexcept;
   /// Applies weight, applied forces and buoyancy for half a kick. Sets flight.momentum_B.
-  void (*fall)(SurfaceLanes&) noexcept;
+  void (*kickByGravity)(SurfaceLanes&) noexcept;
   /// Projects the states of the waves on the modes of the stand, eq. (72), and applies the waves
   /// for half a kick, eq. (71).
   void (*exchangeWaves)(SurfaceLanes&) noexcept;
   /// Applies the load of the last kick, flight.load_W; eq. (23).
   void (*keepLoad)(SurfaceLanes&) noexcept;
   /// Predicts the motion in the middle of the kick from the last load: sets flight.sample_twist and
-  /// guess_B.
+  /// predicted_load_B.
   void (*sampleLoad)(SurfaceLanes&) noexcept;
   /// Applies flight.load_B, evaluated at flight.sample_twist; sets load_W and error; eq. (23) to
   /// (25).
   void (*takeLoad)(SurfaceLanes&) noexcept;
   /// Sets flight.sample_twist to the twist relative to the fluid above.
-  void (*meetWind)(SurfaceLanes&) noexcept;
+  void (*sampleWind)(SurfaceLanes&) noexcept;
   /// Applies flight.load_B, the load of the fluid above at flight.sample_twist.
   void (*takeWind)(SurfaceLanes&) noexcept;
   /// Sets kinetic2 and potential.

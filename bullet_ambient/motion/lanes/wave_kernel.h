@@ -67,35 +67,36 @@ inline Vectors principalAxis(const Waterplanes& section, const Vectors& s) {
 }
 
 /// Sets motions, stiffness and second moments, to zero without a waterplane. `moment`: first moment
-/// S of the wet volume; `s`: normal of the surface; `pull`: rho g.
+/// S of the wet volume; `s`: normal of the surface; `specific_weight`: rho g.
 inline void setRestoring(const Waterplanes& section, const Vectors& moment, const Vectors& s,
-                         const Lanes& pull, Modes& modes) {
+                         const Lanes& specific_weight, Modes& modes) {
   const Lanes zero = Lanes{};
-  const Mask floats = (section.area > zero) & (pull > zero);
+  const Mask floats = (section.area > zero) & (specific_weight > zero);
   const Vectors none = zeroVectors(), axis = principalAxis(section, s);
   const Vectors axes[2] = {axis, cross(s, axis)};
   modes.heave = select(floats, Spatials{cross(section.centroid, s), s}, Spatials{none, none});
-  modes.stiffness[0] = floats ? pull * section.area : zero;
+  modes.stiffness[0] = floats ? specific_weight * section.area : zero;
   const Lanes dipole = dot(s, moment);
   for (int i = 0; i < 2; ++i) {
     const Vectors& across = axes[1 - i];
     const Lanes second = larger(dot(across, section.along(across)), zero);
     modes.tilt[i] = select(floats, axes[i], none);
     modes.second_moment[i] = floats ? second : zero;
-    modes.stiffness[i + 1] = floats ? pull * (second + dipole) : zero;
+    modes.stiffness[i + 1] = floats ? specific_weight * (second + dipole) : zero;
   }
 }
 
 /// WaveSource of one body per lane.
 struct WaveSources {
-  Lanes area, volume, heave_inertia, damping, pull, gravity;
+  Lanes area, volume, heave_inertia, damping, specific_weight, gravity;
 };
 
 /// Sets G, a, b of eq. (69), to zero without a waterplane. @pre setRestoring()
 inline void setWaves(const WaveSources& source, Modes& modes) {
   const Lanes zero = Lanes{}, one = all(1);
   const Mask floats = modes.stiffness[0] > zero;
-  const Lanes area = floats ? source.area : one, pull = floats ? source.pull : one;
+  const Lanes area = floats ? source.area : one,
+              specific_weight = floats ? source.specific_weight : one;
   const Lanes length = squareRoot(area);
   const Lanes volume = source.volume + source.heave_inertia;
   const Lanes per_depth = between(length * area / (floats ? volume : one), 0.1, 8.0);
@@ -111,10 +112,10 @@ inline void setWaves(const WaveSources& source, Modes& modes) {
                   squareRoot(source.gravity / length);
   modes.loss[0] = 1.5 * modes.rate[0];
   for (int i = 0; i < 2; ++i) {
-    const Lanes dipole = modes.stiffness[i + 1] / pull;  // V GM
+    const Lanes dipole = modes.stiffness[i + 1] / specific_weight;  // V GM
     const Lanes log_width = logarithm(width[i], floats);
-    modes.strength[i + 1] = source.damping * pull * dipole * dipole / (area * area) * 1.14 *
-                            exponential(1.2 * log_per_depth - 2.6 * log_width, floats);
+    modes.strength[i + 1] = source.damping * specific_weight * dipole * dipole / (area * area) *
+                            1.14 * exponential(1.2 * log_per_depth - 2.6 * log_width, floats);
     const Lanes rate = 2.7 * squareRoot(source.gravity / (width[i] * length));
     modes.rate[i + 1] = floats ? rate : zero;
     modes.loss[i + 1] = 1.12 * modes.rate[i + 1];
@@ -122,7 +123,7 @@ inline void setWaves(const WaveSources& source, Modes& modes) {
 }
 
 /// Returns the square of the largest natural frequency of heave and tilts, each alone [1/s^2].
-inline Lanes swingSquared(const Modes& modes, const SymmetricOf<Lanes>& inertia) {
+inline Lanes frequencySquared(const Modes& modes, const SymmetricOf<Lanes>& inertia) {
   const Lanes zero = Lanes{}, one = all(1);
   const Lanes along[3] = {dot(modes.heave, inertia * modes.heave),
                           dot(modes.tilt[0], ofAngular(inertia, modes.tilt[0]).angular),
@@ -183,7 +184,7 @@ struct ModesAtPose {
 /// Scales the waves down where a change of G has raised their energy, eq. (72). Sets them to 0
 /// without a waterplane.
 template <class Real>
-inline void meetModes(const ModesAtPose<Real>& modes, WavesOf<Real>& waves) {
+inline void projectOnModes(const ModesAtPose<Real>& modes, WavesOf<Real>& waves) {
   const Real zero = Real{};
   const MaskOf<Real> floats = modes.of_body.rate[0] > zero;
   const Real heave_after = energyOf(waves.heave, modes.of_body.strength[0]);
@@ -219,7 +220,7 @@ struct ModeOf {
 };
 
 /// Applies the waves over `duration` [s], one mode after another, eq. (71). Returns the twist after
-/// it. @pre meetModes()
+/// it. @pre projectOnModes()
 template <class Real>
 inline SpatialsOf<Real> exchangeWaves(const ModesAtPose<Real>& modes,
                                       const SymmetricOf<Real>& inverse, const Real& duration,

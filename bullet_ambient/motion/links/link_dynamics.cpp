@@ -272,15 +272,15 @@ void LinkDynamics::appliedForces(CoordinatesOut result) noexcept {
       result[links_[l].first + i] += tree_.links[l].joint_force[i];
 }
 
-void LinkDynamics::holdJoints() noexcept {
-  kernel_.holdJoints(links_.data(), count());
-  held_ = factorsOf(links_[0].articulated);
+void LinkDynamics::lockJoints() noexcept {
+  kernel_.lockJoints(links_.data(), count());
+  locked_ = factorsOf(links_[0].articulated);
 }
 
-Vector6 LinkDynamics::answerHeld(const Vector6& momentum) const noexcept {
+Vector6 LinkDynamics::answerLocked(const Vector6& momentum) const noexcept {
   const Matrix3 R = rotation(0);
   const Vector6 result =
-      held_.solve(stack(R.transpose() * momentum.head<3>(), R.transpose() * momentum.tail<3>()));
+      locked_.solve(stack(R.transpose() * momentum.head<3>(), R.transpose() * momentum.tail<3>()));
   return stack(R * result.head<3>(), R * result.tail<3>());
 }
 

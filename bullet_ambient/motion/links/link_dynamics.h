@@ -123,11 +123,11 @@ class LinkDynamics {
 
   /// Factors I_c of eq. (80a), the inertia of the tree with its joints held. Keeps the factor of H,
   /// but not the diagonals that roughNormSquared() reads.
-  void holdJoints() noexcept;
+  void lockJoints() noexcept;
   /// Returns I_c^-1 momentum: velocity of the base of a tree with held joints that has this
-  /// momentum. Both about the base's centre of mass, in W, rotation first. @pre holdJoints(); the
+  /// momentum. Both about the base's centre of mass, in W, rotation first. @pre lockJoints(); the
   /// base's velocity is not prescribed
-  Vector6 answerHeld(const Vector6& momentum) const noexcept;
+  Vector6 answerLocked(const Vector6& momentum) const noexcept;
 
   /// Returns H, symmetric, coordinates() x coordinates(), with rows and columns of the identity for
   /// prescribed velocities. For programs and tests. Cost: O(links^2), allocates.
@@ -147,7 +147,7 @@ class LinkDynamics {
   TreePose pose_;  // of the offsets in links_
   const LinkKernel& kernel_;
   Cholesky<6> base_;     // of the base's articulated inertia
-  Cholesky<6> held_;     // of I_c, from holdJoints()
+  Cholesky<6> locked_;   // of I_c, from lockJoints()
   Coordinates missing_;  // scratch memory of correctAccelerations()
 };
 

@@ -55,8 +55,8 @@ double LinkIntegrals::impose(LinkDynamics& dynamics, CoordinatesOut u, bool is_c
   const double has = momenta_.dot(x_);
   if (is_known_ && floats_) {
     const Vector6 its = momenta_.head<6>(), wanted = momentumAbout(dynamics.position(0));
-    dynamics.holdJoints();
-    const Vector6 held = dynamics.answerHeld(its), base = dynamics.answerHeld(wanted);
+    dynamics.lockJoints();
+    const Vector6 held = dynamics.answerLocked(its), base = dynamics.answerLocked(wanted);
     const double factor =
         std::sqrt((energy_ - wanted.dot(base)) / std::max(0.0, has - its.dot(held)));
     if (isModest(factor)) {
@@ -74,8 +74,8 @@ void LinkIntegrals::imposeMomentum(LinkDynamics& dynamics, CoordinatesOut u) noe
   if (!is_known_ || !floats_) return;
   x_ = u - flow_;
   dynamics.momentum(x_, momenta_);
-  dynamics.holdJoints();
-  u.head<6>() += dynamics.answerHeld(momentumAbout(dynamics.position(0)) - momenta_.head<6>());
+  dynamics.lockJoints();
+  u.head<6>() += dynamics.answerLocked(momentumAbout(dynamics.position(0)) - momenta_.head<6>());
 }
 
 namespace {

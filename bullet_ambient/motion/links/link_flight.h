@@ -25,10 +25,10 @@ class LinkIntegrals {
   /// not between 2/3 and 3/2, scales the whole motion to the stored energy instead, up by at most
   /// 3/2. If momentum and energy are not known and `is_coarse`, only scales down to the stored
   /// energy, and returns the energy removed [J]; otherwise returns 0. Keeps the factor of
-  /// `dynamics` like holdJoints(). @pre `dynamics` has the pose
+  /// `dynamics` like lockJoints(). @pre `dynamics` has the pose
   double impose(LinkDynamics& dynamics, CoordinatesOut u, bool is_coarse) noexcept;
   /// Corrects `u` to the stored momentum by the base's velocity alone; joints keep their
-  /// velocities. Keeps the factor of `dynamics` like holdJoints(). @pre `dynamics` has the pose
+  /// velocities. Keeps the factor of `dynamics` like lockJoints(). @pre `dynamics` has the pose
   void imposeMomentum(LinkDynamics& dynamics, CoordinatesOut u) noexcept;
 
  private:

@@ -286,18 +286,19 @@ bool takeOutJoint(LinkState& link, InertiaBlocks& I) {
   const AxisMatrix coupling_transposed = transposed(I.coupling);
   double D[3][3] = {};
   for (int i = 0; i < link.axis_count; ++i) {
-    link.push[i] = times(I, coupling_transposed, link.axis[i]);
-    for (int j = 0; j <= i; ++j) D[i][j] = D[j][i] = dot(link.push[i], link.axis[j]);
+    link.axis_momentum[i] = times(I, coupling_transposed, link.axis[i]);
+    for (int j = 0; j <= i; ++j) D[i][j] = D[j][i] = dot(link.axis_momentum[i], link.axis[j]);
     link.weight[i] = D[i][i];
   }
   const bool is_positive = invert(D, link.axis_count, link.inverse);
   for (int i = 0; i < link.axis_count; ++i) {
-    const AxisPair& push = link.push[i];
-    AxisPair part = link.inverse[i][0] * link.push[0];
-    for (int j = 1; j < link.axis_count; ++j) part = part + link.inverse[i][j] * link.push[j];
-    I.rotation = lessProduct(I.rotation, push.angular, part.angular);
-    I.coupling = lessProduct(I.coupling, push.angular, part.linear);
-    I.translation = lessProduct(I.translation, push.linear, part.linear);
+    const AxisPair& axis_momentum = link.axis_momentum[i];
+    AxisPair part = link.inverse[i][0] * link.axis_momentum[0];
+    for (int j = 1; j < link.axis_count; ++j)
+      part = part + link.inverse[i][j] * link.axis_momentum[j];
+    I.rotation = lessProduct(I.rotation, axis_momentum.angular, part.angular);
+    I.coupling = lessProduct(I.coupling, axis_momentum.angular, part.linear);
+    I.translation = lessProduct(I.translation, axis_momentum.linear, part.linear);
   }
   return is_positive;
 }
@@ -326,7 +327,7 @@ bool articulate(LinkState* links, int count, const KickTerms* kick) noexcept {
   return is_positive;
 }
 
-void holdJoints(LinkState* links, int count) noexcept {
+void lockJoints(LinkState* links, int count) noexcept {
   for (int l = 0; l < count; ++l) links[l].articulated = links[l].inertia;
   for (int l = count - 1; l > 0; --l) addToParent(links, links[l], links[l].articulated);
 }
@@ -344,7 +345,7 @@ void sumNeeds(LinkState* links, int count) noexcept {
     if (link.is_kept) continue;
     AxisPair f = link.force;
     for (int i = 0; i < link.axis_count; ++i) link.rest[i] -= dot(f, link.axis[i]);
-    for (int i = 0; i < link.axis_count; ++i) f = f + answerOf(link, i) * link.push[i];
+    for (int i = 0; i < link.axis_count; ++i) f = f + answerOf(link, i) * link.axis_momentum[i];
     addToParent(links, link, f);
   }
 }
@@ -354,7 +355,7 @@ void accelerate(LinkState* links, int count, double* result) noexcept {
   for (int l = 1; l < count; ++l) {
     LinkState& link = links[l];
     AxisPair a = toLink(link, links[link.parent].acceleration);
-    for (int i = 0; i < link.axis_count; ++i) link.rest[i] -= dot(link.push[i], a);
+    for (int i = 0; i < link.axis_count; ++i) link.rest[i] -= dot(link.axis_momentum[i], a);
     for (int i = 0; i < link.axis_count; ++i) {
       const double q = link.is_kept ? 0 : answerOf(link, i);
       result[link.first + i] = q;
@@ -368,6 +369,6 @@ void accelerate(LinkState* links, int count, double* result) noexcept {
 
 const LinkKernel AMBIENT_KERNEL(kLinkKernel){
     place, setVelocity, computeForces, computeApplied, computeMomenta, measure,
-    norm,  sumForces,   articulate,    holdJoints,     sumNeeds,       accelerate};
+    norm,  sumForces,   articulate,    lockJoints,     sumNeeds,       accelerate};
 
 }  // namespace ambient

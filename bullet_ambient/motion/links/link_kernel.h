@@ -68,7 +68,7 @@ struct LinkState {
 
   // Set by the factorisation of H.
   InertiaBlocks articulated;  ///< I^A of eq. (79)
-  AxisPair push[3];           ///< I^A S
+  AxisPair axis_momentum[3];  ///< I^A S
   double inverse[3][3];       ///< (S^T I^A S)^-1
   double weight[3];           ///< diagonal of S^T I^A S
   double rest[3];             ///< joint forces; sumNeeds() subtracts those of the subtree
@@ -110,7 +110,7 @@ struct LinkKernel {
   bool (*articulate)(LinkState* links, int count, const KickTerms* kick) noexcept;
   /// Sets LinkState::articulated of the base to the inertia of the tree with its joints held.
   /// Overwrites that of the other links, and keeps all else that articulate() has set.
-  void (*holdJoints)(LinkState* links, int count) noexcept;
+  void (*lockJoints)(LinkState* links, int count) noexcept;
   /// First half of the solution of H du/dt = sum S^T rest - sum J_l^T f_l, towards the base. Sets f
   /// of the base to the wrench that its acceleration needs. Overwrites all f and `rest`.
   void (*sumNeeds)(LinkState* links, int count) noexcept;

@@ -26,7 +26,7 @@ LinkKick::LinkKick(const LinkTree& tree)
       drags_(tree.size(), 0.0),
       drag_impulses_(tree.size()),
       lift_impulses_(tree.size()),
-      surprises_(tree.size()),
+      load_errors_(tree.size()),
       resistances_(tree.size()),
       change_(coordinateCount(tree)),
       flow_(coordinateCount(tree)) {}
@@ -70,8 +70,8 @@ void LinkKick::sampleAll(LinkDynamics& dynamics, const CoordinatesIn& u,
     const double along = power(load, y) / energy;
     sample = {std::max(0.0, -along), std::sqrt(energy), load + -along * momentum, load,
               sample.growth,         sample.settling};
-    surprises_[l] = load;
-    surprises_[l] -= last.at(momentum, sample.speed);
+    load_errors_[l] = load;
+    load_errors_[l] -= last.at(momentum, sample.speed);
   }
 }
 
@@ -124,14 +124,14 @@ double LinkKick::error(LinkDynamics& dynamics, double h) noexcept {
   double motion = 0;
   for (int l = 0; l < tree_.size(); ++l) {
     if (!isLoaded(tree_.links[l])) {
-      surprises_[l] = {};
+      load_errors_[l] = {};
       continue;
     }
     const Link& link = tree_.links[l];
-    const double fall = fallScale({*link.model, link.surroundings, {}, h});
+    const double fall = velocityScale({*link.model, link.surroundings, {}, h});
     motion += samples_[l].speed * samples_[l].speed + fall * fall;
   }
-  dynamics.respond(surprises_, change_);
+  dynamics.respond(load_errors_, change_);
   return motion > 0 ? h * std::sqrt(dynamics.normSquared(change_) / motion) : 0;
 }
 

@@ -67,7 +67,7 @@ class LinkKick {
   const LinkTree& tree_;
   std::vector<Sample> samples_;
   std::vector<double> drags_;
-  std::vector<Wrench> drag_impulses_, lift_impulses_, surprises_;
+  std::vector<Wrench> drag_impulses_, lift_impulses_, load_errors_;
   std::vector<InertiaBlocks> resistances_;  ///< C of the links at the last sample
   bool has_resistance_ = false;             ///< a link of the last sample has one
   Coordinates change_, flow_;

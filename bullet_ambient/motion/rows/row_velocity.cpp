@@ -17,10 +17,10 @@ namespace ambient {
 
 namespace {
 
-void setEvenResponse(RowLanes& lanes, int body, const EvenResponse& response) {
+void setIsotropicResponse(RowLanes& lanes, int body, const IsotropicResponse& response) {
   for (int row = 0; row < 3; ++row)
-    setLane(lanes.even_inverse_inertia[row], body, Vector3(response.inverse_inertia.row(row)));
-  lanes.even_inverse_mass[body] = response.inverse_mass;
+    setLane(lanes.isotropic_inverse_inertia[row], body, Vector3(response.inverse_inertia.row(row)));
+  lanes.isotropic_inverse_mass[body] = response.inverse_mass;
 }
 
 }  // namespace
@@ -67,7 +67,7 @@ RowLoad setStart(const FlightTask& task, const RigidState& start, int lane,
   lanes.kick_time[lane] = task.duration;
   setForces(lanes, lane, task);
   setLane(lanes.acceleration_W, lane, s.ambient_acceleration);
-  setEvenResponse(lanes, lane, task.model.even_response);
+  setIsotropicResponse(lanes, lane, task.model.isotropic_response);
   Twist relative = start.twist;
   if (!s.ambient_velocity.isZero(0))
     relative.linear -= start.orientation.conjugate() * s.ambient_velocity;
@@ -104,7 +104,7 @@ RowVelocity rowVelocityOf(const RowLanes& lanes, int lane, const RowLoad& load) 
   return {twistOf(lanes.change_W, lane),
           twistOf(lanes.turning_W, lane),
           twistOf(lanes.isotropic_excess_W, lane),
-          lanes.extent[lane],
+          lanes.turn_number[lane],
           load.count,
           lanes.settling[lane] > 0 ? load.settled_inertia : std::nullopt};
 }
@@ -114,7 +114,7 @@ RowVelocity computeRowVelocity(const FlightTask& task, const RigidState& start) 
   const BodyModel* const model = &task.model;
   setModels(&model, 1, lanes);
   const RowLoad load = setStart(task, start, 0, lanes);
-  kFlightKernels.fastest()->push(lanes);
+  kFlightKernels.fastest()->predictRowVelocity(lanes);
   return rowVelocityOf(lanes, 0, load);
 }
 
@@ -259,9 +259,9 @@ RowVelocity computeLockedVelocity(const FlightTask& task, const RigidState& star
   }
   const LockedRates rates(model.inertia, model.inverse_inertia, forced);
   const DualPair turned = pairOfTwist(model, dt * (rates.acceleration(x) - forced));
-  result.extent = extentOf(plain(turned), plain(pairOfTwist(model, x)), 1 / dt, 0.3);
+  result.turn_number = turnNumberOf(plain(turned), plain(pairOfTwist(model, x)), 1 / dt, 0.3);
   Vector6 turning = Vector6::Zero();
-  if (result.extent <= 1) turning = dt * (rates.acceleration(midpoint(rates, x, dt)) - forced);
+  if (result.turn_number <= 1) turning = dt * (rates.acceleration(midpoint(rates, x, dt)) - forced);
   const auto inWorld = [&](const Vector6& change) {
     return onFreeAxes({R * change.head<3>(), R * change.tail<3>()}, factors);
   };
@@ -270,7 +270,7 @@ RowVelocity computeLockedVelocity(const FlightTask& task, const RigidState& star
   result.change_W = inWorld(turning + kick);
   const Vector6 push = inWorld(row_inertia * kick).vector();  // momentum along free axes, in W
   const Vector6 push_B = stack(R.transpose() * push.head<3>(), R.transpose() * push.tail<3>());
-  result.isotropic_excess_W = inWorld(model.even_response.beyond(push_B, kick));
+  result.isotropic_excess_W = inWorld(model.isotropic_response.beyond(push_B, kick));
   result.change_W.linear +=
       dt * onFreeAxes({Vector3::Zero(), s.ambient_acceleration}, factors).linear;
   return result;

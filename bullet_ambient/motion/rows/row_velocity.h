@@ -8,7 +8,7 @@
 
 namespace ambient {
 
-/// Largest extent m at which a step needs no bound of the energy, docs/theory.md eq. (31a).
+/// Largest turn number m at which a step needs no bound of the energy, docs/theory.md eq. (31a).
 constexpr double kSlowTurn = 0.5;
 
 /// Change of velocity over one step that constraint rows are solved against, docs/theory.md eq.
@@ -19,7 +19,7 @@ struct RowVelocity {
   Twist change_W;            ///< k + X, and the acceleration of the ambient flow
   Twist turning_W;           ///< X of eq. (28), contained in change_W
   Twist isotropic_excess_W;  ///< k' - k of eq. (28b): with isotropic added mass minus the true one
-  double extent = 0;         ///< m of eq. (28a); from 1 on X = 0, the turn is too large
+  double turn_number = 0;    ///< m of eq. (28a); from 1 on X = 0, the turn is too large
   FlightCount count;
   /// N of eq. (124), which rows move in place of K, in B; none: K.
   std::optional<Matrix6> settled_inertia;
@@ -37,8 +37,9 @@ std::optional<Matrix6> settledInertia(const BodyModel& model, const SurfaceLoad&
                                       const Twist& relative, double duration) noexcept;
 
 // Bodies that rows may move are up to kFlightsTogether side by side, in RowLanes: setModels(),
-// setStart() of each free body, FlightKernel::push(); after the rows FlightKernel::keep(), and
-// after the move carry(). The bits of a body do not depend on the others.
+// setStart() of each free body, FlightKernel::predictRowVelocity(); after the rows
+// FlightKernel::conserve(), and after the move transport(). The bits of a body do not depend on the
+// others.
 
 /// Writes models into the first lanes, and makes these active. Others become 0.
 void setModels(const BodyModel* const* models, int count, RowLanes& lanes) noexcept;
@@ -46,7 +47,7 @@ void setModels(const BodyModel* const* models, int count, RowLanes& lanes) noexc
 /// @pre setModels()
 RowLoad setStart(const FlightTask& task, const RigidState& start, int lane,
                  RowLanes& lanes) noexcept;
-/// Reads the result of FlightKernel::push().
+/// Reads the result of FlightKernel::predictRowVelocity().
 RowVelocity rowVelocityOf(const RowLanes& lanes, int lane, const RowLoad& load) noexcept;
 
 /// Computes the change of one body alone.
@@ -91,7 +92,7 @@ Twist lockedChange(const Matrix6& inertia, const Matrix3& R, const AxisFactors& 
 
 /// Like computeRowVelocity(), for a body with locked axes, along which the velocity stays. Contains
 /// the whole turning part t, by the implicit midpoint rule, because such bodies have no free
-/// flight; 0 instead of t beyond an extent of 1, with the limits 1 rad and 0.3 in eq. (28a).
+/// flight; 0 instead of t beyond an turn_number of 1, with the limits 1 rad and 0.3 in eq. (28a).
 RowVelocity computeLockedVelocity(const FlightTask& task, const RigidState& start,
                                   const AxisFactors& factors) noexcept;
 

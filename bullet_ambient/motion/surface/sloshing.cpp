@@ -73,7 +73,7 @@ Momentum momentumOfSloshing(const SloshingAt& at, const Sloshing* states) noexce
   return {at.to_world * momentum.head<3>(), at.to_world * momentum.tail<3>()};
 }
 
-void meetModes(const SloshingAt& at, double energy, Sloshing* states) noexcept {
+void projectOnModes(const SloshingAt& at, double energy, Sloshing* states) noexcept {
   for (std::size_t i = 0; i < at.count; ++i) {
     const Sloshing before = states[i];
     states[i] = {};

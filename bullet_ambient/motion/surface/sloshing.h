@@ -40,7 +40,7 @@ Momentum momentumOfSloshing(const SloshingAt& at, const Sloshing* states) noexce
 
 /// Takes the states to other modes, which never adds energy. Those of holds without modes become
 /// not known. `energy`: with the modes before [J].
-void meetModes(const SloshingAt& at, double energy, Sloshing* states) noexcept;
+void projectOnModes(const SloshingAt& at, double energy, Sloshing* states) noexcept;
 
 /// Lets pendulums and body act on each other for `duration` [s], docs/theory.md eq. (153): the sum
 /// of x.K x / 2 and the energy of the pendulums does not grow, whatever the duration. Returns the

@@ -14,7 +14,7 @@ void setPlane(StandLanes& lanes, int body, const SurfacePlane& plane) {
   setLane(lanes.normal, body, plane.normal);
   lanes.height[body] = plane.height;
   lanes.gravity[body] = plane.gravity;
-  lanes.pull[body] = plane.density * plane.gravity;
+  lanes.specific_weight[body] = plane.density * plane.gravity;
 }
 
 void setWetVolume(StandLanes& lanes, int body, const WetVolume& wet) {
@@ -65,7 +65,7 @@ void readStand(const StandLanes& lanes, int body, SurfaceStand& stand) noexcept 
   stand.inverse = symmetricOf(lanes.inverse, body);
   forEachNumber(stand.modes, lanes.modes,
                 [&](double& to, const FlightLane& from) { to = from[body]; });
-  stand.swing = lanes.swing[body];
+  stand.frequency = lanes.frequency[body];
 }
 
 void computeStands(StandLanes& lanes, const BodyInLane* bodies, int count) noexcept {

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kSurfaceAttempts = 3;
 constexpr int kSurfaceSubsteps = 16;
-constexpr double kFlowAccuracy = 1e-6;   // of the tolerance
+constexpr double kDriftAccuracy = 1e-6;  // of the tolerance
 constexpr double kMostSurfaceError = 2;  // of an accepted step, in tolerances
 
 /// Progress of one body through a step, in the frame that moves with the water.
@@ -32,7 +32,7 @@ struct Progress {
   Growth growth;                  ///< of the resistance with it
   bool has_gained = false;        ///< more energy of place than it had in all
   double rounding = 0;            ///< energy at the start less that at the stand [J]
-  double swing = 0;               ///< the largest natural frequency that was met [1/s]
+  double frequency = 0;           ///< the largest natural frequency that was met [1/s]
   double energy = 0;              ///< at the start of the step [J]
   double energy_removed = 0;      ///< by the bound of the energy [J]
   double error = 0;               ///< the largest of the substeps, eq. (25) and (68b)
@@ -63,7 +63,9 @@ bool mayGain(const Progress& progress) {
 class SurfaceFlights {
  public:
   SurfaceFlights(SurfaceFlight* const* flights, int count)
-      : kernel_(*kSurfaceKernels.fastest()), flow_(*kFlightKernels.fastest()), count_(count) {
+      : kernel_(*kSurfaceKernels.fastest()),
+        flight_kernel_(*kFlightKernels.fastest()),
+        count_(count) {
     AMBIENT_ASSERT(count > 0 && count <= kFlightLanes);
     lanes_.flight.has_diagonal_inertia = lanes_.flight.has_resistance = false;
     for (int i = 0; i < count; ++i) begin(i, *flights[i]);
@@ -104,8 +106,9 @@ class SurfaceFlights {
     p.start.twist.linear -= p.start.orientation.conjugate() * s.ambient_velocity;
     p.wind_W = s.ambient_velocity - task.velocity_above;
     setSurroundings(lanes_.flight, i, above);
-    lanes_.flight.fall_scale[i] = fallScale({task.model.below, s, task.settings, task.duration});
-    lanes_.flight.precision[i] = kFlowAccuracy * task.settings.tolerance;
+    lanes_.flight.velocity_scale[i] =
+        velocityScale({task.model.below, s, task.settings, task.duration});
+    lanes_.flight.precision[i] = kDriftAccuracy * task.settings.tolerance;
     setLane(lanes_.flight.centre_of_volume_B, i, task.model.above.centre_of_volume);
     setLane(lanes_.normal_W, i, task.plane_W.normal);
     const SurfacePlane plane_B =
@@ -120,18 +123,19 @@ class SurfaceFlights {
     has_loads_above_ = has_loads_above_ || task.model.loads_above.loads;
     has_still_axis_ = has_still_axis_ || !task.model.still_axis_B.isZero(0);
     p.most = task.settings.max_substeps > 0 ? task.settings.max_substeps : kSurfaceSubsteps;
-    p.swing = flight.stand.swing;
+    p.frequency = flight.stand.frequency;
     const double remembered =
         flight.body.memory.substep > 0 ? flight.body.memory.substep : task.duration;
-    p.substeps = substepsOf(task.duration, std::min(remembered, kLongestSwing / p.swing), p.most);
+    p.substeps =
+        substepsOf(task.duration, std::min(remembered, kLongestPhase / p.frequency), p.most);
   }
 
   void restartBody(int i) {
     Progress& p = progress_[i];
     const SurfaceFlight& flight = *p.flight;
     const double h = flight.task.duration / p.substeps;
-    lanes_.flight.kick_time[i] = lanes_.flight.flow_time[i] = h;
-    lanes_.is_stiff[i] = h * p.swing > kLongestSwing * (1 + 1e-9) ? 1 : 0;
+    lanes_.flight.kick_time[i] = lanes_.flight.drift_time[i] = h;
+    lanes_.is_stiff[i] = h * p.frequency > kLongestPhase * (1 + 1e-9) ? 1 : 0;
     setLane(lanes_.flight.orientation, i, p.start.orientation);
     setLane(lanes_.flight.way_W, i, Vector3(0, 0, 0));
     setLane(lanes_.flight.twist_B, i, p.start.twist);
@@ -251,7 +255,7 @@ class SurfaceFlights {
     if (has_loads_above_) takeWind();
     slosh();
     keepingSpins([&] { kernel_.exchangeWaves(lanes_); });
-    kernel_.fall(lanes_);
+    kernel_.kickByGravity(lanes_);
   }
 
   /// The flow with the inertia frozen in body axes, eq. (22), and then its change.
@@ -263,7 +267,7 @@ class SurfaceFlights {
       setLane(lanes_.gradient, i, gradientAt(p.model(), *p.place, x));
       if (p.hasWater()) p.left = WaterLeft(waterAt(i), p.sloshing());
     }
-    flow_.flow(lanes_.flight);
+    flight_kernel_.drift(lanes_.flight);
     kernel_.see(lanes_);
     BodyInLane bodies[kFlightLanes];
     for (int i = 0; i < count_; ++i) {
@@ -315,8 +319,9 @@ class SurfaceFlights {
   /// The first half of a kick, at the pose where the flow has come to.
   void endKick() {
     for (int i = 0; i < count_; ++i)
-      if (isActive(i)) progress_[i].swing = std::max(progress_[i].swing, lanes_.stand.swing[i]);
-    kernel_.fall(lanes_);
+      if (isActive(i))
+        progress_[i].frequency = std::max(progress_[i].frequency, lanes_.stand.frequency[i]);
+    kernel_.kickByGravity(lanes_);
     keepingSpins([&] { kernel_.exchangeWaves(lanes_); });
     slosh();
     if (has_loads_above_) takeWind();
@@ -363,7 +368,7 @@ class SurfaceFlights {
   }
 
   void takeWind() {
-    kernel_.meetWind(lanes_);
+    kernel_.sampleWind(lanes_);
     for (int i = 0; i < count_; ++i) {
       Progress& p = progress_[i];
       const bool has_wind = isActive(i) && p.model().loads_above.loads;
@@ -379,7 +384,7 @@ class SurfaceFlights {
   double energyLeft(int i) const { return progress_[i].energy - lanes_.potential[i]; }
   bool isGain(int i) const {
     constexpr double kRounding = 1e-13;
-    const double fall = lanes_.flight.fall_scale[i];
+    const double fall = lanes_.flight.velocity_scale[i];
     return energyLeft(i) < -kRounding * (fall * fall + std::abs(progress_[i].energy));
   }
 
@@ -403,7 +408,7 @@ class SurfaceFlights {
     const SurfaceTask& task = p.flight->task;
     const double ratio = p.error / task.settings.tolerance, h = task.duration / p.substeps;
     const double next = ratio > 0 ? std::min(4 * h, 0.9 * h / std::sqrt(ratio)) : 4 * h;
-    const int needed = substepsOf(task.duration, kLongestSwing / p.swing, p.most);
+    const int needed = substepsOf(task.duration, kLongestPhase / p.frequency, p.most);
     const bool is_coarse = ratio > kMostSurfaceError || p.has_gained;
     const bool is_fine = !is_coarse && needed <= p.substeps;
     const bool is_last = p.substeps == p.most || (attempt >= kSurfaceAttempts && !p.has_gained);
@@ -441,9 +446,9 @@ class SurfaceFlights {
     SurfaceFlight& flight = *p.flight;
     const Surroundings& s = flight.task.surroundings;
     const double t = flight.task.duration;
-    const bool is_flow_coarse = lanes_.flight.is_coarse[i] > 0;
-    p.count.coarse = is_coarse || is_flow_coarse;
-    if (p.count.coarse) p.count.error = is_flow_coarse || p.count.halted ? 1 : p.error;
+    const bool is_drift_coarse = lanes_.flight.is_coarse[i] > 0;
+    p.count.coarse = is_coarse || is_drift_coarse;
+    if (p.count.coarse) p.count.error = is_drift_coarse || p.count.halted ? 1 : p.error;
     p.count.energy_removed = p.energy_removed + lanes_.flight.energy_removed[i];
     FlightResult& body = flight.body;
     body.count = p.count;
@@ -469,7 +474,7 @@ class SurfaceFlights {
   }
 
   const SurfaceKernel& kernel_;
-  const FlightKernel& flow_;
+  const FlightKernel& flight_kernel_;
   int count_;
   bool has_loads_below_ = false, has_loads_above_ = false, has_still_axis_ = false;
   SurfaceLanes lanes_{};

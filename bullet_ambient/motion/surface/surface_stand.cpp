@@ -56,7 +56,7 @@ Vector6 givenMomentum(const WaterLeft& before, const WaterAt& after, const Slosh
 
 Vector6 shiftWater(const WaterLeft& before, const WaterAt& after, const Vector6& x,
                    SymmetricMatrix& inertia, Sloshing* states) noexcept {
-  meetModes(after.sloshing(), before.energy, states);
+  projectOnModes(after.sloshing(), before.energy, states);
   const Matrix6 K_before = inertia.full();
   const Matrix6 K_after =
       K_before - before.inertia.full() + inertiaInside(after.model, after.place.inside_F);
@@ -211,7 +211,7 @@ Vector6 exchangeWaves(const FloatingModes& modes, const Matrix3& to_world,
   AMBIENT_ASSERT(duration >= 0 && !(waves.heave_energy < 0) && !(waves.tilt_energy < 0));
   const auto tilt_W = [&](int i) { return plain(Vector3(to_world * asEigen(modes.tilt[i]))); };
   const ModesAtPose<double> at_pose{modes, {tilt_W(0), tilt_W(1)}};
-  meetModes(at_pose, waves);
+  projectOnModes(at_pose, waves);
   return asEigen(exchangeWaves(at_pose, inverse_inertia, duration, plain(x), waves));
 }
 

@@ -56,7 +56,7 @@ Vector6 shiftWater(const WaterLeft& before, const WaterAt& after, const Vector6&
 struct SurfaceStand : SurfacePlace {
   SymmetricMatrix inverse;  ///< K^-1
   FloatingModes modes{};
-  double swing = 0;  ///< largest natural frequency of the body on its buoyancy [1/s]
+  double frequency = 0;  ///< largest natural frequency of the body on its buoyancy [1/s]
 };
 
 /// Returns the wet volume of the closed vessel in B.
@@ -89,7 +89,7 @@ inline double energyOfRounding(const SurfaceModel& model, const SurfacePlace& pl
 bool isStable(const SurfaceModel& model, const SurfaceStand& stand) noexcept;
 
 /// Longest step that needs no stiffInertia(), times the largest natural frequency [1].
-constexpr double kLongestSwing = 0.5;
+constexpr double kLongestPhase = 0.5;
 
 /// Returns K stiffened() by `modes` for a long step of `duration` [s], so that the step does not
 /// overshoot the balance of buoyancy; implicit trapezoidal rule.

@@ -45,7 +45,7 @@ FlightLanes arbitraryLanes(unsigned seed, double time) {
     setState(lanes, i, body.model(), body.state);
     lanes.active[i] = arbitrary.between(0, 1) < 0.8 ? 1 : 0;
     lanes.precision[i] = std::pow(10, arbitrary.between(-16, -6));
-    lanes.flow_time[i] = arbitrary.between(0, time);
+    lanes.drift_time[i] = arbitrary.between(0, time);
     lanes.kick_time[i] = arbitrary.between(0, time);
     const double strength = std::pow(10, arbitrary.between(-3, 3));
     for (int k = 0; k < 6; ++k) {

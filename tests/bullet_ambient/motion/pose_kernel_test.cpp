@@ -19,11 +19,11 @@ class PoseKernels : public test::FlightKernelTest {
  protected:
   // Mean twist over a second from one orientation to another.
   Vector3 rotationVector(const Quaternion& from, const Quaternion& to) const {
-    ArrivalLanes lanes{};
+    EndLanes lanes{};
     lanes.duration = 1;
     setLane(lanes.start_orientation, 3, from);
     setLane(lanes.orientation, 3, to);
-    kernel_->arrive(lanes);
+    kernel_->findEnds(lanes);
     return vectorOf(lanes.mean_W, 3);
   }
 };
@@ -31,7 +31,7 @@ class PoseKernels : public test::FlightKernelTest {
 TEST_P(PoseKernels, ReadEveryOrientationOfAMatrix) {
   Arbitrary arbitrary(1);
   for (int round = 0; round < 200; ++round) {
-    DepartureLanes lanes{};
+    StartLanes lanes{};
     Matrix3 rotations[kFlightLanes];
     Twist twists[kFlightLanes];
     for (int i = 0; i < kFlightLanes; ++i) {
@@ -46,7 +46,7 @@ TEST_P(PoseKernels, ReadEveryOrientationOfAMatrix) {
         setLane(lanes.rotation + 3 * row, i, Vector3(rotations[i].row(row).transpose()));
       setLane(lanes.twist_W, i, twists[i]);
     }
-    kernel_->depart(lanes);
+    kernel_->readStarts(lanes);
     for (int i = 0; i < kFlightLanes; ++i) {
       const Quaternion q = orientationOf(lanes.orientation, i);
       EXPECT_NEAR(q.norm(), 1, 4e-16);
@@ -82,7 +82,7 @@ TEST_P(PoseKernels, TakeTheShortWayForEitherSignOfTheQuaternion) {
 
 TEST_P(PoseKernels, GiveTheVelocitiesThatReachTheEnd) {
   Arbitrary arbitrary(3);
-  ArrivalLanes lanes{};
+  EndLanes lanes{};
   lanes.duration = 0.02;
   const Quaternion start(arbitrary.rotation()), end(arbitrary.rotation());
   const Vector3 from = arbitrary.vector(), to = arbitrary.vector();
@@ -92,7 +92,7 @@ TEST_P(PoseKernels, GiveTheVelocitiesThatReachTheEnd) {
   setLane(lanes.start_position, 5, from);
   setLane(lanes.position, 5, to);
   setLane(lanes.twist_B, 5, twist);
-  kernel_->arrive(lanes);
+  kernel_->findEnds(lanes);
   const Twist mean = twistOf(lanes.mean_W, 5), twist_W = twistOf(lanes.twist_W, 5);
   const Quaternion reached = rotationFromVector(0.02 * mean.angular) * start;
   EXPECT_LT(std::abs(std::abs(reached.dot(end)) - 1), 1e-15);
@@ -103,7 +103,7 @@ TEST_P(PoseKernels, GiveTheVelocitiesThatReachTheEnd) {
 
 TEST_P(PoseKernels, LeaveOutVelocitiesBelowTheLeast) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-  ArrivalLanes lanes{};
+  EndLanes lanes{};
   lanes.duration = 0.5;
   lanes.least = 1e-6;
   setLane(lanes.start_orientation, 2, Quaternion::Identity());
@@ -111,13 +111,13 @@ TEST_P(PoseKernels, LeaveOutVelocitiesBelowTheLeast) {
   setLane(lanes.position, 2, Vector3(-0.49e-6, 0.51e-6, 0));
   const Twist twist{Vector3(-0.99e-6, -1.01e-6, kNaN), Vector3(1.01e-6, 0.99e-6, 1)};
   setLane(lanes.twist_B, 2, twist);
-  kernel_->arrive(lanes);
+  kernel_->findEnds(lanes);
   const Twist mean = twistOf(lanes.mean_W, 2);
   EXPECT_EQ(mean.linear.x(), 0);
   EXPECT_EQ(mean.linear.y(), 0.51e-6 / lanes.duration);
   EXPECT_TRUE(std::isnan(lanes.twist_W[2][2]));
   lanes.twist_B[2][2] = 0;
-  kernel_->arrive(lanes);
+  kernel_->findEnds(lanes);
   const Twist end = twistOf(lanes.twist_W, 2);
   EXPECT_EQ(end.angular, Vector3(0, -1.01e-6, 0));
   EXPECT_EQ(end.linear, Vector3(1.01e-6, 0, 1));
@@ -126,8 +126,8 @@ TEST_P(PoseKernels, LeaveOutVelocitiesBelowTheLeast) {
 TEST_P(PoseKernels, HaveTheBitsOfTheBaseline) {
   Arbitrary arbitrary(4);
   for (int round = 0; round < 50; ++round) {
-    DepartureLanes departure{};
-    ArrivalLanes arrival{};
+    StartLanes departure{};
+    EndLanes arrival{};
     arrival.duration = arbitrary.between(1e-3, 1);
     for (int i = 0; i < kFlightLanes; ++i) {
       const Matrix3 rotation = arbitrary.rotation();
@@ -142,12 +142,12 @@ TEST_P(PoseKernels, HaveTheBitsOfTheBaseline) {
       setLane(arrival.position, i, arbitrary.vector());
       setLane(arrival.twist_B, i, arbitrary.twist());
     }
-    DepartureLanes other_departure = departure;
-    ArrivalLanes other_arrival = arrival;
-    kernel_->depart(departure);
-    kernel_->arrive(arrival);
-    kFlightKernelBaseline.depart(other_departure);
-    kFlightKernelBaseline.arrive(other_arrival);
+    StartLanes other_departure = departure;
+    EndLanes other_arrival = arrival;
+    kernel_->readStarts(departure);
+    kernel_->findEnds(arrival);
+    kFlightKernelBaseline.readStarts(other_departure);
+    kFlightKernelBaseline.findEnds(other_arrival);
     EXPECT_EQ(std::memcmp(departure.orientation, other_departure.orientation,
                           sizeof departure.orientation),
               0);

@@ -57,21 +57,21 @@ TEST_P(RowKernels, HaveTheBitsOfTheBaseline) {
       setBody(rows, i, body, duration);
       for (int k = 0; k < 6; ++k) rows.load_B[k][i] = 100 * arbitrary.between(-1, 1);
       setLane(rows.acceleration_W, i, arbitrary.vector());
-      for (FlightLane* row : rows.even_inverse_inertia) setLane(row, i, arbitrary.vector());
-      rows.even_inverse_mass[i] = arbitrary.between(0, 1);
+      for (FlightLane* row : rows.isotropic_inverse_inertia) setLane(row, i, arbitrary.vector());
+      rows.isotropic_inverse_mass[i] = arbitrary.between(0, 1);
       for (FlightLane* twist : {rows.velocity_W, rows.by_rows_W})
         setLane(twist, i, arbitrary.twist(10, 3));
       setLane(rows.way_W, i, arbitrary.vector());
     }
     RowLanes other_rows = rows;
-    kernel_->push(rows);
-    kFlightKernelBaseline.push(other_rows);
+    kernel_->predictRowVelocity(rows);
+    kFlightKernelBaseline.predictRowVelocity(other_rows);
     EXPECT_EQ(std::memcmp(&rows, &other_rows, sizeof rows), 0);
-    kernel_->keep(rows);
-    kFlightKernelBaseline.keep(other_rows);
+    kernel_->conserve(rows);
+    kFlightKernelBaseline.conserve(other_rows);
     EXPECT_EQ(std::memcmp(&rows, &other_rows, sizeof rows), 0);
-    kernel_->carry(rows);
-    kFlightKernelBaseline.carry(other_rows);
+    kernel_->transport(rows);
+    kFlightKernelBaseline.transport(other_rows);
     EXPECT_EQ(std::memcmp(&rows, &other_rows, sizeof rows), 0);
   }
 }
@@ -82,7 +82,7 @@ void expectSame(const RowVelocity& a, const RowVelocity& b) {
   EXPECT_EQ(a.change_W.vector(), b.change_W.vector());
   EXPECT_EQ(a.turning_W.vector(), b.turning_W.vector());
   EXPECT_EQ(a.isotropic_excess_W.vector(), b.isotropic_excess_W.vector());
-  EXPECT_EQ(a.extent, b.extent);
+  EXPECT_EQ(a.turn_number, b.turn_number);
   EXPECT_EQ(a.count.load_evaluations, b.count.load_evaluations);
 }
 
@@ -105,7 +105,7 @@ TEST(RowsTogether, GiveABodyTheBitsThatItHasAlone) {
     setModels(models, count, lanes);
     for (int i = 0; i < count; ++i)
       costs[i] = setStart(tasks[number(i)], bodies[number(i)].state, i, lanes);
-    kFlightKernels.fastest()->push(lanes);
+    kFlightKernels.fastest()->predictRowVelocity(lanes);
     for (int i = 0; i < count; ++i)
       expectSame(rowVelocityOf(lanes, i, costs[i]),
                  computeRowVelocity(tasks[number(i)], bodies[number(i)].state));
@@ -117,7 +117,7 @@ struct Velocities {
   Twist moving, turning, by_rows;
 };
 
-// Returns the lanes of one body after FlightKernel::keep().
+// Returns the lanes of one body after FlightKernel::conserve().
 RowLanes kept(const FreeBody& body, const Quaternion& orientation, const Velocities& velocities,
               double step) {
   RowLanes lanes;
@@ -128,7 +128,7 @@ RowLanes kept(const FreeBody& body, const Quaternion& orientation, const Velocit
   setLane(lanes.velocity_W, 0, velocities.moving);
   setLane(lanes.turning_W, 0, velocities.turning);
   setLane(lanes.by_rows_W, 0, velocities.by_rows);
-  kFlightKernels.fastest()->keep(lanes);
+  kFlightKernels.fastest()->conserve(lanes);
   return lanes;
 }
 
@@ -143,7 +143,7 @@ TEST(KeptMotion, IsCarriedWithTheMomentum) {
     const auto carried = [&lanes](const Quaternion& orientation, const Vector3& way) {
       setLane(lanes.orientation, 0, orientation);
       setLane(lanes.way_W, 0, way);
-      kFlightKernels.fastest()->carry(lanes);
+      kFlightKernels.fastest()->transport(lanes);
       return twistOf(lanes.twist_B, 0);
     };
     const Twist still = turned(start, carried(start, Vector3::Zero()));
@@ -189,7 +189,7 @@ TEST(KeptMotion, HasTheExtentOfItsEquation) {
     Arbitrary arbitrary(300 + seed);
     const Quaternion q(arbitrary.rotation());
     const Twist x = arbitrary.twist(3, seed % 2 == 0 ? 0.1 : 30);
-    const double extent = kept(body, q, {turned(q, x), {}, {}}, kStep).moved_extent[0];
+    const double turn_number = kept(body, q, {turned(q, x), {}, {}}, kStep).moved_turn_number[0];
     const Matrix6& K = body.model().inertia;
     const Momentum m = Momentum::fromVector(K * x.vector());
     const Vector6 wrench =
@@ -198,7 +198,7 @@ TEST(KeptMotion, HasTheExtentOfItsEquation) {
     t.tail<3>() += kStep * x.angular.cross(x.linear);
     const double by_spin = kStep * x.angular.norm() / 0.5;
     const double by_change = std::sqrt(t.dot(K * t) / x.vector().dot(K * x.vector())) / 0.45;
-    EXPECT_NEAR(extent, std::max(by_spin, by_change), 1e-11 * extent) << seed;
+    EXPECT_NEAR(turn_number, std::max(by_spin, by_change), 1e-11 * turn_number) << seed;
     is_by_spin |= by_spin > by_change;
     is_by_change |= by_change > by_spin;
   }

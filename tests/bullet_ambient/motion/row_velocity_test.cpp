@@ -47,8 +47,8 @@ TEST(RowVelocity, HasHalfOfTheTurnUntilItFadesOut) {
     const Vector6 half = rowOf(body, 1e-9).turning_W.vector() / 1e-9;
     for (const double step : {1e-3, 0.01, 0.02, 0.03, 0.051}) {
       const RowVelocity row = rowOf(body, step);
-      const double share = std::clamp(2 * (1 - row.extent), 0.0, 1.0);
-      EXPECT_GE(row.extent, (1 - 1e-12) * kSpin * step / 0.5);
+      const double share = std::clamp(2 * (1 - row.turn_number), 0.0, 1.0);
+      EXPECT_GE(row.turn_number, (1 - 1e-12) * kSpin * step / 0.5);
       EXPECT_LT((row.turning_W.vector() - share * step * half).norm(), 1e-12 * step * half.norm());
       has_whole |= share == 1;
       has_part |= share > 0 && share < 1;
@@ -97,11 +97,11 @@ using test::FreeBody;
 constexpr double kMass = 2;
 const Vector3 kMoments(0.3, 0.4, 0.6);
 
-EvenResponse evenResponse(const Matrix6& inertia) {
-  return makeEvenResponse(test::inverse(inertia), kMoments.asDiagonal());
+IsotropicResponse isotropicResponse(const Matrix6& inertia) {
+  return makeIsotropicResponse(test::inverse(inertia), kMoments.asDiagonal());
 }
 
-Matrix6 inMatrix(const EvenResponse& even) {
+Matrix6 inMatrix(const IsotropicResponse& even) {
   Matrix6 result = Matrix6::Zero();
   result.topLeftCorner<3, 3>() = even.inverse_inertia;
   result.bottomRightCorner<3, 3>().diagonal().setConstant(even.inverse_mass);
@@ -110,22 +110,22 @@ Matrix6 inMatrix(const EvenResponse& even) {
 
 Matrix6 dryInertia() { return rigidBodyInertia(kMass, kMoments.asDiagonal()); }
 
-TEST(EvenResponse, IsThatOfTheDryBodyInAVacuumAndOfAnyEvenInertia) {
+TEST(IsotropicResponse, IsThatOfTheDryBodyInAVacuumAndOfAnyEvenInertia) {
   for (const double factor : {1.0, 3.0}) {
     Matrix6 inertia = dryInertia();
     inertia.bottomRightCorner<3, 3>() *= factor;
-    const Matrix6 even = inMatrix(evenResponse(inertia));
+    const Matrix6 even = inMatrix(isotropicResponse(inertia));
     EXPECT_LT((even * inertia - Matrix6::Identity()).norm(), 1e-14);
   }
 }
 
 // K^-1 K' has eigenvalues between 0 and 2: slip decays; docs/theory.md, section 7.
-TEST(EvenResponse, LetsTheSlipDieOutHoweverUneven) {
+TEST(IsotropicResponse, LetsTheSlipDieOutHoweverUneven) {
   for (unsigned seed = 0; seed < 100; ++seed) {
     Arbitrary arbitrary(seed);
     const Matrix6 inertia = dryInertia() + 30 * arbitrary.positiveDefinite();
     const Vector6 values =
-        test::generalizedEigenvalues(test::inverse(inertia), inMatrix(evenResponse(inertia)));
+        test::generalizedEigenvalues(test::inverse(inertia), inMatrix(isotropicResponse(inertia)));
     EXPECT_GT(values[0], 0) << seed;
     EXPECT_LT(values[5], 2) << seed;
     EXPECT_GE(values[5], 1 - 1e-12) << seed;
@@ -133,7 +133,7 @@ TEST(EvenResponse, LetsTheSlipDieOutHoweverUneven) {
 }
 
 // k' is along the force, although K turns k aside.
-TEST(EvenResponse, PutsThePushOfRowsAlongTheForce) {
+TEST(IsotropicResponse, PutsThePushOfRowsAlongTheForce) {
   for (unsigned seed = 0; seed < 10; ++seed) {
     Arbitrary arbitrary(seed);
     FreeBody body({test::shapeWithoutFaces(arbitrary.positiveDefinite())});

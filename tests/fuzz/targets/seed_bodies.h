@@ -31,7 +31,7 @@ inline MultiBodyState seedMultiBody(const AmbientState& ambient) {
   for (MultiBodyLinkState& link : body.links) link.mass = 1;
   body.links[1].collider.emplace();
   body.fluids.push_back({0, ambient});
-  body.fluids[0].ambient.met_B = SurfacePlane{};
+  body.fluids[0].ambient.plane_B = SurfacePlane{};
   return body;
 }
 

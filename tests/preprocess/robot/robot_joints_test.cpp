@@ -222,14 +222,14 @@ TEST(CarriedHull, FloatsTheLinkThatHasTheMass) {
 
 /// The same links in a btMultiBody of the program, whose colliders stay with their links.
 struct OwnMultiBody {
-  OwnMultiBody(FluidRobotWorld& in, bool is_held)
+  OwnMultiBody(FluidRobotWorld& in, bool is_anchored)
       : body(in.contents.take(std::make_unique<btMultiBody>(
             2, btScalar(2), btVector3(btScalar(0.1), btScalar(0.2), btScalar(0.25)), false,
             false))) {
     const btQuaternion turn({0, 1, 0}, btScalar(0.7));
     const btVector3 to_pivot(btScalar(0.1), 0, 0), to_centre(0, 0, btScalar(-0.3)), axis(0, 1, 0);
     const btVector3 moments(1, 1, 1);
-    if (is_held) {
+    if (is_anchored) {
       body.setupFixed(0, 0, {0, 0, 0}, -1, turn, to_pivot, to_centre);
     } else {
       body.setupRevolute(0, 0, {0, 0, 0}, -1, turn, axis, to_pivot, to_centre);

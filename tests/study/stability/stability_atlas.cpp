@@ -120,8 +120,8 @@ const char* nameOf(AtlasSetting setting) {
 
 // Tolerance of the energy rise by setting. Bullet's contacts and joints may add energy.
 double mostRise(AtlasSetting setting) {
-  const bool is_held = setting == AtlasSetting::kOnPlane || setting == AtlasSetting::kOnJoint;
-  return is_held ? std::numeric_limits<double>::infinity() : kMostRise;
+  const bool is_anchored = setting == AtlasSetting::kOnPlane || setting == AtlasSetting::kOnJoint;
+  return is_anchored ? std::numeric_limits<double>::infinity() : kMostRise;
 }
 
 struct Tally {

@@ -80,7 +80,7 @@ inline Flow flowWithoutLoads(const FreeBody& body, double duration, double preci
   setState(lanes, 0, body.model(), body.state);
   lanes.has_diagonal_inertia = body.model().has_diagonal_inertia;
   lanes.active[0] = 1;
-  lanes.flow_time[0] = duration;
+  lanes.drift_time[0] = duration;
   lanes.precision[0] = precision;
   kFlightKernels.fastest()->flow(lanes);
   return {stateOf(lanes, 0, body.state.position), !(lanes.is_coarse[0] > 0)};

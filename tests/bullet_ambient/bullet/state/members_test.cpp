@@ -56,7 +56,7 @@ TEST(BodyIndex, FindsWhatWasInsertedAndNotErased) {
   EXPECT_FALSE(index.find(addressOf(1)));
 }
 
-TEST(Departures, AreTheStatesOfSingleBodies) {
+TEST(StartStates, AreTheStatesOfSingleBodies) {
   Arbitrary arbitrary(1);
   btSphereShape sphere(1);
   std::deque<btRigidBody> rigid;
@@ -74,8 +74,8 @@ TEST(Departures, AreTheStatesOfSingleBodies) {
   }
   const double rounding = byPrecision(1e-14, 1e-6);
   for (const int count : {1, 5, kFlightsTogether}) {
-    Departures departures;
-    readDepartures(bodies, count, departures);
+    StartStates departures;
+    readStartStates(bodies, count, departures);
     for (int i = 0; i < count; ++i) {
       const RigidState &state = departures.states[i], expected = readState(*bodies[i]->body);
       EXPECT_LT((state.orientation.toRotationMatrix() - expected.orientation.toRotationMatrix())

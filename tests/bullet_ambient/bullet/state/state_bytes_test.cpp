@@ -167,11 +167,11 @@ TEST_F(StateBytes, WithNumbersThatNoWorldCanHaveAreRefusedHoweverTheyCome) {
       {[](WorldState& s) { s.bodies[1].ambient->waves.heave.second = 1e200; }, "waves"},
       {[](WorldState& s) { s.bodies[1].ambient->waves.tilt_W[0].x = 1e200; }, "waves"},
       {[](WorldState& s) {
-         s.bodies[1].ambient->met_B = SurfacePlane{{0, 0, 2}, 0, 998, 9.81};
+         s.bodies[1].ambient->plane_B = SurfacePlane{{0, 0, 2}, 0, 998, 9.81};
        },
        "normal"},
       {[](WorldState& s) {
-         s.bodies[1].ambient->met_B = SurfacePlane{{0, 0, 1}, 0, -998, 9.81};
+         s.bodies[1].ambient->plane_B = SurfacePlane{{0, 0, 1}, 0, -998, 9.81};
        },
        "surface of the water"},
       {[](WorldState& s) { firstPoint(s).m_localPointA.setX(kNaN); }, "contact point"},
@@ -247,7 +247,7 @@ void fill(Numbers& n, AmbientState& s) {
   n(s.medium.density, s.medium.viscosity, s.medium.velocity, s.medium.acceleration, s.place.region,
     s.place.is_above, s.place.is_at_surface, s.flow.until, s.flow.position, s.flow.velocity,
     s.flow.change, s.flow.parts, s.flow.region, s.flow.is_above);
-  SurfacePlane& met = s.met_B.emplace();
+  SurfacePlane& met = s.plane_B.emplace();
   n(met.normal, met.height, met.density, met.gravity);
   n(s.waves.heave.first, s.waves.tilt_W[0], s.waves.heave.second, s.waves.tilt_W[1],
     s.waves.heave_energy, s.waves.tilt_energy, s.memory.load_W.torque, s.memory.load_W.force,

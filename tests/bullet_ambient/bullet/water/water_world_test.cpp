@@ -188,16 +188,16 @@ TEST(WaterWorld, GoesOnBitForBitFromASavedState) {
   }
 }
 
-// met_B, the surface after the last step, has more digits than Bullet's pose.
+// plane_B, the surface after the last step, has more digits than Bullet's pose.
 TEST(WaterWorld, ASavedStateHasTheSurfaceThatABodyHasMet) {
   WaterWorld run(seaAt(0)), other(seaAt(0)), without(seaAt(0));
   for (WaterWorld* world : {&run, &other, &without}) world->addBox(0.4, tumbling(0.3));
   run.scene.step(1.0 / 60, 20);
   WorldState state = run.scene.fluid.save();
-  ASSERT_TRUE(state.bodies[0].ambient->met_B);
+  ASSERT_TRUE(state.bodies[0].ambient->plane_B);
   other.scene.fluid.restore(state);
   EXPECT_TRUE(run.bits() == other.bits());
-  state.bodies[0].ambient->met_B.reset();
+  state.bodies[0].ambient->plane_B.reset();
   without.scene.fluid.restore(state);
   for (WaterWorld* world : {&run, &other, &without}) world->scene.step(1.0 / 60, 20);
   EXPECT_TRUE(run.bits() == other.bits());

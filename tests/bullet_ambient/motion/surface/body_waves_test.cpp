@@ -35,7 +35,7 @@ SurfaceStand standOf(const WetVolume& wet, const SurfacePlane& plane, double add
 }
 
 /// Lets waves meet modes, and act for no time.
-void meetModes(const FloatingModes& modes, const Matrix3& to_world, WaveMemory& waves) {
+void projectOnModes(const FloatingModes& modes, const Matrix3& to_world, WaveMemory& waves) {
   const Vector6 rest = Vector6::Zero();
   const SymmetricMatrix inverse{Matrix6(Matrix6::Identity())};
   EXPECT_EQ(exchangeWaves(modes, to_world, inverse, 0, rest, waves), rest);
@@ -178,7 +178,7 @@ TEST(BodyWaves, AreNoneWithoutAWaterplane) {
   WaveMemory waves;
   waves.heave.first = 1;
   waves.heave_energy = 1;
-  meetModes(modes, Matrix3::Identity(), waves);
+  projectOnModes(modes, Matrix3::Identity(), waves);
   EXPECT_EQ(waves.energy(), 0);
   EXPECT_EQ(waves.heave.first, 0);
 }
@@ -242,9 +242,9 @@ TEST(BodyWaves, OfTheTiltStayInTheWorld) {
   waves.tilt_W[1] = {-0.1, 0.2, 0};
   waves.tilt_energy = 100;
   const Matrix3 quarter{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}};
-  meetModes(modes, Matrix3::Identity(), waves);
+  projectOnModes(modes, Matrix3::Identity(), waves);
   const double energy = waves.tilt_energy;
-  meetModes(modes, quarter, waves);
+  projectOnModes(modes, quarter, waves);
   EXPECT_NEAR(waves.tilt_W[0].x, 0.3, 1e-15);
   EXPECT_NEAR(waves.tilt_W[0].y, 0.4, 1e-15);
   EXPECT_NEAR(waves.tilt_W[0].z, 0, 1e-15);
@@ -257,7 +257,7 @@ TEST(BodyWaves, LoseEnergyWhereTheirStrengthGrows) {
   WaveMemory waves;
   waves.heave.first = 0.1;
   waves.heave_energy = 1e-4;
-  meetModes(modes, Matrix3::Identity(), waves);
+  projectOnModes(modes, Matrix3::Identity(), waves);
   EXPECT_NEAR(waves.heave_energy, 1e-4, 1e-18);
   EXPECT_NEAR(0.5 * modes.strength[0] * waves.heave.first * waves.heave.first, 1e-4, 1e-18);
 }

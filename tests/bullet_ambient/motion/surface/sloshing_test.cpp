@@ -287,13 +287,13 @@ TEST(Sloshing, NeverGrowsWithItsModes) {
     Sloshing state{true, arbitrary.vector(), arbitrary.vector()};
     const double energy = energyOfSloshing(water.at(), &state).sum();
     const Matrix3 R = rotationFromVector(arbitrary.vector()).toRotationMatrix();
-    meetModes(water.at(R), energy, &state);
+    projectOnModes(water.at(R), energy, &state);
     EXPECT_LT(energyOfSloshing(water.at(R), &state).sum(), energy * (1 + 1e-14));
     EXPECT_NEAR(state.way_W.dot(R.col(2)), 0, 1e-12);
   }
   const HoldModes none;
   Sloshing state{true, {1, 0, 0}, {0, 1, 0}};
-  meetModes({water.frame, 1000, &none, 1, Matrix3::Identity()}, 1, &state);
+  projectOnModes({water.frame, 1000, &none, 1, Matrix3::Identity()}, 1, &state);
   EXPECT_EQ(state.way_W.norm() + state.velocity_W.norm(), 0);
 }
 

@@ -212,7 +212,7 @@ void flow(FlightLanes& bodies, int at, const Mask& active) {
               {load6(bodies.twist_B, at), load6(bodies.momentum_B, at)}};
   const Lanes energy = inner(now.motion, now.motion);
   const Mask moves = active & (energy > zero);
-  const Lanes duration = load(bodies.flow_time + at);
+  const Lanes duration = load(bodies.drift_time + at);
   Lanes left = moves ? duration : zero;
   if (bodies.has_resistance) {
     const Mask may_glide = moves & (load(bodies.settling + at) > zero);
