@@ -121,12 +121,44 @@ struct HullMoments {
   double of[3][kNumbers];  ///< for each j: N_j; M_jk; Q_jkl, k <= l
 };
 
+/// Symmetry of a hull that is kept in part: quarter turns about an axis through the origin. Image
+/// number i of the part is turned i times.
+struct HullSymmetry {
+  int axis = -1;  ///< -1: all of the hull is kept
+
+  [[gnu::always_inline]] int images() const { return axis < 0 ? 1 : 4; }
+  /// Returns the image of a vector.
+  template <class Vector>
+  [[gnu::always_inline]] Vector imageOf(Vector v, int image) const {
+    const int first = (axis + 1) % 3, second = (axis + 2) % 3;
+    for (; image > 0; --image) {
+      const auto x = v[first];
+      v[first] = -v[second];
+      v[second] = x;
+    }
+    return v;
+  }
+  /// Returns the vector whose image is `v`.
+  template <class Vector>
+  [[gnu::always_inline]] Vector seenFrom(Vector v, int image) const {
+    return imageOf(v, (4 - image) % 4);
+  }
+};
+
+/// Box and integrals over all triangles that are kept of a symmetric hull.
+struct HullWhole {
+  double centre[3], half[3];  ///< as in HullBoxes [m]
+  HullMoments moments;
+};
+
 /// Blocks of a hull with their boxes and moments.
 struct HullBlocks {
   const HullBlock* blocks;
   const HullBoxes* boxes;
   const HullMoments* moments;
-  std::size_t count;  ///< number of blocks
+  std::size_t count;                 ///< number of blocks
+  HullSymmetry symmetry = {};        ///< of what the blocks hold a part of
+  const HullWhole* whole = nullptr;  ///< null: all of the hull is kept
 };
 
 /// Corners of a hull in an axis-aligned box; unused lanes repeat the last corner.
@@ -138,7 +170,8 @@ struct alignas(64) HullPoints {
 
 struct HullCorners {
   const HullPoints* blocks;
-  std::size_t count;  ///< number of blocks
+  std::size_t count;           ///< number of blocks
+  HullSymmetry symmetry = {};  ///< of what the blocks hold a part of
 };
 
 }  // namespace ambient

@@ -107,15 +107,15 @@ void scale(Hold& hold, double factor) {
 }  // namespace
 
 void FaceTable::reserve(std::size_t faces) {
-  for (std::vector<double>* column :
-       {&normal_x, &normal_y, &normal_z, &centroid_x, &centroid_y, &centroid_z, &area})
+  for (std::vector<double>* column : {&normal_x.own(), &normal_y.own(), &normal_z.own(),
+                                      &centroid_x, &centroid_y, &centroid_z, &area})
     column->reserve(faces);
 }
 
 void FaceTable::add(const Vector3& face_normal, const Vector3& face_centroid, double face_area) {
-  normal_x.push_back(face_normal.x());
-  normal_y.push_back(face_normal.y());
-  normal_z.push_back(face_normal.z());
+  normal_x.own().push_back(face_normal.x());
+  normal_y.own().push_back(face_normal.y());
+  normal_z.own().push_back(face_normal.z());
   centroid_x.push_back(face_centroid.x());
   centroid_y.push_back(face_centroid.y());
   centroid_z.push_back(face_centroid.z());

@@ -8,15 +8,16 @@
 #include <vector>
 
 #include "bullet_ambient/fluid_body/added_mass_parts.h"
+#include "bullet_ambient/fluid_body/shared_list.h"
 #include "bullet_ambient/spatial/vector_types.h"
 
 namespace ambient {
 
 /// Triangles of a shape in F: for drawing, hydrostatics and the form law.
 struct Surface {
-  std::vector<double> vertices;  ///< x, y, z per vertex [m]
-  std::vector<std::int32_t>
-      triangles;  ///< three vertex indices per triangle, counter-clockwise from the fluid
+  std::vector<double> vertices;        ///< x, y, z per vertex [m]
+  SharedList<std::int32_t> triangles;  ///< three vertex indices per triangle, counter-clockwise
+                                       ///< from the fluid
 };
 
 /// An opening of a hold: where water comes in over its rim or through it.
@@ -136,7 +137,7 @@ class TablesPlace {
 /// appendix (3F x 6), U_i = -(I - n n^T) [-[c]x, I], which is not stored. computeSlipMatrix()
 /// computes it.
 struct FaceTable {
-  std::vector<double> normal_x, normal_y, normal_z;        ///< unit normals into the fluid
+  SharedList<double> normal_x, normal_y, normal_z;         ///< unit normals into the fluid
   std::vector<double> centroid_x, centroid_y, centroid_z;  ///< barycentres [m]
   std::vector<double> area;                                ///< [m^2]
   /// 0 on a round surface, 1 on a flat one or at an edge, more on long flat sides; docs/theory.md
@@ -146,7 +147,13 @@ struct FaceTable {
   std::size_t size() const { return area.size(); }
   /// All columns in the order above, except sharpness, which can be computed from the surface.
   std::array<const std::vector<double>*, 7> columns() const {
-    return {&normal_x, &normal_y, &normal_z, &centroid_x, &centroid_y, &centroid_z, &area};
+    return {&normal_x.get(),
+            &normal_y.get(),
+            &normal_z.get(),
+            &centroid_x,
+            &centroid_y,
+            &centroid_z,
+            &area};
   }
   Vector3 normal(std::size_t i) const { return {normal_x[i], normal_y[i], normal_z[i]}; }
   Vector3 centroid(std::size_t i) const { return {centroid_x[i], centroid_y[i], centroid_z[i]}; }
@@ -208,7 +215,7 @@ struct SurfaceForm {
   FaceTable faces;
   /// Triangles for hydrostatics, three indices of vertices of the surface each: those of the
   /// surface, with fans of few triangles in place of flat sides.
-  std::vector<std::int32_t> hull;
+  SharedList<std::int32_t> hull;
   /// Part of each of `faces`: 0 the rest, else the number of its wing from 1 on; empty: no wings.
   std::vector<std::uint8_t> part_of_face;
   FormShape rest;  ///< of a body with wings: shape of what is no wing

@@ -53,7 +53,7 @@ Offset<file::FaceTable> pack(FlatBufferBuilder& builder, const FaceTable& faces,
 
 Offset<file::Surface> pack(FlatBufferBuilder& builder, const Surface& surface) {
   const auto vertices = builder.CreateVector(surface.vertices);
-  const auto triangles = builder.CreateVector(surface.triangles);
+  const auto triangles = builder.CreateVector(surface.triangles.get());
   return file::CreateSurface(builder, vertices, triangles);
 }
 
@@ -68,7 +68,7 @@ Offset<file::SurfaceForm> pack(FlatBufferBuilder& builder, const SurfaceForm& fo
   const auto shape = packNumbers(builder, form.shape.numbers());
   const auto faces = pack(builder, form.faces, false);
   const auto sharpness = builder.CreateVector(form.faces.sharpness);
-  const auto hull = builder.CreateVector(form.hull);
+  const auto hull = builder.CreateVector(form.hull.get());
   return file::CreateSurfaceForm(builder, shape, faces, sharpness, hull);
 }
 

@@ -33,13 +33,13 @@ std::vector<std::int32_t> fewTriangles(const Surface& surface, int count) {
   return few;
 }
 
-void makeSurfaceForm(FluidBody& body) {
+void makeSurfaceForm(FluidBody& body, const FormFaces& make_faces) {
   body.form = {};
   if (body.sphere_radius > 0) return;
   body.form.shape = formShapeOf(body);
   body.form.hull = fewTriangles(body.surface, static_cast<int>(body.surface.triangles.size() / 3));
   if (!body.wings.empty()) return makeWingForm(body);
-  const FaceTable faces = formLawFaces(body, body.form.shape);
+  const FaceTable faces = make_faces ? make_faces(body) : formLawFaces(body, body.form.shape);
   body.form.faces = faces;  // a copy has no room to spare
 }
 

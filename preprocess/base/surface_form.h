@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
@@ -51,9 +52,13 @@ void makeWingForm(FluidBody& body);
 /// may be replaced, all others stay, and come last. Cost O(F log F).
 std::vector<std::int32_t> fewTriangles(const Surface& surface, int count);
 
+/// Makes the faces of the form law of a body whose FluidBody::form is there but for them.
+using FormFaces = std::function<FaceTable(const FluidBody&)>;
+
 /// Makes FluidBody::form from the other fields, also where it is there already; a part of
 /// prepare(). Spheres get none. Cost O(F log F), 2 us per face.
+/// @param make_faces null: by formLawFaces()
 /// @throws std::invalid_argument as computeSharpness().
-void makeSurfaceForm(FluidBody& body);
+void makeSurfaceForm(FluidBody& body, const FormFaces& make_faces = nullptr);
 
 }  // namespace ambient

@@ -33,7 +33,7 @@ FluidBody partOf(const FluidBody& body, std::size_t label) {
   for (std::size_t t = 0; t < triangles; ++t)
     if (body.part_of_triangle[t] == label)
       for (std::size_t k = 3 * t; k < 3 * t + 3; ++k)
-        part.surface.triangles.push_back(body.surface.triangles[k]);
+        part.surface.triangles.own().push_back(body.surface.triangles[k]);
   for (std::size_t face = 0; face < body.faces.size(); ++face) {
     if (body.part_of_triangle[face % triangles] != label) continue;
     part.faces.add(body.faces.normal(face), body.faces.centroid(face), body.faces.area[face]);

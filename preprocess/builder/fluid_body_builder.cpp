@@ -223,11 +223,14 @@ std::string holdsText(const HoldSearch& search) {
 }
 
 FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& settings) {
-  requireUsualSize(source_mesh, settings.flow.sheet, sourceOf(settings));
+  const MeshProperties undivided =
+      requireUsualSize(source_mesh, settings.flow.sheet, sourceOf(settings));
   requireWaterline(settings);
   DividedSurface divided = divideSurface(source_mesh, settings.least_faces);
   TriangleMesh& mesh = divided.mesh;
-  const MeshProperties properties = computeMassProperties(mesh, settings.flow.sheet);
+  const bool is_divided = mesh.triangleCount() > source_mesh.triangleCount();
+  const MeshProperties properties =
+      is_divided ? computeMassProperties(mesh, settings.flow.sheet) : undivided;
   const Eigen::Vector3d origin = settings.origin.value_or(properties.uniform.centre);
   requireNearOrigin(mesh, origin, sourceOf(settings));
   const MassDistribution uniform_mass = uniformMassOf(mesh, properties, settings);
@@ -258,9 +261,8 @@ FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& se
   body.centre_of_volume = properties.uniform.centre - origin;
   body.faces = facesOf(mesh, settings.flow.sheet);
   body.surface = surfaceOf(mesh);
-  body.faces.sharpness = mesh.triangleCount() > source_mesh.triangleCount()
-                             ? sharpnessOfParts(source_mesh, divided.face, body)
-                             : computeSharpness(body);
+  body.faces.sharpness =
+      is_divided ? sharpnessOfParts(source_mesh, divided.face, body) : computeSharpness(body);
   AMBIENT_ASSERT(body.faces.sharpness.size() == body.faces.size());
   takeWings(mesh, divided.face, settings, body);
   AMBIENT_ASSERT(settings.sphere_radius >= 0);

@@ -1,5 +1,7 @@
 #include "preprocess/collision_shape/fluid_body_cache.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <deque>
 #include <mutex>
 #include <string>
@@ -23,6 +25,27 @@ std::string withSize(std::string content, double size) {
 }  // namespace
 
 struct FluidBodyCache::Store {
+  /// Last lists seen, for those that many shapes have alike: which vertices make triangles,
+  /// normals.
+  template <class Number>
+  class LastLists {
+   public:
+    /// Lets a list have the memory of an equal one.
+    void share(SharedList<Number>& list) {
+      constexpr std::size_t kMost = 64;
+      if (list.empty()) return;
+      if (const auto same = std::find(lists_.begin(), lists_.end(), list); same != lists_.end()) {
+        list = *same;
+        return;
+      }
+      lists_.push_back(list);
+      if (lists_.size() > kMost) lists_.pop_front();
+    }
+
+   private:
+    std::deque<SharedList<Number>> lists_;
+  };
+
   Store(CollisionShapeSettings wanted, BodyFolder folder)
       : settings(std::move(wanted)), maker(std::move(folder), settings.report) {}
 
@@ -33,6 +56,8 @@ struct FluidBodyCache::Store {
   std::mutex mutex;                   // of this:
   std::deque<std::string> soon_made;  // what such forms were made of
   std::unordered_map<std::string, SharedBody> by_name;
+  LastLists<std::int32_t> triangles;
+  LastLists<double> normals;
 
   SharedBody get(const ShapeForm& form, const std::string& whose) {
     const std::string& name = settings.name.empty() ? form.kind : settings.name;
@@ -65,6 +90,16 @@ struct FluidBodyCache::Store {
     return unit;
   }
 
+  /// Lets a body have lists in common with others of its kind.
+  void share(FluidBody& body) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    triangles.share(body.surface.triangles);
+    triangles.share(body.form.hull);
+    FaceTable& faces = body.form.faces;
+    for (SharedList<double>* column : {&faces.normal_x, &faces.normal_y, &faces.normal_z})
+      normals.share(*column);
+  }
+
   SharedBody remember(SharedBody body) {
     const std::lock_guard<std::mutex> lock(mutex);
     by_name[body->name] = body;
@@ -95,6 +130,7 @@ SharedBody FluidBodyCache::fluidBodyOf(const std::function<std::string()>& whose
     body.omits_faces = true;
     // Tells the fluid bodies of one kind of shape apart, the same in all programs.
     body.name = unit->name + " " + hashText(fnv1a64(sized));
+    if (isSoonMade(form, store.settings)) store.share(body);
     return store.remember(std::make_shared<const FluidBody>(std::move(body)));
   });
 }

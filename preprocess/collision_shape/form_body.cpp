@@ -242,39 +242,44 @@ CollisionShapeSettings withFaces(CollisionShapeSettings settings, const ShapeFor
   return settings;
 }
 
-/// Makes the faces of the form law of shapes that have a rule for them; none of others.
+/// Rules for the faces of the form law; none of shapes that have none.
 struct FacesByRule {
   const FrameOffset pose;
-  const FluidBody& body;
 
-  std::optional<FaceTable> operator()(const Box& s) const { return boxFaces(s.half_sizes, pose); }
-  std::optional<FaceTable> operator()(const Cylinder& s) const {
-    return cylinderFaces(s.radius, s.height, pose, body);
+  FormFaces operator()(const Box& s) const {
+    return [s, pose = pose](const FluidBody&) { return boxFaces(s.half_sizes, pose); };
   }
-  std::optional<FaceTable> operator()(const Capsule& s) const {
-    return capsuleFaces(s.radius, s.height, pose, body);
+  FormFaces operator()(const Cylinder& s) const {
+    return [s, pose = pose](const FluidBody& body) {
+      return cylinderFaces(s.radius, s.height, pose, body);
+    };
   }
-  std::optional<FaceTable> operator()(const Cone& s) const {
-    return coneFaces(s.radius, s.height, pose, body);
+  FormFaces operator()(const Capsule& s) const {
+    return [s, pose = pose](const FluidBody& body) {
+      return capsuleFaces(s.radius, s.height, pose, body);
+    };
+  }
+  FormFaces operator()(const Cone& s) const {
+    return [s, pose = pose](const FluidBody& body) {
+      return coneFaces(s.radius, s.height, pose, body);
+    };
   }
   template <class Other>
-  std::optional<FaceTable> operator()(const Other&) const {
-    return std::nullopt;
+  FormFaces operator()(const Other&) const {
+    return nullptr;
   }
 };
 
-/// Gives a body few faces for the form law, if not all are needed: those of a rule in place of all,
-/// or a level beside them.
-void takeFewFaces(const ShapeForm& form, const CollisionShapeSettings& settings, FluidBody& body) {
+/// Returns the rule for few faces of the form law in place of all; none, or all are needed: null.
+FormFaces facesByRule(const ShapeForm& form, const CollisionShapeSettings& settings) {
+  if (form.parts.size() > 1 || settings.load_error < kRuleError) return nullptr;
+  const PlacedShape& part = form.parts.front();
+  return std::visit(FacesByRule{{part.pose.linear(), part.pose.translation()}}, part.shape);
+}
+
+/// Gives a body a level of few faces for the form law beside all, if not all are needed.
+void addFewFaces(const CollisionShapeSettings& settings, FluidBody& body) {
   if (settings.load_error == 0 || body.sphere_radius > 0) return;
-  if (form.parts.size() == 1 && settings.load_error >= kRuleError) {
-    const PlacedShape& part = form.parts.front();
-    const FrameOffset pose{part.pose.linear(), part.pose.translation()};
-    if (auto faces = std::visit(FacesByRule{pose, body}, part.shape)) {
-      body.form.faces = *std::move(faces);
-      return;
-    }
-  }
   tellStage(settings, "choosing few faces");
   if (auto level = smallestFormLevel(body, settings.load_error))
     body.form_levels.push_back(*std::move(level));
@@ -305,8 +310,9 @@ FluidBody bodyOf(const std::vector<Solid>& solids, const ShapeForm& form,
     build.viscous_flow.resistance =
         solved(settings, build.name, [&] { return resistanceOf(mesh, build.flow); });
   }
+  build.viscous_flow.form_faces = facesByRule(form, settings);
   FluidBody body = makeFluidBody(mesh, build);
-  takeFewFaces(form, settings, body);
+  if (!build.viscous_flow.form_faces) addFewFaces(settings, body);
   body.provenance.said = warningsOf(solids, body, settings);
   body.provenance.said.insert(body.provenance.said.end(), lines.begin(), lines.end());
   return body;

@@ -175,7 +175,7 @@ std::string unlikelySizeWarning(const TriangleMesh& mesh, bool is_scaled,
               : "; lengths are metres: if the file is in others, give a scale");
 }
 
-void requireUsualSize(const TriangleMesh& mesh, bool sheet, const std::string& source) {
+MeshProperties requireUsualSize(const TriangleMesh& mesh, bool sheet, const std::string& source) {
   const double size = mesh.extents().norm();
   if (!(size >= kSmallestSize && size <= kLargestSize)) {
     const std::string limits = "; it must be 1e-9 m to 1e9 m";
@@ -183,7 +183,9 @@ void requireUsualSize(const TriangleMesh& mesh, bool sheet, const std::string& s
     if (!std::isfinite(size)) raiseInputError(source, what, "not finite", limits);
     raiseInputError(source, what, size, " m", limits);
   }
-  requireUsualWidth(computeMassProperties(mesh, sheet), size, sheet, source);
+  MeshProperties properties = computeMassProperties(mesh, sheet);
+  requireUsualWidth(properties, size, sheet, source);
+  return properties;
 }
 
 }  // namespace ambient

@@ -52,11 +52,11 @@ constexpr double kSmallestSize = 1e-9, kLargestSize = 1e9;
 constexpr double kLeastVolume = 1e-6;
 
 /// Checks that a mesh is neither tiny nor huge, and wide and thick enough for its triangles to have
-/// normals. Cost O(T).
+/// normals. Returns its properties. Cost O(T).
 /// @throws std::runtime_error in one line that begins with `source`, if its diagonal is not
 /// kSmallestSize to kLargestSize, its area over the diagonal's square is below 1e-12 or, unless it
 /// is a sheet, its volume over its area^1.5 below kLeastVolume.
-void requireUsualSize(const TriangleMesh& mesh, bool sheet, const std::string& source);
+MeshProperties requireUsualSize(const TriangleMesh& mesh, bool sheet, const std::string& source);
 
 /// Text of extents [m]: "1 x 2 x 3 m".
 std::string extentsText(const Eigen::Vector3d& extents);

@@ -40,7 +40,7 @@ ViscousForm viscousFormOf(const FluidBody& body, const KnownViscousFlow& known, 
 }  // namespace
 
 void prepare(FluidBody& body, const KnownViscousFlow& known, int threads) {
-  makeSurfaceForm(body);
+  makeSurfaceForm(body, known.form_faces);
   if (body.sphere_radius > 0) {
     body.viscous = {};
   } else if (!body.surface.triangles.empty()) {

@@ -14,7 +14,8 @@ struct KnownViscousFlow {
   std::optional<Matrix6> resistance;  ///< R about the origin; none: it is solved
   /// None: not known, all of the base counts as made by edges.
   std::optional<Separation> separation;
-  bool is_primitive = false;  ///< as ViscousForm::is_primitive
+  bool is_primitive = false;       ///< as ViscousForm::is_primitive
+  FormFaces form_faces = nullptr;  ///< as of makeSurfaceForm()
 };
 
 /// Makes FluidBody::form and FluidBody::viscous from the other fields, also where they are there
@@ -22,7 +23,7 @@ struct KnownViscousFlow {
 /// attaches the body. Spheres get none; without a surface `viscous` stays as it is. Cost O(F log
 /// F), 2 us per face, and where R is solved that of computeStokesResistance().
 /// @param body filled but for what this makes
-/// @param known of its viscous flow; by default nothing
+/// @param known of its viscous flow and faces; by default nothing
 /// @param threads as StokesSettings::threads
 /// @throws std::invalid_argument as computeSharpness(), std::runtime_error as
 /// computeStokesResistance().

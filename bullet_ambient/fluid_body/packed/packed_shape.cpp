@@ -147,7 +147,7 @@ void PackedFaces::setPlace(std::size_t block) {
 
 namespace {
 
-using Triangle = std::array<Vector3, 3>;
+using Triangle = HullTriangle;
 
 std::vector<Triangle> trianglesOf(const Surface& surface, const std::vector<std::int32_t>& hull) {
   std::vector<Triangle> triangles;
@@ -229,6 +229,17 @@ HullBlock blockOf(const Triangle* triangles, std::size_t count) {
   return block;
 }
 
+HullWhole wholeOf(const std::vector<Triangle>& triangles) {
+  HullWhole whole = {};
+  const Box box = boxAround(triangles.front().data(), 3 * triangles.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    whole.centre[axis] = box.centre[axis];
+    whole.half[axis] = box.half[axis];
+  }
+  for (const Triangle& triangle : triangles) add(triangle, whole.moments);
+  return whole;
+}
+
 double volumeOf(const std::vector<Triangle>& triangles) {
   double volume = 0;
   for (const Triangle& t : triangles) volume += t[0].dot(t[1].cross(t[2])) / 6;
@@ -241,12 +252,15 @@ PackedHull::PackedHull(const FluidBody& body) {
   if (body.surface.triangles.empty()) return;
   requirePrepared(body);
   const std::vector<Triangle> triangles = trianglesOf(body.surface, body.form.hull);
-  packPoints(cornersOf(triangles));
+  if (body.volume > 0) symmetry_ = symmetryOf(body);
+  packPoints(partOf(cornersOf(triangles), symmetry_));
   if (!(body.volume > 0)) return;
   const double volume = volumeOf(triangles);
   if (volume > 0) volume_factor_ = body.volume / volume;
   AMBIENT_ASSERT(volume_factor_ > 0 && std::isfinite(volume_factor_));
-  packInBlocks(triangles);
+  const std::vector<Triangle> part = partOf(triangles, symmetry_);
+  if (symmetry_.axis >= 0) whole_ = std::make_shared<const HullWhole>(wholeOf(part));
+  packInBlocks(part);
 }
 
 PackedHull::PackedHull(const Surface& surface) {

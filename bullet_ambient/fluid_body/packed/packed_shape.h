@@ -2,10 +2,12 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "bullet_ambient/fluid_body/blocks.h"
 #include "bullet_ambient/fluid_body/fluid_body.h"
+#include "bullet_ambient/fluid_body/packed/hull_symmetry.h"
 
 namespace ambient {
 
@@ -55,8 +57,9 @@ class PackedFaces {
 };
 
 /// Shape for hydrostatics, in frame F: surface triangles in blocks of neighbours with their
-/// moments, 110 bytes per triangle. The triangles are those of SurfaceForm::hull. A sheet has
-/// corners but no triangles: it displaces nothing.
+/// moments, 110 bytes per triangle. The triangles are those of SurfaceForm::hull; of many that are
+/// alike after quarter turns about an axis through F's origin, a quarter is kept, HullSymmetry. A
+/// sheet has corners but no triangles: it displaces nothing.
 class PackedHull {
  public:
   /// Cost: O(T log T). @throws std::invalid_argument as requirePrepared().
@@ -65,22 +68,24 @@ class PackedHull {
   explicit PackedHull(const Surface& surface);
 
   HullBlocks blocks() const {
-    return {blocks_.data(), boxes_.data(), moments_.data(), blocks_.size()};
+    return {blocks_.data(), boxes_.data(), moments_.data(),
+            blocks_.size(), symmetry_,     whole_.get()};
   }
-  HullCorners corners() const { return {points_.data(), points_.size()}; }
+  HullCorners corners() const { return {points_.data(), points_.size(), symmetry_}; }
   /// FluidBody::volume over the volume inside the triangles; above 1 for meshes of round bodies.
   double volumeFactor() const { return volume_factor_; }
 
  private:
-  using Triangle = std::array<Vector3, 3>;
-  void packInBlocks(const std::vector<Triangle>& triangles);
-  void packTriangles(const std::vector<Triangle>& triangles);
+  void packInBlocks(const std::vector<HullTriangle>& triangles);
+  void packTriangles(const std::vector<HullTriangle>& triangles);
   void packPoints(const std::vector<Vector3>& points);
 
   std::vector<HullBlock> blocks_;
   std::vector<HullBoxes> boxes_;
   std::vector<HullMoments> moments_;
   std::vector<HullPoints> points_;
+  HullSymmetry symmetry_;
+  std::shared_ptr<const HullWhole> whole_;  ///< null: all is kept
   double volume_factor_ = 1;
 };
 

@@ -1,5 +1,7 @@
 #include "bullet_ambient/force/kernels/hull_sums.h"
 
+#include <initializer_list>
+
 #include "bullet_ambient/base/instruction_set.h"
 #include "bullet_ambient/base/lanes.h"
 #include "bullet_ambient/fluid_body/blocks.h"
@@ -158,7 +160,8 @@ inline Side sideOf(const HullBlock& block, const Planes& planes) {
 }
 
 /// Sorts `count` blocks by their bounding boxes. Blocks whose box meets the plane are sorted by
-/// their corners.
+/// their corners; without `kByCorners` they count as cut, as most are of a small part of a hull.
+template <bool kByCorners>
 inline void choose(const HullBoxes* boxes, int count, const HullBlock* blocks, const Planes& planes,
                    Choice& choice) {
   choice.wet_count = choice.cut_count = 0;
@@ -175,7 +178,9 @@ inline void choose(const HullBoxes* boxes, int count, const HullBlock* blocks, c
     for (int lane = 0; lane < kLanes && first + lane < count; ++lane) {
       if (!(meets_box[lane] > 0)) continue;
       const int block = first + lane;
-      const Side side = above_box[lane] > 0 ? Side::kWet : sideOf(blocks[block], planes);
+      const Side side = above_box[lane] > 0 ? Side::kWet
+                        : kByCorners        ? sideOf(blocks[block], planes)
+                                            : Side::kCut;
       if (side == Side::kWet) choice.wet[choice.wet_count++] = block;
       if (side == Side::kCut) choice.cut[choice.cut_count++] = block;
     }
@@ -185,6 +190,7 @@ inline void choose(const HullBoxes* boxes, int count, const HullBlock* blocks, c
 /// Adds the triangles of cut blocks.
 inline void addCut(const HullBlock* blocks, const Choice& choice, const Planes& planes,
                    HullRows (&sums)[kLanes / kWidth]) {
+  if (choice.cut_count == 0) return;
   for (int part = 0; part < kLanes / kWidth; ++part) {
     HullRows rows = sums[part];
     for (int i = 0; i < choice.cut_count; ++i)
@@ -197,18 +203,21 @@ inline void addCut(const HullBlock* blocks, const Choice& choice, const Planes& 
 enum WetRow { kFlux, kFluxMoment, kFluxSecond = kFluxMoment + 3, kWetRows = 10 };
 static_assert(kWetRows == HullMoments::kNumbers, "each number has a row");
 
+/// Adds the sums over wholly wet triangles of these moments to rows.
+inline void addMoments(const HullMoments& moments, const double (&s)[3], double (&rows)[kWetRows]) {
+  const double(&m)[3][kWetRows] = moments.of;
+  for (int row = 0; row < kWetRows; ++row)
+    rows[row] += s[0] * m[0][row] + s[1] * m[1][row] + s[2] * m[2][row];
+}
+
 /// Partial sums, lane by lane.
 struct WetRows {
   double lanes[kLanes][kWetRows] = {};
 
   /// Adds the moments of wholly wet blocks.
   void add(const HullMoments* moments, const Choice& choice, const double (&s)[3]) {
-    for (int i = 0; i < choice.wet_count; ++i) {
-      const double(&m)[3][kWetRows] = moments[choice.wet[i]].of;
-      double(&sums)[kWetRows] = lanes[choice.wet[i] % kLanes];
-      for (int row = 0; row < kWetRows; ++row)
-        sums[row] += s[0] * m[0][row] + s[1] * m[1][row] + s[2] * m[2][row];
-    }
+    for (int i = 0; i < choice.wet_count; ++i)
+      addMoments(moments[choice.wet[i]], s, lanes[choice.wet[i] % kLanes]);
   }
   double sumOf(int row) const {
     double of_row[kLanes];
@@ -256,19 +265,85 @@ inline void addWetTo(HullSums& sums, const double (&wet)[kWetRows], const HullPl
   sums.depth += h * sms - 0.5 * (h * h * flux + dot(s, sqs));
 }
 
-HullSums sumHull(const HullBlocks& hull, const HullPlane& plane) noexcept {
-  const Planes planes(plane);
-  HullRows cut[kLanes / kWidth];
-  WetRows wet;
+/// Calls visit(moments, choice) for the blocks, pass by pass, and adds those that are cut.
+template <bool kByCorners, class Visit>
+inline void forPasses(const HullBlocks& hull, const Planes& planes,
+                      HullRows (&cut)[kLanes / kWidth], const Visit& visit) {
   Choice choice;
   constexpr std::size_t kPass = kGroups * kLanes;
   for (std::size_t begin = 0; begin < hull.count; begin += kPass) {
     const std::size_t left = hull.count - begin;
     const int count = static_cast<int>(left < kPass ? left : kPass);
-    choose(hull.boxes + begin / kLanes, count, hull.blocks + begin, planes, choice);
+    choose<kByCorners>(hull.boxes + begin / kLanes, count, hull.blocks + begin, planes, choice);
     addCut(hull.blocks + begin, choice, planes, cut);
-    wet.add(hull.moments + begin, choice, plane.normal);
+    visit(hull.moments + begin, choice);
   }
+}
+
+inline double absolute(double a) { return a < 0 ? -a : a; }
+
+/// Returns the side of all triangles that are kept, by their bounding box.
+inline Side sideOf(const HullWhole& whole, const HullPlane& plane) {
+  const double depth = plane.height - dot(plane.normal, whole.centre);
+  double reach = 0;
+  for (int axis = 0; axis < 3; ++axis) reach += absolute(plane.normal[axis]) * whole.half[axis];
+  if (depth > reach) return Side::kWet;
+  return depth >= -reach ? Side::kCut : Side::kDry;
+}
+
+/// A plane as the part of a hull that is kept sees it from one image after the other, and sums over
+/// the wholly wet triangles of the images in its frame.
+struct SeenPlane {
+  HullPlane plane;
+  double rows[kWetRows] = {};
+
+  /// Turns to the next image; after the last one plane and sums are those of the body.
+  void turn(const HullSymmetry& symmetry) {
+    constexpr int kAt[3][3] = {{4, 5, 6}, {5, 7, 8}, {6, 8, 9}};  // rows of Q
+    static_assert(kAt[0][0] == kFluxSecond && kAt[2][2] == kWetRows - 1);
+    const int axis = symmetry.axis, first = (axis + 1) % 3, second = (axis + 2) % 3;
+    const auto turnBy = [](double& x, double& y) {
+      const double before = x;
+      x = y;
+      y = -before;
+    };
+    for (double* v : {plane.normal, plane.axes[0], plane.axes[1], rows + kFluxMoment})
+      turnBy(v[first], v[second]);
+    turnBy(rows[kAt[axis][first]], rows[kAt[axis][second]]);
+    turnBy(rows[kAt[first][first]], rows[kAt[second][second]]);
+    rows[kAt[second][second]] = -rows[kAt[second][second]];
+    rows[kAt[first][second]] = -rows[kAt[first][second]];
+  }
+};
+
+/// Sums over the images of the part of a hull that is kept, one after the other.
+HullSums sumImages(const HullBlocks& hull, const HullPlane& plane) noexcept {
+  HullRows cut[kLanes / kWidth];
+  SeenPlane seen{plane};
+  for (int image = 0; image < hull.symmetry.images(); ++image, seen.turn(hull.symmetry)) {
+    const Side side = sideOf(*hull.whole, seen.plane);
+    if (side == Side::kWet) addMoments(hull.whole->moments, seen.plane.normal, seen.rows);
+    if (side != Side::kCut) continue;
+    forPasses<false>(hull, Planes(seen.plane), cut,
+                     [&](const HullMoments* moments, const Choice& choice) {
+                       for (int i = 0; i < choice.wet_count; ++i)
+                         addMoments(moments[choice.wet[i]], seen.plane.normal, seen.rows);
+                     });
+  }
+  double of_cut[kRows];
+  sumRows(cut, of_cut);
+  HullSums sums = sumsOf(of_cut);
+  addWetTo(sums, seen.rows, plane);
+  return sums;
+}
+
+HullSums sumHull(const HullBlocks& hull, const HullPlane& plane) noexcept {
+  if (hull.whole) return sumImages(hull, plane);
+  HullRows cut[kLanes / kWidth];
+  WetRows wet;
+  forPasses<true>(hull, Planes(plane), cut, [&](const HullMoments* moments, const Choice& choice) {
+    wet.add(moments, choice, plane.normal);
+  });
   double of_cut[kRows], of_wet[kWetRows];
   sumRows(cut, of_cut);
   for (int row = 0; row < kWetRows; ++row) of_wet[row] = wet.sumOf(row);
@@ -277,10 +352,49 @@ HullSums sumHull(const HullBlocks& hull, const HullPlane& plane) noexcept {
   return sums;
 }
 
-inline double absolute(double a) { return a < 0 ? -a : a; }
+/// Widens an extent by that of points; the first ones make it.
+inline void widen(HullExtent& extent, const Doubles& low, const Doubles& high, bool are_first) {
+  double lows[kWidth], highs[kWidth];
+  store(lows, low);
+  store(highs, high);
+  if (are_first) extent = {lows[0], highs[0]};
+  for (int lane = 0; lane < kWidth; ++lane) {
+    if (lows[lane] < extent.low) extent.low = lows[lane];
+    if (highs[lane] > extent.high) extent.high = highs[lane];
+  }
+}
+
+/// Returns the extent along s of the images of corners that are kept. Skips blocks as hullExtent().
+HullExtent extentOfImages(const HullCorners& corners, const double (&s)[3]) noexcept {
+  const int axis = corners.symmetry.axis, first = (axis + 1) % 3, second = (axis + 2) % 3;
+  const Doubles zero = {}, to_x = zero + s[first], to_y = zero + s[second];
+  const double up = s[axis], across = absolute(s[first]) + absolute(s[second]);
+  HullExtent extent{};
+  for (std::size_t i = 0; i < corners.count; ++i) {
+    const HullPoints& block = corners.blocks[i];
+    const auto farthest = [&](int of) { return absolute(block.centre[of]) + block.half[of]; };
+    const double way = farthest(first) > farthest(second) ? farthest(first) : farthest(second);
+    const double middle = up * block.centre[axis];
+    const double reach = absolute(up) * block.half[axis] + across * way;
+    if (i > 0 && middle - reach >= extent.low && middle + reach <= extent.high) continue;
+    Doubles low = zero, high = zero;
+    for (int at = 0; at < HullPoints::kPoints; at += kWidth) {
+      const Doubles x = load(block.place[first] + at), y = load(block.place[second] + at);
+      const Doubles along = to_x * x + to_y * y, turned = to_y * x - to_x * y;
+      const Doubles one = along > zero ? along : -along, other = turned > zero ? turned : -turned;
+      const Doubles aside = one > other ? one : other, z = up * load(block.place[axis] + at);
+      const Doubles lowest = z - aside, highest = z + aside;
+      low = at == 0 ? lowest : lowest < low ? lowest : low;
+      high = at == 0 ? highest : highest > high ? highest : high;
+    }
+    widen(extent, low, high, i == 0);
+  }
+  return extent;
+}
 
 /// Returns the extent along s. Skips blocks whose bounding box lies within the extent found so far.
 HullExtent hullExtent(const HullCorners& corners, const double (&s)[3]) noexcept {
+  if (corners.symmetry.axis >= 0) return extentOfImages(corners, s);
   const Vectors normal = inAllLanes<Doubles>(s);
   const double size[3] = {absolute(s[0]), absolute(s[1]), absolute(s[2])};
   HullExtent extent{};
@@ -294,14 +408,7 @@ HullExtent hullExtent(const HullCorners& corners, const double (&s)[3]) noexcept
       low = along < low ? along : low;
       high = along > high ? along : high;
     }
-    double lows[kWidth], highs[kWidth];
-    store(lows, low);
-    store(highs, high);
-    if (i == 0) extent = {lows[0], highs[0]};
-    for (int lane = 0; lane < kWidth; ++lane) {
-      if (lows[lane] < extent.low) extent.low = lows[lane];
-      if (highs[lane] > extent.high) extent.high = highs[lane];
-    }
+    widen(extent, low, high, i == 0);
   }
   return extent;
 }

@@ -298,6 +298,12 @@ std::shared_ptr<const SurfaceLoads> loadsOnSphere(const Body& sphere, LoadSettin
                                        *sphere);
 }
 
+/// Whether a body that a surface may cut has other loads than one that is wholly in a fluid.
+bool isOtherWhereCut(const FluidBody& body, const LoadSettings& settings) {
+  const bool has_levels = settings.law == PressureLaw::kForm && !body.form_levels.empty();
+  return body.sphere_radius > 0 || has_levels || settings.separation_cosine == -1;
+}
+
 std::shared_ptr<const SurfaceLoads> lawOf(const Body& body, const LoadSettings& settings,
                                           const FlowSettings& flow, LoadPlace place) {
   checkFaces(*body);
@@ -315,8 +321,9 @@ std::shared_ptr<const SurfaceLoads> lawOf(const Body& body, const LoadSettings& 
 std::shared_ptr<const SurfaceLoads> makeLoads(const Body& body, const Medium& medium,
                                               const FlowSettings& flow, LoadPlace place) {
   const LoadSettings settings = loadSettings(medium, flow);
-  const auto make = [&] { return lawOf(body, settings, flow, place); };
   checkFlow(*body, flow);
+  if (!isOtherWhereCut(*body, settings)) place = LoadPlace::kUnbounded;
+  const auto make = [&] { return lawOf(body, settings, flow, place); };
   // Not for a medium without loads, nor for one that later checks reject.
   const bool is_shared = medium.density > 0 && medium.viscosity >= 0 && !flow.own_law;
   auto loads = is_shared ? LoadTables(body).loads(medium, flow, place, make) : make();

@@ -53,14 +53,16 @@ namespace {
 
 template <class Visit>
 void forEachWetTriangle(const HullBlocks& hull, const PoolFrame& pool, const Visit& visit) {
-  for (std::size_t block = 0; block < hull.count; ++block)
-    for (int lane = 0; lane < HullBlock::kTriangles; ++lane) {
-      const auto& from = hull.blocks[block].corner;
-      Vector3 corners[3];
-      for (int k = 0; k < 3; ++k)
-        corners[k] = {from[k][0][lane], from[k][1][lane], from[k][2][lane]};
-      WetPolygon(pool, corners).forEachTriangle(visit);
-    }
+  for (int image = 0; image < hull.symmetry.images(); ++image)
+    for (std::size_t block = 0; block < hull.count; ++block)
+      for (int lane = 0; lane < HullBlock::kTriangles; ++lane) {
+        const auto& from = hull.blocks[block].corner;
+        Vector3 corners[3];
+        for (int k = 0; k < 3; ++k)
+          corners[k] = hull.symmetry.imageOf(
+              Vector3(from[k][0][lane], from[k][1][lane], from[k][2][lane]), image);
+        WetPolygon(pool, corners).forEachTriangle(visit);
+      }
 }
 
 // Returns twelve times the mean of a product of two linear functions over a triangle, given at its

@@ -20,11 +20,15 @@ double radiusOf(const FluidBody& body, const FrameOffset& frame, const PackedHul
   if (!hull)
     return body.sphere_radius + (frame.rotation * body.centre_of_volume + frame.translation).norm();
   const Vector3 middle = -(frame.rotation.transpose() * frame.translation);
+  const HullCorners corners = hull->corners();
   double largest = 0;
-  for (std::size_t i = 0; i < hull->corners().count; ++i) {
-    const auto& place = hull->corners().blocks[i].place;
-    for (int k = 0; k < HullPoints::kPoints; ++k)
-      largest = std::max(largest, (Vector3(place[0][k], place[1][k], place[2][k]) - middle).norm());
+  for (int image = 0; image < corners.symmetry.images(); ++image) {
+    const Vector3 seen = corners.symmetry.seenFrom(middle, image);
+    for (std::size_t i = 0; i < corners.count; ++i) {
+      const auto& place = corners.blocks[i].place;
+      for (int k = 0; k < HullPoints::kPoints; ++k)
+        largest = std::max(largest, (Vector3(place[0][k], place[1][k], place[2][k]) - seen).norm());
+    }
   }
   return largest;
 }

@@ -47,7 +47,7 @@ RoundedJson toRoundedJson(const Vector3& v) {
 
 RoundedJson toRoundedJson(const Surface& surface) {
   return {{"vertices", std::vector<float>(surface.vertices.begin(), surface.vertices.end())},
-          {"triangles", surface.triangles}};
+          {"triangles", surface.triangles.get()}};
 }
 
 bool hasTwoSides(const BodyDef& def, const PreparedBody& prepared) {

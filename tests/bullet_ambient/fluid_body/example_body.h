@@ -34,7 +34,7 @@ inline FluidBody exampleBody(int level = 1) {
   for (const Vector3& v : mesh.vertices)
     body.surface.vertices.insert(body.surface.vertices.end(), {v.x(), v.y(), v.z()});
   for (const Eigen::Vector3i& t : mesh.triangles)
-    body.surface.triangles.insert(body.surface.triangles.end(), {t[0], t[1], t[2]});
+    body.surface.triangles.own().insert(body.surface.triangles.end(), {t[0], t[1], t[2]});
   makeSurfaceForm(body);
   return body;
 }

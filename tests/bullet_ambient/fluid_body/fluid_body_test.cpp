@@ -17,6 +17,19 @@
 namespace ambient::test {
 namespace {
 
+TEST(SharedList, HasTheMemoryOfItsCopiesUntilItIsChanged) {
+  SharedList<int> list{1, 2, 3};
+  const SharedList<int> copy = list;
+  EXPECT_EQ(copy.data(), list.data());
+  list.own().push_back(4);
+  EXPECT_EQ(copy.get(), (std::vector<int>{1, 2, 3}));
+  EXPECT_EQ(list.get(), (std::vector<int>{1, 2, 3, 4}));
+  const int* alone = list.data();
+  list.own()[0] = 5;
+  EXPECT_EQ(list.data(), alone) << "nobody else has it";
+  EXPECT_TRUE(SharedList<int>().empty());
+}
+
 TEST(FaceTable, HoldsTheFacesInTheOrderAdded) {
   FaceTable faces;
   faces.add({1, 0, 0}, {1, 2, 3}, 4);
@@ -33,9 +46,7 @@ TEST(FaceTable, HoldsTheFacesInTheOrderAdded) {
 TEST(FaceTable, ReservesAllColumns) {
   FaceTable faces;
   faces.reserve(10);
-  for (const auto* column : {&faces.normal_x, &faces.normal_y, &faces.normal_z, &faces.centroid_x,
-                             &faces.centroid_y, &faces.centroid_z, &faces.area})
-    EXPECT_GE(column->capacity(), 10u);
+  for (const auto* column : faces.columns()) EXPECT_GE(column->capacity(), 10u);
 }
 
 TEST(SlipMatrix, GivesTheTangentialVelocityOfTheFluidAtEveryFace) {
@@ -84,7 +95,7 @@ TEST(FluidBody, WhatTheSurfaceOfWaterAndTheFormLawNeedIsPartOfItsContent) {
     return contentHash(other);
   };
   EXPECT_NE(changed([](FluidBody& b) { b.surface.vertices.push_back(1); }), hash);
-  EXPECT_NE(changed([](FluidBody& b) { b.surface.triangles.push_back(1); }), hash);
+  EXPECT_NE(changed([](FluidBody& b) { b.surface.triangles.own().push_back(1); }), hash);
   EXPECT_NE(changed([](FluidBody& b) { b.added_mass_parts = std::vector<AddedMassPart>(1); }),
             hash);
   EXPECT_NE(changed([](FluidBody& b) { b.faces.sharpness.push_back(0.5); }), hash);

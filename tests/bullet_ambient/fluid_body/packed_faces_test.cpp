@@ -252,7 +252,8 @@ FluidBody bodyOf(const test::Triangulation& mesh) {
   for (const Vector3& vertex : mesh.vertices)
     body.surface.vertices.insert(body.surface.vertices.end(), vertex.begin(), vertex.end());
   for (const Eigen::Vector3i& triangle : mesh.triangles)
-    body.surface.triangles.insert(body.surface.triangles.end(), triangle.begin(), triangle.end());
+    body.surface.triangles.own().insert(body.surface.triangles.end(), triangle.begin(),
+                                        triangle.end());
   return body;
 }
 
@@ -297,7 +298,8 @@ TEST(Sharpness, TakesVerticesAtOnePlaceForOne) {
     for (std::size_t axis = 0; axis < 3; ++axis)
       apart.surface.vertices.push_back(body.surface.vertices[3 * vertex + axis]);
   }
-  std::iota(apart.surface.triangles.begin(), apart.surface.triangles.end(), 0);
+  std::vector<std::int32_t>& numbers = apart.surface.triangles.own();
+  std::iota(numbers.begin(), numbers.end(), 0);
   EXPECT_EQ(computeSharpness(apart), computeSharpness(body));
 }
 
@@ -320,7 +322,7 @@ TEST(Sharpness, IsOneOfFacesWithoutASurface) {
 
 TEST(Sharpness, NeedsTheTrianglesOfTheFaces) {
   FluidBody body = bodyOf(test::geodesicSphere(0));
-  body.surface.triangles.resize(27);
+  body.surface.triangles.own().resize(27);
   EXPECT_EQ(test::refusalOf<std::invalid_argument>([&] { computeSharpness(body); }),
             "fluid body 'round': number of its faces is 20, must be that of the triangles of its "
             "surface, or twice that of a sheet's, for the form law");

@@ -21,6 +21,7 @@
 #include "tests/support/bodies/geodesic.h"
 #include "tests/support/bodies/part_bodies.h"
 #include "tests/support/bodies/random_bodies.h"
+#include "tests/support/bodies/round_barrel.h"
 
 namespace ambient {
 namespace {
@@ -343,8 +344,10 @@ TEST(KernelBits, OfSumsOverFacesAreThoseOfTheBaseline) {
 }
 
 TEST(KernelBits, OfSumsOverHullsAreThoseOfTheBaseline) {
-  for (const int level : {0, 1, 2, 4}) {
-    const PackedHull hull(test::hullBody(test::geodesicEllipsoid({2, 1.3, 0.7}, level)));
+  constexpr int kBarrel = -1, kMug = -2;
+  for (const int level : {0, 1, 2, 4, kBarrel, kMug}) {
+    const PackedHull hull(level >= 0 ? test::hullBody(test::geodesicEllipsoid({2, 1.3, 0.7}, level))
+                                     : test::roundBarrel(1, level == kBarrel));
     compareKernels(kHullKernels, [&](const HullKernel* kernel) {
       for (int i = -12; i <= 12; ++i) {
         const HullPlane plane{{0.48, 0.6, 0.64}, {{0.8, -0.6, 0}, {0.384, 0.512, -0.768}}, 0.1 * i};

@@ -272,7 +272,7 @@ TEST(LoadTables, HaveOneSetOfLoadsPerShapeFluidAndSettings) {
   EXPECT_EQ(makeSurfaceLoads(body, water(), flow), loads);
   EXPECT_NE(makeSurfaceLoads(same, water(), flow), loads);
   EXPECT_NE(makeSurfaceLoads(body, air(), flow), loads);
-  EXPECT_NE(makeWaterlineLoads(body, water(), flow), loads);
+  EXPECT_EQ(makeWaterlineLoads(body, water(), flow), loads) << "the same faces are summed";
   FlowSettings others[7];
   others[0].separation_angle = 2;
   others[1].skin_friction = false;
@@ -285,6 +285,17 @@ TEST(LoadTables, HaveOneSetOfLoadsPerShapeFluidAndSettings) {
   };
   for (const FlowSettings& other : others) EXPECT_NE(makeSurfaceLoads(body, water(), other), loads);
   EXPECT_NE(makeSurfaceLoads(body, water(), others[6]), makeSurfaceLoads(body, water(), others[6]));
+}
+
+TEST(LoadTables, HaveOtherLoadsAtASurfaceWhereOtherFacesAreSummed) {
+  auto body = std::make_shared<FluidBody>(test::hullBody(test::geodesicSphere(1)));
+  FlowSettings flow;
+  flow.law = PressureLaw::kPublished;
+  EXPECT_EQ(makeWaterlineLoads(body, water(), flow), makeSurfaceLoads(body, water(), flow));
+  flow.separation_angle = kPi;
+  EXPECT_NE(makeWaterlineLoads(body, water(), flow), makeSurfaceLoads(body, water(), flow));
+  body->form_levels.push_back({body->form.faces, 0.001});
+  EXPECT_NE(makeWaterlineLoads(body, water(), {}), makeSurfaceLoads(body, water(), {}));
 }
 
 // Sums over all faces, for which a world that is made anew does not wait.

@@ -286,7 +286,7 @@ TEST(Wings, ThatNoBodyHasAreRefused) {
   EXPECT_NE(refusalAfter([](FluidBody& b) { b.part_of_triangle[0] = 9; }).find("9"),
             std::string::npos);
   EXPECT_NE(refusalAfter([](FluidBody& b) {
-              b.surface.triangles.clear();
+              b.surface.triangles.own().clear();
               b.part_of_triangle.clear();
             }).find("a body with wings has 0 triangles"),
             std::string::npos);

@@ -306,8 +306,8 @@ FluidBody bodyByHand() {
     body.faces.add(mesh.twiceArea(t).normalized(), mesh.barycentre(t),
                    mesh.twiceArea(t).norm() / 2);
   body.surface.vertices.assign(mesh.vertices.data(), mesh.vertices.data() + mesh.vertices.size());
-  body.surface.triangles.assign(mesh.triangles.data(),
-                                mesh.triangles.data() + mesh.triangles.size());
+  body.surface.triangles.own().assign(mesh.triangles.data(),
+                                      mesh.triangles.data() + mesh.triangles.size());
   return body;
 }
 

@@ -31,7 +31,7 @@ inline FluidBody hullBody(const Triangulation& mesh) {
   for (const Vector3& v : mesh.vertices)
     body.surface.vertices.insert(body.surface.vertices.end(), {v.x(), v.y(), v.z()});
   for (const Eigen::Vector3i& t : mesh.triangles) {
-    body.surface.triangles.insert(body.surface.triangles.end(), {t[0], t[1], t[2]});
+    body.surface.triangles.own().insert(body.surface.triangles.end(), {t[0], t[1], t[2]});
     const auto corner = [&](int i) { return mesh.vertices[static_cast<std::size_t>(t[i])]; };
     body.volume += corner(0).dot(corner(1).cross(corner(2))) / 6;
   }
@@ -125,7 +125,8 @@ inline FluidBody smoothHull(const Vector3& semi_axes, int level = 3) {
   for (const Vector3& vertex : mesh.vertices)
     body.surface.vertices.insert(body.surface.vertices.end(), vertex.data(), vertex.data() + 3);
   for (const auto& triangle : mesh.triangles)
-    body.surface.triangles.insert(body.surface.triangles.end(), triangle.begin(), triangle.end());
+    body.surface.triangles.own().insert(body.surface.triangles.end(), triangle.begin(),
+                                        triangle.end());
   makeSurfaceForm(body);
   return body;
 }

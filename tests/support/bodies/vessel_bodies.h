@@ -49,7 +49,7 @@ inline Hold boxHold(const Vector3& size, const Vector3& centre) {
     hold.surface.vertices.insert(hold.surface.vertices.end(), place.data(), place.data() + 3);
   }
   for (const auto& t : box.triangles)
-    hold.surface.triangles.insert(hold.surface.triangles.end(), {t[0], t[1], t[2]});
+    hold.surface.triangles.own().insert(hold.surface.triangles.end(), {t[0], t[1], t[2]});
   hold.volume = size.prod();
   hold.centre = centre;
   const Vector3 turning(turningOfBox(size.y(), size.z()), turningOfBox(size.z(), size.x()),

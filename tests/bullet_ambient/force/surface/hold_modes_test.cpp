@@ -28,7 +28,7 @@ Hold holdOf(const Triangulation& mesh) {
   for (const Vector3& place : mesh.vertices)
     hold.surface.vertices.insert(hold.surface.vertices.end(), place.data(), place.data() + 3);
   for (const auto& t : mesh.triangles) {
-    hold.surface.triangles.insert(hold.surface.triangles.end(), {t[0], t[1], t[2]});
+    hold.surface.triangles.own().insert(hold.surface.triangles.end(), {t[0], t[1], t[2]});
     const auto corner = [&](int i) -> const Vector3& {
       return mesh.vertices[static_cast<std::size_t>(t[static_cast<std::size_t>(i)])];
     };

@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "bullet_ambient/base/pi.h"
 #include "tests/support/bodies/geodesic.h"
 #include "tests/support/bodies/hull_bodies.h"
 #include "tests/support/bodies/random_bodies.h"
+#include "tests/support/bodies/round_barrel.h"
 
 namespace ambient {
 namespace {
@@ -35,6 +37,64 @@ TEST(Hydrostatics, BothSidesOfThePlaneMakeUpABox) {
       EXPECT_NEAR(wet.waterplane.area, dry.waterplane.area, 1e-13);
     }
   }
+}
+
+void expectSame(const WetVolume& wet, const WetVolume& expected) {
+  EXPECT_NEAR(wet.volume, expected.volume, 1e-14);
+  EXPECT_LT((wet.moment - expected.moment).norm(), 1e-14);
+  EXPECT_NEAR(wet.depth_integral, expected.depth_integral, 1e-14);
+  EXPECT_NEAR(wet.waterplane.area, expected.waterplane.area, 1e-14);
+  constexpr double kSome = 1e-3;  // of less, rounding makes the centroid
+  if (!(expected.waterplane.area > kSome)) return;
+  EXPECT_LT((wet.waterplane.centroid - expected.waterplane.centroid).norm(), 1e-11);
+  EXPECT_LT((wet.waterplane.spread - expected.waterplane.spread).norm(), 1e-14);
+}
+
+// A quarter of the triangles stands for all of them.
+TEST(Hydrostatics, PartOfASymmetricHullIsAsGoodAsAllOfIt) {
+  Arbitrary arbitrary(4);
+  for (int axis = 0; axis < 3; ++axis)
+    for (const bool has_equal_ends : {true, false}) {
+      SCOPED_TRACE(axis);
+      const FluidBody body = test::roundBarrel(axis, has_equal_ends);
+      const PackedHull part(body), all(body.surface);
+      ASSERT_EQ(part.blocks().symmetry.axis, axis);
+      EXPECT_LE(part.blocks().count, all.blocks().count / 3);
+      for (int i = 0; i < 100; ++i) {
+        SurfacePlane plane = planeAt(arbitrary.vector(), arbitrary.between(-1.2, 1.2));
+        expectSame(computeWetVolume(part, plane), computeWetVolume(all, plane));
+        const auto [low, high] = computeExtent(part, plane.normal);
+        const auto [lowest, highest] = computeExtent(all, plane.normal);
+        EXPECT_NEAR(low, lowest, 1e-15);
+        EXPECT_NEAR(high, highest, 1e-15);
+        PoolSides sides;
+        sides.count = 1;
+        sides.of[0] = {plane.normal.cross(arbitrary.vector()).normalized(),
+                       0.3 * arbitrary.vector()};
+        plane.sides_F = &sides;
+        expectSame(computeWetVolume(part, plane), computeWetVolume(all, plane));
+        EXPECT_LT(
+            (computeSidePush(part, plane).vector() - computeSidePush(all, plane).vector()).norm(),
+            1e-13);
+      }
+    }
+}
+
+// A hull that is all but symmetric is kept whole.
+TEST(Hydrostatics, ADentTakesTheSymmetryOfAHull) {
+  FluidBody body = test::roundBarrel(2, true);
+  body.surface.vertices[3 * 40] *= 0.999;
+  makeSurfaceForm(body);
+  EXPECT_EQ(PackedHull(body).blocks().symmetry.images(), 1);
+  FluidBody turned = test::roundBarrel(2, true);
+  std::vector<std::int32_t>& triangles = turned.surface.triangles.own();
+  const std::size_t side = 3 * 8;  // its two triangles take the other diagonal
+  const std::int32_t a = triangles[side], b = triangles[side + 1], c = triangles[side + 2],
+                     d = triangles[side + 5];
+  ASSERT_EQ(triangles[side + 3], a);
+  const std::array<std::int32_t, 6> other{a, b, d, b, c, d};
+  std::copy(other.begin(), other.end(), &triangles[side]);
+  EXPECT_EQ(PackedHull(turned).blocks().symmetry.images(), 1);
 }
 
 // Twice the way has eight times the error: planes of 1e-2 and 2e-2 beside the first.
