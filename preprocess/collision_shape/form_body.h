@@ -17,7 +17,7 @@ namespace ambient {
 struct CollisionShapeSettings {
   std::string name;  ///< name of the body, begins every message; empty: the shape's name
   int faces = 0;     ///< triangles aimed at, where the shape has no mesh of its own; 0: 1300; where
-                     ///< the added mass is known 700, for a box 350, which makes 192, for a
+                     ///< the added mass is known 500, for a box 350, which makes 336, for a
                      ///< sphere 80
   PotentialFlowSettings flow{false, kDefaultPanels};  ///< as in BuildSettings
   /// Allowed error of the few faces that carry the loads by the form law in place of all,
