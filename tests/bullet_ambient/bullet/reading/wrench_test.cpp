@@ -261,7 +261,7 @@ TEST(WetState, OfATurnedBoxIsThatOfTheWedgeInTheWater) {
   EXPECT_NEAR(wet.volume, 0.8 * depth * depth, kGeometryRounding);
   EXPECT_NEAR(wet.area, 2 * 0.8 * std::sqrt(2.0) * depth + 2 * depth * depth,
               4 * kGeometryRounding);
-  const Vector3 centre(0, 0, 1 - depth / 3);
+  const Vector3 centre(0, (0.4 - 0.6) / 2 / std::sqrt(2.0), 1 - depth / 3);
   EXPECT_LT((wet.centre_of_buoyancy - centre).norm(), 4 * kGeometryRounding);
 }
 
