@@ -1,9 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/saved_state.h"
 #include "tests/bullet_ambient/bullet/contact/uneven_body.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/reference/sphere_fall.h"
@@ -256,14 +259,19 @@ TEST(ExtremeCase, ASphereFollowsItsClosedForm) {
   }
 }
 
-// By the form law the wake has to develop first, eq. (51b) to (51d).
-TEST(ExtremeCase, FallsFasterUntilItsWakeHasDeveloped) {
+FluidBody smoothBall() {
   FluidBody ball = floatingEllipsoid(Vector3::Constant(kFallRadius), 2);
   ball.sphere_radius = kFallRadius;
+  return ball;
+}
+
+// By the form law the wake has to develop first, eq. (51b) to (51d).
+TEST(ExtremeCase, FallsFasterUntilItsWakeHasDeveloped) {
   const auto speedAfter = [&](double time, PressureLaw law) {
     FluidWorld scene;
     setGravity(scene, kEarthGravity);
-    const btRigidBody& body = scene.add(sphere(12, kFallRadius), ball, inviscid(water()), law);
+    const btRigidBody& body =
+        scene.add(sphere(12, kFallRadius), smoothBall(), inviscid(water()), law);
     scene.step(1.0 / 240, static_cast<int>(240 * time));
     return fallSpeed(body);
   };
@@ -274,6 +282,24 @@ TEST(ExtremeCase, FallsFasterUntilItsWakeHasDeveloped) {
                net = 12 - water().density * 4.0 / 3 * section * kFallRadius;
   const double late = std::sqrt(4 * net * kEarthGravity / (water().density * section));  // C_D 1/2
   EXPECT_NEAR(speedAfter(6, PressureLaw::kForm), late, 1e-3 * late);
+}
+
+TEST(ExtremeCase, WakesAreSavedAndRestored) {
+  FluidWorld scene;
+  setGravity(scene, kEarthGravity);
+  const btRigidBody& body = scene.add(sphere(2, kFallRadius), smoothBall(), water());
+  scene.step(1.0 / 120, 10);
+  WorldState state = scene.fluid.save();
+  const auto heightAfter = [&] {
+    scene.step(1.0 / 120, 10);
+    return body.getWorldTransform().getOrigin().z();
+  };
+  const btScalar first = heightAfter();
+  scene.fluid.restore(state);
+  EXPECT_EQ(heightAfter(), first);
+  state.bodies[0].ambient->wake = {};
+  scene.fluid.restore(state);
+  EXPECT_NE(heightAfter(), first);
 }
 
 }  // namespace

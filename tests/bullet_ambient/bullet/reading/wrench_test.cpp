@@ -4,6 +4,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/force/medium/waves.h"
 #include "bullet_ambient/reading.h"
 #include "bullet_ambient/saved_state.h"
@@ -248,6 +249,20 @@ TEST(WetState, OfABoxIsThatOfItsDraught) {
   EXPECT_NEAR(wet.area, 0.8 * 0.6 + 2 * 0.1 * (0.8 + 0.6), kGeometryRounding);
   EXPECT_NEAR((wet.centre_of_buoyancy - Vector3(3, 4, 0.95)).norm(), 0, 4 * kGeometryRounding);
   EXPECT_EQ(wet.region, sea.id);
+}
+
+TEST(WetState, OfATurnedBoxIsThatOfTheWedgeInTheWater) {
+  Sea sea;
+  const Quaternion edge_down(Eigen::AngleAxisd(kPi / 4, Vector3::UnitX()));
+  const double depth = 0.2;  // of the edge
+  const double lowest = (0.6 + 0.4) / 2 / std::sqrt(2.0);
+  const WetState wet = sea.wetAt(floatingBox(kBoxSize), {0, 0, 1 + lowest - depth}, edge_down);
+  EXPECT_NEAR(wet.draught, depth, 4 * kGeometryRounding);
+  EXPECT_NEAR(wet.volume, 0.8 * depth * depth, kGeometryRounding);
+  EXPECT_NEAR(wet.area, 2 * 0.8 * std::sqrt(2.0) * depth + 2 * depth * depth,
+              4 * kGeometryRounding);
+  const Vector3 centre(0, (0.4 - 0.6) / 2 / std::sqrt(2.0), 1 - depth / 3);
+  EXPECT_LT((wet.centre_of_buoyancy - centre).norm(), 4 * kGeometryRounding);
 }
 
 TEST(WetState, OfABodyFarAboveOrBelowIsNothingOrAll) {

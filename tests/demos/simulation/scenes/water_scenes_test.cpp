@@ -100,7 +100,8 @@ void expectRocksWithoutSpin(const TemporaryFolder& folder, const std::string& bo
     "water": {"level": 0, "waves": [{"amplitude": 1.25, "period": 8, "direction": [0.8, 0.6, 0]}]},)" +
                 bodies + "}");
   double turn = 0, tilt = 0, before = 0;
-  for (const MotionSample& sample : run(readScene(folder / "buoy.json")).motion[0]) {
+  const RunRecord record = run(readScene(folder / "buoy.json"));
+  for (const MotionSample& sample : record.motion[0]) {
     const Vector3 axis = sample.orientation * Vector3::UnitZ();
     turn += axis.dot(sample.twist.angular) * (sample.time - before);
     before = sample.time;
