@@ -68,7 +68,8 @@ struct SubstepOutcome {
   Outcome kind = Outcome::kNotSolved;
   bool is_too_long = false;  ///< true: with this flight the errors exceed StepErrors::kLargest
   int world_index = -1;  ///< index of the body in its world's array when the solver worked on it
-  int activation_state = 0;  ///< kHeld: activation state to restore; meanwhile the body is disabled
+  int activation_state =
+      0;  ///< kDisabled: activation state to restore; meanwhile the body is disabled
   /// RowMotion: since rows have moved the body, for kRows and kNoFlight. It takes the place of the
   /// memory of the last flight, which is of no use then.
   std::variant<LastFlight, RowMotion> motion;

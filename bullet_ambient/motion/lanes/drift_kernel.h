@@ -199,7 +199,7 @@ Motions coast(const Inverse& inverse, const Motions& start, const Lanes& duratio
   return end;
 }
 
-/// Moves active bodies without loads, docs/theory.md eq. (22), see FlightKernel::flow. A body that
+/// Moves active bodies without loads, docs/theory.md eq. (22), see FlightKernel::drift. A body that
 /// the fluid settles has its turning in the kick, eq. (124).
 template <class Matrices>
 void flow(FlightLanes& bodies, int at, const Mask& active) {

@@ -59,12 +59,12 @@ struct alignas(64) BodyLanes {
 /// Input and output of the kernels of free flight.
 struct alignas(64) FlightLanes : BodyLanes {
   FlightLane velocity_scale;  ///< result of velocityScale()
-  FlightLane precision;       ///< largest error of flow(), relative to the motion [1]
+  FlightLane precision;       ///< largest error of drift(), relative to the motion [1]
 
   FlightLane energy;          ///< kinetic and potential energy at the last measure(), eq. (25a) [J]
   FlightLane drift_time;      ///< duration of the next flow [s]
-  FlightLane is_coarse;       ///< flow() sets 1 if it did not reach its precision
-  FlightLane energy_removed;  ///< flow() and bound() add the energy they remove [J]
+  FlightLane is_coarse;       ///< drift() sets 1 if it did not reach its precision
+  FlightLane energy_removed;  ///< drift() and bound() add the energy they remove [J]
 
   // Within a kick, in which load_B is the load at the sampled twist.
   FlightLane load_W[6];            ///< surface load of the last kick

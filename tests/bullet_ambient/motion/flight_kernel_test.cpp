@@ -58,11 +58,11 @@ FlightLanes arbitraryLanes(unsigned seed, double time) {
 
 void substep(const FlightKernel& kernel, FlightLanes& lanes) {
   kernel.measure(lanes);
-  kernel.flow(lanes);
+  kernel.drift(lanes);
   kernel.applyGravity(lanes);
   kernel.sample(lanes);
   kernel.kick(lanes);
-  kernel.flow(lanes);
+  kernel.drift(lanes);
   kernel.bound(lanes);
 }
 

@@ -73,7 +73,7 @@ struct Flow {
 };
 
 /// Motion for `duration` [s] without loads, docs/theory.md eq. (22), up to `precision` relative to
-/// the motion: one body of FlightKernel::flow.
+/// the motion: one body of FlightKernel::drift.
 inline Flow flowWithoutLoads(const FreeBody& body, double duration, double precision = 1e-16) {
   FlightLanes lanes{};
   setModel(lanes, 0, body.model());
@@ -82,7 +82,7 @@ inline Flow flowWithoutLoads(const FreeBody& body, double duration, double preci
   lanes.active[0] = 1;
   lanes.drift_time[0] = duration;
   lanes.precision[0] = precision;
-  kFlightKernels.fastest()->flow(lanes);
+  kFlightKernels.fastest()->drift(lanes);
   return {stateOf(lanes, 0, body.state.position), !(lanes.is_coarse[0] > 0)};
 }
 
