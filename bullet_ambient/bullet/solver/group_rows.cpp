@@ -153,6 +153,18 @@ Twist changeByLoad(const btRigidBody& body, const FlightTask& task, const Quater
                            accelerated.vector());
 }
 
+// Writes what FlightKernel::conserve() reads of a body that starts a step so.
+void setConserved(const RigidState& start, const RowVelocity& row, double time_step, int lane,
+                  RowBatch& batch) {
+  RowLanes& lanes = batch.lanes;
+  batch.positions[lane] = start.position;
+  batch.settled_inertia[lane] = row.settled_inertia;
+  lanes.kick_time[lane] = time_step;
+  lanes.turn_number[lane] = row.turn_number;
+  setLane(lanes.orientation, lane, start.orientation);
+  setLane(lanes.turning_W, lane, row.turning_W);
+}
+
 // Fills what rows need of a body at the orientation R, B to W. @pre the body's inertia tensor fits
 // it
 void fillRowBody(const AmbientBody& ambient, const BodyModel& model, const Matrix3& R,
@@ -244,13 +256,7 @@ void SolverGroup::prepareForRows(Member* const* members, int count,
       by_load = changeByLoad(*ambient.body, taskOf(i), start.orientation, row);
     complete(ambient, models[i]->inertia, start, starts.surroundings[i], time_step_,
              bodies_.complaints, row);
-    // Those of FlightKernel::conserve().
-    batch.positions[i] = start.position;
-    lanes.kick_time[i] = time_step_;
-    lanes.turn_number[i] = row.turn_number;
-    batch.settled_inertia[i] = row.settled_inertia;
-    setLane(lanes.orientation, i, start.orientation);
-    setLane(lanes.turning_W, i, row.turning_W);
+    setConserved(start, row, time_step_, i, batch);
     btSolverBody& solver_body = solver_bodies[member.solver_body];
     setExternalImpulse(solver_body, withoutTraces(row.change_W, time_step_));
     RowBody& row_body = row_bodies_->add(member.solver_body);
