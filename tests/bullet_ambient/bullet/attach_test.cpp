@@ -70,7 +70,7 @@ TEST(Attach, SaysWhatIsWrong) {
        },
        "at most 2^52 times its own"},
       {[](BodyDef&, AttachDef& a) {
-         changeShape(a, [](FluidBody& shape) { shape.faces.normal_y.pop_back(); });
+         changeShape(a, [](FluidBody& shape) { shape.faces.normal_y.own().pop_back(); });
        },
        "the same in all columns"},
       {[](BodyDef&, AttachDef& a) {
