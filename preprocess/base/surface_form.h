@@ -57,6 +57,7 @@ using FormFaces = std::function<FaceTable(const FluidBody&)>;
 
 /// Makes FluidBody::form from the other fields, also where it is there already; a part of
 /// prepare(). Spheres get none. Cost O(F log F), 2 us per face.
+/// @param body its surface, parts of the added mass and sharpness count
 /// @param make_faces null: by formLawFaces()
 /// @throws std::invalid_argument as computeSharpness().
 void makeSurfaceForm(FluidBody& body, const FormFaces& make_faces = nullptr);
