@@ -132,7 +132,7 @@ TEST(Attach, ReportsAnAngleThatTheFormLawDoesNotReadOnce) {
   EXPECT_TRUE(saidAbout({}, def).empty());
 }
 
-// As of a file of an earlier version, read without readPrepared().
+// A fluid body without resistance comes from a file of an earlier version, by readFluidBody().
 TEST(Attach, ReportsAFluidBodyWithoutResistanceOnce) {
   AttachDef def;
   def.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid({0.5, 0.4, 0.3}, 2));

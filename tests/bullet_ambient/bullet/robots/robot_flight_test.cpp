@@ -242,7 +242,8 @@ void printHashes(RobotStateKind kind) {
   }
 }
 
-// What another process prints. Tethers are left out: their anchors are where Bullet sees the tips.
+// Prints hashes for another process. Tethers are left out: their anchors are where Bullet sees the
+// tips.
 TEST(RobotBits, DISABLED_Print) {
   for (const RobotStateKind kind : kRobotStateKinds)
     if (kind != RobotStateKind::kTethers) printHashes(kind);

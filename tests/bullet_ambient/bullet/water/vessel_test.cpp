@@ -398,8 +398,8 @@ TEST(VesselSloshing, BargeSleepsWithStillWater) {
   }
 }
 
-// What a state has besides poses and velocities: water and pumps, air that is shut off, holes that
-// were shot and doors that were shut, bodies in a hold, water that sloshes.
+// Saved states hold more than poses and velocities: water and pumps, air that is shut off, holes
+// that were shot and doors that were shut, bodies in a hold, water that sloshes.
 TEST(Vessel, StatesGoOnBitForBit) {
   struct Case {
     const char* what;

@@ -169,9 +169,9 @@ Gains gainsOf(double specific_gravity, double hertz) {
   return gains;
 }
 
-// What buoyancy did not have is given back, eq. (68a), also by cubes that the water settles within
-// a step, and no cube falls deeper than its energy reaches, eq. (68c). In less than four steps a
-// period, (68a) is of the force without the stiffness of eq. (68).
+// Cubes give back the energy that buoyancy did not have, eq. (68a), also those that the water
+// settles within a step, and none falls deeper than its energy reaches, eq. (68c). In less than
+// four steps a period some is left: (68a) has the force without the stiffness of eq. (68).
 TEST(SmallCube, GainsNothingWhereItPassesTheSurfaceWithRows) {
   for (const double specific_gravity : {0.1, 0.3, 0.5, 0.8})
     for (const double hertz : {30.0, 60.0, 240.0}) {

@@ -227,7 +227,7 @@ TEST(SealedHolds, BellThatIsLiftedGivesItsWaterBack) {
   EXPECT_FALSE(water[0].is_sealed);
 }
 
-// What is above the highest place of the mouth stays.
+// Air above the highest place of the mouth stays.
 TEST(SealedHolds, TiltedBellKeepsTheAirAboveItsMouth) {
   const HoldShapes holds(openBarge(cup()).holds);
   for (const double hertz : {30.0, 60.0, 240.0}) {
