@@ -33,6 +33,7 @@ const std::map<std::string, const char*, std::less<>> kUnits{
     {"height", "m"},
     {"height_of_mass", "m"},
     {"inertia", "m^2"},
+    {"leaves_at", "laminar, turbulent; share of the length from the front, of both ways"},
     {"origin", "m in the mesh's frame"},
     {"period", "s"},
     {"pressure", "N m, N"},

@@ -377,6 +377,30 @@ class LayerIntegrals {
         {of(vertex(t, 0)).progress, of(vertex(t, 1)).progress, of(vertex(t, 2)).progress});
   }
 
+  /// Place of the line along which a layer leaves, as in LayerPlaces.
+  template <class DepartureOf>
+  double placeOf(const DepartureOf& of) const {
+    double length = 0, sum = 0;
+    for (int t = 0; t < count(); ++t) {
+      std::array<Vector3d, 2> ends;
+      std::size_t crossed = 0;
+      for (int k = 0; k < 3 && crossed < 2; ++k) {
+        const int a = vertex(t, k), b = vertex(t, (k + 1) % 3);
+        const double before = of(a).progress, behind = of(b).progress;
+        if ((before < 1) == (behind < 1)) continue;
+        const double share = (1 - before) / (behind - before);
+        ends[crossed++] = place(a) + share * (place(b) - place(a));
+      }
+      if (crossed < 2) continue;
+      const double of_line = (ends[1] - ends[0]).norm();
+      length += of_line;
+      sum += of_line * (ends[0] + ends[1]).dot(motion_) / 2;
+    }
+    const auto along = (motion_.transpose() * surface_.mesh.vertices).eval();
+    const double front = along.maxCoeff(), back = along.minCoeff();
+    return length > 0 ? (front - sum / length) / (front - back) : 1;
+  }
+
   /// Area of a triangle that is seen from behind.
   double lee(int t) const {
     return std::max(-surface_.triangle_normals[t].dot(motion_), 0.0) * surface_.area[t];
@@ -400,6 +424,7 @@ class LayerIntegrals {
 
  private:
   int vertex(int t, int k) const { return surface_.mesh.triangles(k, t); }
+  Vector3d place(int v) const { return surface_.mesh.vertices.col(v); }
 
   const CutSurface& surface_;
   const LayerMarch& march_;
@@ -432,6 +457,7 @@ LayerSums followLayers(const CutSurface& surface, const std::vector<VertexFlow>&
   const auto everywhere = [](int) { return 1.0; };
 
   LayerSums sums;
+  sums.leaves_at = {integrals.placeOf(laminar), integrals.placeOf(turbulent)};
   SeparationWay& way = sums.way;
   way.wake_laminar = integrals.wake(laminar);
   way.wake_bubble = integrals.wake(bubble);

@@ -7,9 +7,16 @@
 
 namespace ambient {
 
+/// Where smooth layers leave along one way: share of the body's length along the motion, from its
+/// front; the mean over the line along which they leave. 1: nowhere.
+struct LayerPlaces {
+  double laminar = 1, turbulent = 1;
+};
+
 /// The numbers of one way, and how much of the base separates, on the area seen along the motion.
 struct LayerSums {
   SeparationWay way;
+  LayerPlaces leaves_at;
   double base = 0;  ///< area behind laminar separation, projected along the motion [D_A^2]
   double smooth_base =
       0;  ///< of it, that of streamlines that left a smooth surface and crossed no sharp edge

@@ -45,11 +45,13 @@ MeshSeparation separationIn(const CutSurface& surface, const UnitFlows& flows, c
       const std::size_t way = 2 * static_cast<std::size_t>(j) + side;
       if (side == 1 && alike) {
         separation.ways[way] = separation.ways[way - 1];
+        found.leaves_at[way] = found.leaves_at[way - 1];
         continue;
       }
       const Vector3d motion = side == 0 ? Vector3d(axes.col(j)) : Vector3d(-axes.col(j));
       const LayerSums sums = followLayers(surface, flowAlong(flows, motion), motion);
       separation.ways[way] = sums.way;
+      found.leaves_at[way] = sums.leaves_at;
       base += sums.base;
       smooth_base += sums.smooth_base;
       is_resolved = is_resolved && sums.is_resolved;

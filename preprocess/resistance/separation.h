@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 
 #include "bullet_ambient/spatial/vector_types.h"
 #include "preprocess/mesh/triangle_mesh.h"
@@ -16,6 +17,7 @@ Matrix3 translationAxes(const Matrix6& added_mass);
 /// The numbers of a mesh.
 struct MeshSeparation {
   Separation separation;
+  std::array<LayerPlaces, 6> leaves_at;  ///< by way, as in Separation::ways
   /// False where the mesh does not resolve the flow along an axis whose base is in part smooth:
   /// LayerSums::is_resolved.
   bool is_resolved = true;

@@ -18,7 +18,10 @@
 #include "preprocess/command_line/fluid_body_report.h"
 #include "preprocess/command_line/option_values.h"
 #include "preprocess/floating/floating_body.h"
+#include "preprocess/mesh/holds/vessel.h"
+#include "preprocess/potential_flow.h"
 #include "preprocess/resistance/prepare.h"
+#include "preprocess/resistance/separation.h"
 
 namespace ambient {
 namespace {
@@ -114,9 +117,27 @@ void warnOfMass(const FloatingBody& body, const ordered_json& attitudes) {
     std::cerr << "it floats with its z axis downwards in the likeliest attitude\n";
 }
 
+/// Adds to the axes of separation where smooth layers leave, laminar and turbulent, both ways. The
+/// flow is solved once more: files hold only what the law takes from it.
+void addLayerPlaces(const FluidBody& body, ordered_json& axes) {
+  constexpr Eigen::Index kMostTriangles = 5000;  // takes a second
+  const TriangleMesh mesh = meshOf(body.surface);
+  const auto is_smooth = [](const ordered_json& axis) { return axis["smooth_base"] > 0; };
+  if (std::none_of(axes.begin(), axes.end(), is_smooth) || mesh.triangleCount() > kMostTriangles)
+    return;
+  const MeshSeparation found = computeSeparation(
+      mesh, solvePotentialFlow(mesh).potential.rightCols<3>(), body.viscous.separation.axes);
+  for (std::size_t way = 0; way < found.leaves_at.size(); ++way) {
+    ordered_json& axis = axes[way / 2];
+    const LayerPlaces& places = found.leaves_at[way];
+    if (is_smooth(axis)) axis["leaves_at"].push_back({places.laminar, places.turbulent});
+  }
+}
+
 void runInspect(const InspectArguments& arguments) {
   const FluidBody body = readPrepared(arguments.file);
   ordered_json facts = bodyFacts(body);
+  if (facts.contains("viscous_flow")) addLayerPlaces(body, facts["viscous_flow"]["separation"]);
   if (arguments.mass) {
     const FloatingBody floating = onWater(body, arguments);
     facts["floating"] = floatingFacts(floating, arguments.json);

@@ -51,6 +51,19 @@ void expectNear(const SeparationWay& way, const Numbers& expected, const Numbers
         << what << " number " << i;
 }
 
+TEST(MeshSeparation, LeavesABallWhereThwaitesAndTheRecoveryOfPressureSay) {
+  // Thwaites' integral over the meridian: 103.57 degrees; the turbulent layer follows until 0.4 of
+  // the pressure is recovered, sin^2 = 0.6: 129.23 degrees.
+  const TriangleMesh mesh = makeEllipsoidMesh({1, 1, 1}, 2000);
+  const PotentialFlow flow = solvePotentialFlow(mesh);
+  const auto found =
+      computeSeparation(mesh, flow.potential.rightCols<3>(), translationAxes(flow.added_mass));
+  for (const LayerPlaces& places : found.leaves_at) {
+    EXPECT_NEAR(places.laminar, (1 - std::cos(103.57 * kPi / 180)) / 2, 0.005);
+    EXPECT_NEAR(places.turbulent, (1 - std::cos(129.23 * kPi / 180)) / 2, 0.015);
+  }
+}
+
 struct Spheroid {
   double length;  ///< along the axis, over the diameter
   Numbers along, across;

@@ -252,6 +252,7 @@ void fill(Numbers& n, AmbientState& s) {
   n(s.waves.heave.first, s.waves.tilt_W[0], s.waves.heave.second, s.waves.tilt_W[1],
     s.waves.heave_energy, s.waves.tilt_energy, s.memory.load_W.torque, s.memory.load_W.force,
     s.memory.has_load, s.memory.substep, s.wake.velocity_W.angular, s.wake.velocity_W.linear,
+    s.wake.motion_W.angular, s.wake.motion_W.linear, s.wake.duration, s.wake.developed,
     s.wake.has_begun, s.has_met_water, s.has_sunk, s.left_W.angular, s.left_W.linear);
   s.holds.resize(2);
   s.is_shut.assign(3, 1);
