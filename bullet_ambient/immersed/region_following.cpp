@@ -229,9 +229,29 @@ bool enterMedium(AmbientBody& ambient, const RegionPlace& place, const Medium& m
   return true;
 }
 
+namespace {
+
+// True if a body in no region goes on in its own medium, which has been the same since its last
+// substep and does not change.
+bool goesOnInOwnMedium(const AmbientBody& ambient, const FluidRegions& regions) noexcept {
+  const Medium &own = ambient.def->medium, &now = ambient.medium;
+  const FlowMemory& seen = ambient.flow;
+  return seen.until == regions.time && seen.region == RegionId::kNone && !seen.is_above &&
+         ambient.place == RegionPlace{} && own.acceleration.isZero(0) &&
+         now.acceleration.isZero(0) && seen.velocity == own.velocity &&
+         now.velocity == own.velocity && now.density == own.density &&
+         now.viscosity == own.viscosity;
+}
+
+}  // namespace
+
 void stayInOwnMedium(AmbientBody& ambient, const FluidRegions& regions, double duration) noexcept {
   if (hasFlowAlong(ambient)) *ambient.flow_along = {};
   ambient.may_rest = true;
+  if (duration > 0 && goesOnInOwnMedium(ambient, regions)) {
+    ambient.flow.until = regions.time + duration;
+    return;
+  }
   RegionSample sample = ownSample(ambient);
   followFlow(ambient, {regions, nullptr, duration}, sample);
   enterMedium(ambient, {}, sample.below);
