@@ -50,11 +50,11 @@ def turned(angle):
 
 
 def swamped(cache=None):
-    """A laden boat in two waves of like period, whose group has one wave too many: height, water inside [m^3]."""
+    """A boat with walls of steel, 271 kg, and 579 kg of cargo in two waves of like period, whose group has one wave too many: height, water inside [m^3]."""
     hull = open_box(2.4, 1, 0.5, 0.006)
     waves = [{"amplitude": 0.1, "period": period, "direction": [0, 1, 0], "phase": phase} for period, phase in ((1.8, 0), (1.9, np.pi))]
     with world_of(hull, cache, 850, waves, centre_of_mass=[0, 0, -0.12], inertia=[110, 430, 480, 0, 0, 0], position=[0, 0, -0.22]) as world:
-        return follow(world, 25, lambda body: (body.position[2], body.holds[0]["volume"]))
+        return follow(world, 32, lambda body: (body.position[2], body.holds[0]["volume"]))
 
 
 def bowl_pushed_under(cache=None):
@@ -99,13 +99,13 @@ def diving_bell(cache=None):
 
 
 def compartments(holed, cache=None):
-    """A ship of four compartments, of which some get a hole in the floor: height, trim [rad], water inside [m^3]."""
+    """A ship of four compartments, of which some from the bow on get a hole in the floor: height, trim [rad], water inside [m^3]."""
     ship = open_box(4, 1, 0.8, 0.02, bulkheads=(-1, 0, 1))
-    with world_of(ship, cache, 1000, centre_of_mass=[0, 0, -0.1], inertia=[180, 1400, 1450, 0, 0, 0], position=[0, 0, 0.05]) as world:
+    with world_of(ship, cache, 350, centre_of_mass=[0, 0, -0.1], inertia=[90, 700, 725, 0, 0, 0], position=[0, 0, 0.2]) as world:
         body = world.bodies["vessel"]
         order = np.argsort([hold["centre"][0] for hold in body.holds])[::-1]  # from the bow on
         for hold in order[:holed]:
-            body.add_opening(int(hold), [body.holds[hold]["centre"][0], 0, -0.39], [0, 0, -1], 0.004)
+            body.add_opening(int(hold), [body.holds[hold]["centre"][0], 0, -0.39], [0, 0, -1], 0.012)
 
         def numbers(body):
             w, x, y, z = body.orientation
@@ -166,8 +166,10 @@ def draw(file, cache):
     bell.legend(fontsize=8)
     for holed in (1, 2, 3):
         rows = compartments(holed, cache)
-        ship.plot(rows[:, 0], rows[:, 1], label=f"{holed} of 4 holed")
-    ship.set(xlabel="t [s]", ylabel="height [m]", ylim=(-3, 0.3), title="ship of four compartments")
+        (line,) = ship.plot(rows[:, 0], rows[:, 1], label=f"{holed} of 4 holed: height [m]")
+        afloat = rows[:, 1] > -1
+        ship.plot(rows[afloat, 0], rows[afloat, 2], ":", color=line.get_color(), label="trim [rad]")
+    ship.set(xlabel="t [s]", ylim=(-1, 0.6), title="ship of four compartments")
     ship.legend(fontsize=8)
     plot(leak, bilge_pump(cache), (1, 2), ("draught [m]", "water inside [m³]"), "leak, and a pump from 60 s on")
     plot(tray, loose_ball(cache), (1, 2, 3, 4), ("trim", "heel", "ball along [m]", "ball across [m]"), "tray with a loose ball of lead")

@@ -21,6 +21,9 @@ from bullet_ambient import FluidBody
 from bullet_ambient.pybullet import Fluid, Spectrum, Wave
 
 RHO = 998.0
+# Five boxes: a tray of 1 x 0.6 x 0.4 m on z = 0, walls of 2 cm.
+TRAY_HALVES = [[0.5, 0.3, 0.01], *[[0.01, 0.3, 0.19]] * 2, *[[0.48, 0.01, 0.19]] * 2]
+TRAY_PLACES = [[0, 0, 0.01], [-0.49, 0, 0.21], [0.49, 0, 0.21], [0, -0.29, 0.21], [0, 0.29, 0.21]]
 CUBE = 0.638  # added mass of a cube over the displaced mass
 
 
@@ -493,15 +496,50 @@ class LifeTest(Case):
             said = [line for line in self.fluid.status()["said"] if "several collision shapes" in line]
             self.assertEqual(len(said), boxes - 1, said)
 
+    def test_a_tray_floats_by_each_way_in_until_it_is_awash(self):
+        boxes = list(zip(TRAY_HALVES, TRAY_PLACES))
+        text = [{"place": " ".join(map(str, place)), "half": " ".join(map(str, half)), "size": " ".join(str(2 * x) for x in half)} for half, place in boxes]
+        urdf = "".join('<collision><origin xyz="{place}"/><geometry><box size="{size}"/></geometry></collision>'.format(**box) for box in text)
+        mjcf = "".join('<geom type="box" size="{half}" pos="{place}"/>'.format(**box) for box in text)
+        inertia = '<inertia ixx="4" iyy="8" izz="10" ixy="0" ixz="0" iyz="0"/>'
+        files = {
+            "tray.urdf": f'<robot name="tray"><link name="tray"><inertial><origin xyz="0 0 0.1"/><mass value="60"/>{inertia}</inertial>{urdf}</link></robot>',
+            "tray.xml": f'<mujoco><worldbody><body pos="0 0 0.1"><inertial pos="0 0 0.1" mass="60" diaginertia="4 8 10"/>{mjcf}</body></worldbody></mujoco>',
+        }
+        with tempfile.TemporaryDirectory() as folder:
+            for name, content in files.items():
+                (Path(folder) / name).write_text(content)
+            for name in (*files, ""):
+                p.resetSimulation(physicsClientId=self.client)
+                self.gravity()
+                fluid = Fluid(self.client)
+                fluid.water(level=0)
+                if name.endswith("urdf"):
+                    tray = p.loadURDF(f"{folder}/{name}", [0, 0, 0.1], physicsClientId=self.client)
+                elif name:
+                    (tray,) = p.loadMJCF(f"{folder}/{name}", physicsClientId=self.client)
+                else:
+                    shape = p.createCollisionShapeArray([p.GEOM_BOX] * 5, halfExtents=TRAY_HALVES, collisionFramePositions=TRAY_PLACES, physicsClientId=self.client)
+                    tray = p.createMultiBody(60, shape, basePosition=[0, 0, 0.1], baseInertialFramePosition=[0, 0, 0.1], physicsClientId=self.client)
+                p.changeDynamics(tray, -1, linearDamping=0, angularDamping=0, physicsClientId=self.client)
+                self.steps(240 * 10)
+                draught = 60 / RHO / 0.6
+                height = p.getBasePositionAndOrientation(tray, physicsClientId=self.client)[0][2]
+                self.assertAlmostEqual(0.1 - height, draught, delta=0.005 * draught, msg=name)
+                # Held under and let go, it fills and sinks.
+                for _ in range(240 * 3):
+                    p.resetBasePositionAndOrientation(tray, [0, 0, -0.5], [0, 0, 0, 1], physicsClientId=self.client)
+                    self.steps(1)
+                self.steps(240 * 3)
+                self.assertLess(p.getBasePositionAndOrientation(tray, physicsClientId=self.client)[0][2], -1, name)
+
     def test_what_is_said_of_shapes_comes_to_each_client_that_has_them(self):
         """The hold of a tray of five boxes."""
-        size = [[0.5, 0.3, 0.01], *[[0.01, 0.3, 0.19]] * 2, *[[0.48, 0.01, 0.19]] * 2]
-        place = [[0, 0, 0.01], [-0.49, 0, 0.21], [0.49, 0, 0.21], [0, -0.29, 0.21], [0, 0.29, 0.21]]
         for client in (self.client, self.client, p.connect(p.DIRECT)):
             p.resetSimulation(physicsClientId=client)
             fluid = Fluid(client)
             fluid.water(level=0)
-            shape = p.createCollisionShapeArray([p.GEOM_BOX] * 5, halfExtents=size, collisionFramePositions=place,
+            shape = p.createCollisionShapeArray([p.GEOM_BOX] * 5, halfExtents=TRAY_HALVES, collisionFramePositions=TRAY_PLACES,
                                                 physicsClientId=client)
             p.createMultiBody(60, shape, physicsClientId=client)
             p.stepSimulation(physicsClientId=client)

@@ -96,11 +96,20 @@ class VesselsTest(unittest.TestCase):
         np.testing.assert_allclose(air[depth > 0.1], pressed[depth > 0.1], atol=2e-3)
         self.assertLess(air.min(), 0.52)
 
-    def test_a_ship_of_four_compartments_floats_with_one_and_sinks_with_three(self):
-        one, three = (vessels.compartments(holed) for holed in (1, 3))
-        self.assertGreater(one[-1, 1], -0.3)
-        self.assertGreater(abs(one[-1, 2]), 0.02)
-        self.assertLess(three[-1, 1], -3)
+    def test_a_ship_of_four_compartments_floats_with_one_trims_with_two_and_sinks_with_three(self):
+        one, two, three = (vessels.compartments(holed)[-1] for holed in (1, 2, 3))
+        for holed, (_, height, trim, water) in ((1, one), (2, two)):
+            # Depths of slices of the box at x of its frame, and of the water in open holds, level with the sea: what is left bears the ship.
+            x = (np.arange(4000) + 0.5) / 1000 - 2
+            deep = 0.3 + (x * np.sin(trim) - height) / np.cos(trim)
+            self.assertGreater(0.8 - deep.max(), 0)
+            deep = np.clip(deep, 0, None)
+            inside = 0.96 * np.clip(deep - 0.02, 0, None) * (x < 1.98) * (x > 2.01 - holed) * (abs(x - 1) > 0.01)
+            self.assertAlmostEqual(inside.sum() / 1000, water, delta=1e-4)
+            self.assertAlmostEqual((deep - inside).sum() / 1000, 350 / 998, delta=1e-3)
+        self.assertAlmostEqual(one[2], 0.05, delta=2e-3)
+        self.assertAlmostEqual(two[2], 0.224, delta=2e-3)
+        self.assertLess(three[1], -3)
 
     def test_a_pump_gains_on_a_leak(self):
         time, draught, water = vessels.bilge_pump().T

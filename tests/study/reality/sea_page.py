@@ -27,6 +27,9 @@ REMARKS = {
     "early, for the parts of its added mass are those of its full breadth ([slamming](water_validation.md#slamming))",
     "driven under water: drag": "the measured drags of two such vehicles differ by a factor of 5 to 8; a box of their size lies between",
     "driven under water: added mass": "a solid box holds more water than an open frame",
+    "sloshing: heights": "the water's surface is a plane, which stands 1.22 times as high at a wall as the cosine with the same moment; crests are higher than troughs are deep, "
+    "here they are alike",
+    "sloshing: times": "right; in boxes half of their length deep and more the measured waves are 5 to 6 % slower than those of linear theory",
     "capsizing": "closed form, not measured: hydrostatics are exact",
 }
 
@@ -66,6 +69,13 @@ each part of the added mass that gets wet; finer meshes change it by 2 %. Tried 
 wedge has 4.04, 3.00, 2.72 and 2.26 m/s after 10, 20, 30 and 40 ms, the cone of 60° a largest deceleration of 4.49 g.
 """
 
+SLOSHING = """\
+## Water in a tank
+
+A tank with water in its [hold](vessels.md#water-that-sloshes) is moved to and fro along its length, faster than its first mode, whose period is 1.67 s: the water
+beats. The library has this mode alone, and its surface is a plane.
+"""
+
 CASES = """\
 ## All numbers
 
@@ -79,6 +89,8 @@ NOT = """\
 - Drift in waves, mooring lines, thrusters; heave and pitch of ships in head waves, for want of a measurement whose numbers
   were seen together with the hull.
 - Measured righting arms, swimmers and manipulators under water: none was found with all sizes.
+- The flooding of damaged ships, such as the box-shaped barge of Ruponen (Helsinki 2006), and the roll of ships with a free-surface
+  tank: nothing was found with all sizes and measured numbers. [Vessels](vessels.md) has closed forms.
 - The water's depth and the walls of the tanks: the library's water is deep and without bounds here.
 
 ## Sources
@@ -117,7 +129,8 @@ def case_rows(sea):
 
 def draw_curves(sea, picture, label):
     chosen = [k for k, series in enumerate(sea.series) if series["picture"] == picture]
-    figure, panels = plt.subplots(2, 2, figsize=(11, 7))
+    side = 1 if len(chosen) == 1 else 2
+    figure, panels = plt.subplots(side, side, figsize=(11, 3.5 * side), squeeze=False)
     for axes, k in zip(panels.flat, chosen):
         series = sea.series[k]
         axes.plot(*zip(*sea.curves[k]), color="tab:blue", linewidth=1.8, label="library, default settings")
@@ -161,6 +174,8 @@ def write(sea, docs):
     page.add_picture("waves", draw_waves(sea), "Heave and roll of a section of a ship in waves")
     page.add(ENTRY)
     page.add_picture("entry", draw_curves(sea, "entry", ""), "Bodies that fall into water")
+    page.add(SLOSHING)
+    page.add_picture("sloshing", draw_curves(sea, "sloshing", "height [m]"), "Water in a tank that is moved to and fro")
     page.add(CASES)
     page.add(table(("body", "what", "measured", "source", "library", "ratio"), case_rows(sea)))
     page.add(NOT)

@@ -1,6 +1,7 @@
 """Runs of the cases of data/reality/measurements_at_sea.json by the Python module, and numbers taken from their motions."""
 
 import json
+import math
 
 import numpy as np
 
@@ -9,8 +10,11 @@ import bullet_ambient as ba
 
 def coordinate(along, motion, gravity):
     """Times [s] and values of a coordinate of the first body: "z" height of the centre of mass [m]; "roll" about the world's
-    x axis [rad]; "vx", "vy", "vz" velocity [m/s]; "felt" upward acceleration that a sensor on board feels, over gravity's [1].
+    x axis [rad]; "vx", "vy", "vz" velocity [m/s]; "felt" upward acceleration that a sensor on board feels, over gravity's [1];
+    "surface" height of the water inside a tank that is moved [m].
     """
+    if along == "surface":
+        return motion
     t, velocity = motion.t, motion.linear_velocity[:, 0]
     if along == "felt":
         return t[1:], np.diff(velocity[:, 2]) / np.diff(t) / gravity + 1
@@ -22,7 +26,7 @@ def coordinate(along, motion, gravity):
 
 def extremes(what, t, y, count):
     """Times and values of extremes after the start, of alternating sign about the balance: vertices of parabolas."""
-    found, side = [], y[0]
+    found, side = [], y[np.argmax(y != 0)]
     for i in range(1, len(y) - 1):
         if (y[i] - y[i - 1]) * (y[i + 1] - y[i]) > 0 or y[i] * side >= 0:
             continue
@@ -93,6 +97,28 @@ def measure(what, t, y):
     return NUMBERS[what["of"]](what, t, y - what["balance"])
 
 
+def surface_in_tank(scene, moved):
+    """Times [s] and heights [m], over the level at rest, of the water in the first hold of a first body that is moved along x.
+
+    The body is at `amplitude` cos(2 pi t / `period`), and from the time `still` on, if that is given, where it is then: times count from there.
+    `probe`: x of the place in the body's frame [m]; the surface is the plane that HoldWater gives.
+    """
+    still = moved.get("still", math.inf)
+    rate, start = 2 * math.pi / moved["period"], 0 if math.isinf(still) else still
+    rows = []
+    with ba.World(scene) as world:
+        body = next(iter(world.bodies.values()))
+        while world.time < scene.duration:
+            time, moves = min(world.time, still), world.time < still
+            body.set_pose([moved["amplitude"] * math.cos(rate * time), 0, 0])
+            body.set_twist([0, 0, 0, -moves * moved["amplitude"] * rate * math.sin(rate * time), 0, 0])
+            world.step()
+            normal = body.holds[0]["normal"]
+            if world.time > start:
+                rows.append([world.time - start, -normal[0] / normal[2] * moved["probe"]])
+    return np.array(rows).T
+
+
 class SeaRuns:
     """Each case is run once."""
 
@@ -107,6 +133,9 @@ class SeaRuns:
         if name not in self.runs:
             case = self.data["cases"][name]
             scene = ba.Scene(self.data["scenes"][case["scene"]], case.get("set"), folder=self.folder)
+            if "moved" in case:
+                self.runs[name] = scene, surface_in_tank(scene, case["moved"])
+                return self.runs[name]
             with ba.World(scene) as world:
                 self.runs[name] = scene, world.run(scene.duration)
         return self.runs[name]
