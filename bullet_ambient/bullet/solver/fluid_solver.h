@@ -75,6 +75,7 @@ class FluidSolver : public Base {
                                         const btContactSolverInfo& info,
                                         btIDebugDraw* debug_drawer) override {
     if constexpr (kHasMultiBodies) trees_.prepare(info);
+    manifolds = group_.inOrderOfParts(manifolds, manifold_count);
     input_ = {manifolds, manifold_count, constraints, constraint_count};
     return Base::solveGroupCacheFriendlySetup(bodies, body_count, manifolds, manifold_count,
                                               constraints, constraint_count, info, debug_drawer);

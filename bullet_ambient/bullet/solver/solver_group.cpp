@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <tuple>
 #include <utility>
 
 #include "bullet_ambient/bullet/core/body_motion.h"
@@ -80,6 +81,29 @@ void markPairs(const GroupInput& input) {
   }
 }
 
+AmbientTree* treeOf(const AmbientTrees& trees, const btCollisionObject* object) {
+  const btMultiBodyLinkCollider* collider = btMultiBodyLinkCollider::upcast(object);
+  return collider ? trees.find(collider->m_multiBody) : nullptr;
+}
+
+bool isOfOnePair(const btPersistentManifold& a, const btPersistentManifold& b) {
+  return a.getBody0() == b.getBody0() && a.getBody1() == b.getBody1();
+}
+
+// By the parts that touch; without points last.
+bool comesBefore(const btPersistentManifold& a, const btPersistentManifold& b) {
+  if (a.getNumContacts() == 0 || b.getNumContacts() == 0)
+    return a.getNumContacts() > b.getNumContacts();
+  const btManifoldPoint &of_a = a.getContactPoint(0), &of_b = b.getContactPoint(0);
+  return std::tie(of_a.m_index0, of_a.m_index1) < std::tie(of_b.m_index0, of_b.m_index1);
+}
+
+bool movesInFluid(const AmbientBodies& bodies, const btCollisionObject* object) {
+  if (const AmbientTree* tree = treeOf(bodies.trees, object)) return isSolved(*tree);
+  const AmbientBody* ambient = bodies.find(object);
+  return ambient && ambient->isInFluid();
+}
+
 }  // namespace
 
 SolverGroup::SolverGroup(AmbientBodies& bodies)
@@ -90,6 +114,21 @@ SolverGroup::SolverGroup(AmbientBodies& bodies)
       bounces_(std::make_unique<Bounces>()) {}
 
 SolverGroup::~SolverGroup() = default;
+
+btPersistentManifold** SolverGroup::inOrderOfParts(btPersistentManifold** manifolds,
+                                                   int count) noexcept {
+  const auto isOutOfOrder = [this](const btPersistentManifold* a, const btPersistentManifold* b) {
+    return isOfOnePair(*a, *b) && comesBefore(*b, *a) &&
+           (movesInFluid(bodies_, a->getBody0()) || movesInFluid(bodies_, a->getBody1()));
+  };
+  if (std::adjacent_find(manifolds, manifolds + count, isOutOfOrder) == manifolds + count)
+    return manifolds;
+  ordered_.assign(manifolds, manifolds + count);  // Bullet's array may be that of its dispatcher
+  for (auto next = ordered_.begin() + 1; next != ordered_.end(); ++next)
+    for (auto at = next; at != ordered_.begin() && isOutOfOrder(*(at - 1), *at); --at)
+      std::iter_swap(at - 1, at);
+  return ordered_.data();
+}
 
 GroupBodies SolverGroup::select(const GroupBodies& bodies, const GroupInput& input,
                                 btScalar time_step, bool all_stay) noexcept {
@@ -369,11 +408,6 @@ bool isOfJoints(int constraint_type) {
     default:
       return false;
   }
-}
-
-AmbientTree* treeOf(const AmbientTrees& trees, const btCollisionObject* object) {
-  const btMultiBodyLinkCollider* collider = btMultiBodyLinkCollider::upcast(object);
-  return collider ? trees.find(collider->m_multiBody) : nullptr;
 }
 
 void markTurning(AmbientTree* tree) {

@@ -57,6 +57,12 @@ class SolverGroup {
   explicit SolverGroup(AmbientBodies& bodies);
   ~SolverGroup();
 
+  /// Call before Bullet makes rows. Returns the manifolds of a group: those of one pair of compound
+  /// shapes in the order of the parts that touch, if one of the pair moves in a fluid. Bullet has
+  /// them in the order in which they came about, which a saved state does not keep. The array lasts
+  /// until the next call.
+  btPersistentManifold** inOrderOfParts(btPersistentManifold** manifolds, int count) noexcept;
+
   /// Call before Bullet converts the bodies. Finds the ambient bodies, and returns the bodies that
   /// Bullet has to convert. Leaves out ambient bodies without contact, joint, pair in the
   /// broadphase or locked axis, because no row can move them, and flies them. `all_stay`: returns
@@ -173,6 +179,7 @@ class SolverGroup {
   std::unique_ptr<JointErrors> joint_errors_;
   std::unique_ptr<Bounces> bounces_;
   std::vector<SavedJacobian> saved_;
+  std::vector<btPersistentManifold*> ordered_;  // by inOrderOfParts()
 };
 
 /// Multibodies in fluid (trees) that a solver works on. Replaces the velocities that Bullet

@@ -253,9 +253,10 @@ Hold holdOf(const TriangleMesh& mesh, Draft& draft) {
 
 /// Spans lids across the borders of labelled triangles: the closed mesh and the holds.
 /// @param labels of the triangles, as labelTriangles() makes them
+/// @param unit a length of 1 of the mesh in metres
 /// @param name begins lines about holds that are left out since their lids or walls do not close
 Vessel spanLids(const TriangleMesh& mesh, const TriangleNeighbours& neighbours,
-                std::vector<int> labels, const std::string& name) {
+                std::vector<int> labels, double unit, const std::string& name) {
   Vessel vessel;
   for (;;) {
     Drafts drafts = draftsOf(mesh, neighbours, labels);
@@ -266,7 +267,8 @@ Vessel spanLids(const TriangleMesh& mesh, const TriangleNeighbours& neighbours,
       if (!draft.triangles.empty()) holds.push_back(holdOf(mesh, draft));
       if (draft.fault == nullptr) continue;
       faulty = k;
-      const Vector3d place = withUsedVertices(mesh.vertices, draft.triangles).bounds().center();
+      const Vector3d place =
+          unit * withUsedVertices(mesh.vertices, draft.triangles).bounds().center();
       vessel.lines.push_back(inputMessage(name, "the hold around (", place.x(), ", ", place.y(),
                                           ", ", place.z(), ") is left out: ", draft.fault));
     }
@@ -343,9 +345,9 @@ Vessel findHolds(const TriangleMesh& mesh, const HoldSearch& search, const std::
   if (found.pools.empty()) found = tilted(mesh, search.up.value_or(Vector3d::UnitZ()));
   if (found.pools.empty()) return {};
   const TriangleNeighbours neighbours(mesh);
-  Vessel vessel =
-      spanLids(mesh, neighbours,
-               labelTriangles(mesh, neighbours, found.up, found.pools, found.is_tilted), name);
+  Vessel vessel = spanLids(mesh, neighbours,
+                           labelTriangles(mesh, neighbours, found.up, found.pools, found.is_tilted),
+                           search.unit, name);
   // A corner of three walls has pools when it is tilted, and no hole that would leak as it stands.
   const auto leaks = [](const Hold& hold) { return hold.openings.size() > 1; };
   if (found.is_tilted && !std::all_of(vessel.holds.begin(), vessel.holds.end(), leaks)) return {};

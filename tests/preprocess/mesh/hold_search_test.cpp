@@ -302,6 +302,10 @@ TEST(HoldSearch, SpoonThroughTheLidLeavesTheHoldOut) {
   ASSERT_EQ(vessel.lines.size(), 1u);
   EXPECT_EQ(vessel.lines[0],
             "mesh: the hold around (0, 0, 0.46) is left out: the mesh passes through its lid");
+  const Vessel scaled = findHolds(mesh, {true, std::nullopt, 0.5}, "mesh");  // 1 is half a metre
+  ASSERT_EQ(scaled.lines.size(), 1u);
+  EXPECT_EQ(scaled.lines[0],
+            "mesh: the hold around (0, 0, 0.23) is left out: the mesh passes through its lid");
 }
 
 // As people publish them: round bottoms, sheer, flanges, fittings, and noise of 1 mm.
