@@ -9,8 +9,10 @@
 namespace ambient {
 
 const Kernels<decltype(&viewPanelBaseline)> kViewPanel{AMBIENT_KERNELS(viewPanel)};
-
-namespace {
+const Kernels<decltype(&viewStokesletsBaseline)> kViewStokeslets{AMBIENT_KERNELS(viewStokeslets)};
+const Kernels<decltype(&addDoubleLayerBaseline)> kAddDoubleLayer{AMBIENT_KERNELS(addDoubleLayer)};
+const Kernels<decltype(&addPointDipolesBaseline)> kAddPointDipoles{
+    AMBIENT_KERNELS(addPointDipoles)};
 
 PanelNumbers numbersOf(const Panel& panel) {
   PanelNumbers numbers;
@@ -25,8 +27,6 @@ PanelNumbers numbersOf(const Panel& panel) {
   numbers.area = panel.area;
   return numbers;
 }
-
-}  // namespace
 
 Panel makePanel(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
   Panel p;

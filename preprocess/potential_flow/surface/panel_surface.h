@@ -26,7 +26,7 @@ std::vector<FaceBulge> estimateBulges(const TriangleMesh& mesh);
 struct PanelArrays {
   Eigen::ArrayXd x, y, z;  ///< centroids
   Eigen::ArrayXd normal_x, normal_y, normal_z;
-  Eigen::ArrayXd area;
+  Eigen::ArrayXd area, radius;
   Eigen::ArrayXd xx, yy, zz, xy, xz, yz;  ///< second central moments per area
 };
 

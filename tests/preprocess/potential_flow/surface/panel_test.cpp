@@ -11,6 +11,7 @@
 #include "bullet_ambient/base/pi.h"
 #include "preprocess/potential_flow/surface/panel_pair.h"
 #include "preprocess/potential_flow/surface/panel_views.h"
+#include "preprocess/potential_flow/surface/quadrature_rules.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 #include "tests/reference/triangle_potentials.h"
 
@@ -84,18 +85,77 @@ struct SeenPanel {
   Vector3d corner(int k) const { return Vector3d(panel.corner[k]); }
 };
 
-TEST(PanelViews, EveryInstructionSetGivesTheSameBits) {
-  const SeenPanel seen;
+/// Jumps on a panel, and the points of a rule as kernels take them.
+struct JumpsOnPanel {
+  CornerJumps at;
+  PanelRule rule;
+
+  JumpsOnPanel() {
+    std::mt19937 random(8);
+    std::uniform_real_distribution<double> number(-1, 1);
+    for (auto& corner : at) {
+      for (double& value : corner) value = number(random);
+      corner[6] = 1;
+    }
+    for (int i = 0; i < PanelRule::kCount; ++i) {
+      rule.weight[i] = kTriangleRule6[i].weight;
+      for (int k = 0; k < 3; ++k) rule.barycentric[i][k] = kTriangleRule6[i].barycentric[k];
+    }
+  }
+};
+
+/// Calls a kernel in each instruction set, and compares the bytes of what it writes.
+template <class Result, class Pointer, class Call>
+void expectSameBits(const Kernels<Pointer>& kernels, const Call& call) {
   for (const int count : {8, 16}) {
-    PanelViews baseline{}, other{};
-    viewPanelBaseline(seen.panel, seen.points, count, baseline);
+    Result baseline{}, other{};
+    call(kernels.baseline, count, baseline);
     for (const InstructionSet set : {InstructionSet::kAvx2, InstructionSet::kAvx512}) {
-      const auto view = kViewPanel.of(set);
-      if (!view) continue;
-      view(seen.panel, seen.points, count, other);
+      other = {};
+      if (!kernels.of(set)) continue;
+      call(kernels.of(set), count, other);
       EXPECT_EQ(std::memcmp(&baseline, &other, sizeof other), 0);
     }
   }
+}
+
+TEST(PanelViews, EveryInstructionSetGivesTheSameBits) {
+  const SeenPanel seen;
+  const JumpsOnPanel jumps;
+  const auto see = [&](auto kernel, int count, auto& result) {
+    kernel(seen.panel, seen.points, count, result);
+  };
+  expectSameBits<PanelViews>(kViewPanel, see);
+  expectSameBits<PanelTensors>(kViewStokeslets, see);
+  expectSameBits<PanelPotentials>(kAddDoubleLayer, [&](auto kernel, int count, auto& result) {
+    kernel(seen.panel, jumps.at, seen.points, count, result);
+  });
+  expectSameBits<PanelPotentials>(kAddPointDipoles, [&](auto kernel, int count, auto& result) {
+    kernel(seen.panel, jumps.rule, jumps.at, seen.points, count, result);
+  });
+}
+
+TEST(PanelViews, AddDoubleLayersOfJumps) {
+  const SeenPanel seen;
+  const JumpsOnPanel jumps;
+  PanelPotentials exact{}, by_points{};
+  kAddDoubleLayer.fastest()(seen.panel, jumps.at, seen.points, kMostPanelPoints, exact);
+  kAddPointDipoles.fastest()(seen.panel, jumps.rule, jumps.at, seen.points, kMostPanelPoints,
+                             by_points);
+  const Panel panel = skewPanel();
+  int far = 0;
+  for (int i = 0; i < kMostPanelPoints; ++i) {
+    const Vector3d weights = computeDoubleLayer(panel, seen.point(i));
+    const bool is_far = (seen.point(i) - panel.centroid).norm() > 6 * panel.radius;
+    far += is_far ? 1 : 0;
+    for (int field = 0; field < 7; ++field) {
+      double sum = 0;
+      for (int k = 0; k < 3; ++k) sum += weights[k] * jumps.at[k][field];
+      EXPECT_NEAR(exact.at[field][i], sum, 1e-13 * (1 + weights.norm())) << i;
+      if (is_far) EXPECT_NEAR(by_points.at[field][i], sum, 1e-4 * weights.cwiseAbs().sum()) << i;
+    }
+  }
+  EXPECT_GT(far, 2);
 }
 
 TEST(PanelViews, HaveLogarithmsAndAnglesToRounding) {
