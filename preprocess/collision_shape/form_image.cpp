@@ -41,9 +41,7 @@ struct PoseMaker {
   bool operator()(Sphere&) const { return setAxes(Matrix3::Identity()); }
   bool operator()(Cylinder&) const { return setAxes(axesAlong(upward(axes.col(2)))); }
   bool operator()(Capsule&) const { return setAxes(axesAlong(upward(axes.col(2)))); }
-  bool operator()(Cone&) const {
-    return setAxes(axesAlong(rounded(axes.col(2)).normalized()));
-  }
+  bool operator()(Cone&) const { return setAxes(axesAlong(rounded(axes.col(2)).normalized())); }
   bool operator()(Box&) const {
     Matrix3 turned;
     turned.col(0) = upward(axes.col(0));
@@ -115,8 +113,7 @@ Matrix3 turned(const Matrix3& matrix, const Vector3& signs) {
 }
 
 void turn(FormShape& shape, const Vector3& signs) {
-  for (Vector3* v :
-       {&shape.facing, &shape.span, &shape.slender, &shape.pitching, &shape.centre})
+  for (Vector3* v : {&shape.facing, &shape.span, &shape.slender, &shape.pitching, &shape.centre})
     *v = v->cwiseProduct(signs);
 }
 

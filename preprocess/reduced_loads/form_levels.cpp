@@ -211,7 +211,7 @@ struct Means {
 
 /// Returns by how much the mean that moved farthest did.
 double moveToMeans(const FaceTable& faces, const Features& features,
-                 const std::vector<std::size_t>& owner, Features& means) {
+                   const std::vector<std::size_t>& owner, Features& means) {
   double farthest = 0;
   Features sums(means.size(), Vector6::Zero());
   std::vector<double> weights(means.size(), 0);
@@ -231,8 +231,8 @@ double moveToMeans(const FaceTable& faces, const Features& features,
 
 /// At most `count` clusters of faces that are alike in normal and place: k-means on (n, c) with
 /// weights sqrt(A), started from the faces that are farthest from each other. Deterministic. Faces
-/// whose other means cannot have come nearer than their own one keep it (Hamerly 2010, from memory).
-/// Centroids in units of the body's size. @pre 0 < count <= faces.size().
+/// whose other means cannot have come nearer than their own one keep it (Hamerly 2010, from
+/// memory). Centroids in units of the body's size. @pre 0 < count <= faces.size().
 FaceClusters clusterFaces(const FaceTable& faces, int count) {
   constexpr int kRounds = 30;
   AMBIENT_ASSERT(count > 0 && static_cast<std::size_t>(count) <= faces.size());
@@ -291,11 +291,10 @@ Matrix6 scaleOf(const FaceTable& faces) {
 
 /// Motions, and the loads on the faces in them over their scales.
 struct LoadSamples {
-  LoadSamples(const FaceTable& faces, const ShapeFactors& of_body, std::uint64_t seed, int count,
-              int translations = 0)
+  /// `form`: scaleOf() the faces.
+  LoadSamples(const PackedFaces& packed, const Matrix6& form, const ShapeFactors& of_body,
+              std::uint64_t seed, int count, int translations = 0)
       : shape(of_body) {
-    const PackedFaces packed(faces, shape.shape);
-    const Matrix6 form = scaleOf(faces);
     ArbitraryNumbers numbers(seed);
     for (int i = 0; i < count; ++i) add(packed, form, sampleMotion(numbers), 1);
     for (int i = 0; i < translations; ++i)
@@ -422,8 +421,10 @@ class LevelMaker {
   LevelMaker(const FluidBody& body, const FormShape& shape)
       : centred_(body, formLawFaces(body, shape)),
         shape_(centredShape(shape)),
-        for_error_(centred_.faces, shape_, kErrorSeed, kErrorMotions),
-        for_fit_(centred_.faces, shape_, kFitSeed, kFitMotions, kFitTranslations),
+        packed_(centred_.faces, shape_.shape),
+        form_(scaleOf(centred_.faces)),
+        for_error_(packed_, form_, shape_, kErrorSeed, kErrorMotions),
+        for_fit_(packed_, form_, shape_, kFitSeed, kFitMotions, kFitTranslations),
         mirrors_(findMirrors()),
         axis_(findAxis()),
         folded_(mirrors_.folded(centred_.faces)) {}
@@ -505,6 +506,8 @@ class LevelMaker {
 
   CentredFaces centred_;
   ShapeFactors shape_;
+  PackedFaces packed_;
+  Matrix6 form_;
   LoadSamples for_error_, for_fit_;
   FaceMirrors mirrors_;
   std::optional<int> axis_;

@@ -53,8 +53,9 @@ class SortedPlaces {
     auto first = axes_[0].begin(), last = axes_[0].end();
     for (int axis = 0; axis < 3; ++axis) {
       const std::vector<Place>& along = axes_[axis];
-      const auto from = std::partition_point(
-          along.begin(), along.end(), [&](const Place& v) { return v.place[axis] < box.min()[axis]; });
+      const auto from = std::partition_point(along.begin(), along.end(), [&](const Place& v) {
+        return v.place[axis] < box.min()[axis];
+      });
       const auto to = std::partition_point(
           from, along.end(), [&](const Place& v) { return v.place[axis] <= box.max()[axis]; });
       if (to - from < last - first) first = from, last = to;

@@ -24,6 +24,10 @@ PanelJump jumpOn(const PanelSurface& surface, const Eigen::Matrix<double, Eigen:
     j.gradient += surface.panels[t].hatGradient(a) * j.corner.row(a);
   }
   j.mean = j.corner.colwise().mean();
+  for (int a = 0; a < 3; ++a) {
+    for (int field = 0; field < 6; ++field) j.of_kernel[a][field] = j.corner(a, field);
+    j.of_kernel[a][6] = 1;
+  }
   return j;
 }
 
@@ -34,16 +38,6 @@ bool areInOnePlane(const Panel& panel, const Panel& other) {
   for (const Vector3d& corner : panel.corner)
     if (std::abs(other.normal.dot(corner - other.centroid)) > kRounding) return false;
   return true;
-}
-
-PanelRule pointsOfRule() {
-  PanelRule rule;
-  for (int i = 0; i < PanelRule::kCount; ++i) {
-    const TriangleNode& node = kTriangleRule6[static_cast<std::size_t>(i)];
-    std::copy(node.barycentric.begin(), node.barycentric.end(), rule.barycentric[i]);
-    rule.weight[i] = node.weight;
-  }
-  return rule;
 }
 
 }  // namespace
@@ -57,31 +51,25 @@ std::vector<PanelJump> makePanelJumps(const PanelSurface& surface,
 
 Matrix36 computeNearMoments(const PanelSurface& surface, const std::vector<NearPanels::Entry>& near,
                             const std::vector<PanelJump>& jumps, Index t) {
-  const static PanelRule rule = pointsOfRule();
   NodePotentials<6> coarse(surface.panels[t], kTriangleRule6);
   NodePotentials<16> fine(surface.panels[t], kTriangleRule16);
   for (const NearPanels::Entry& entry : near) {
     if (areInOnePlane(surface.panels[t], surface.panels[entry.panel])) continue;  // itself, too
-    const PanelNumbers source = numbersOf(surface.panels[entry.panel]);
-    CornerJumps jumps_of;
-    for (int corner = 0; corner < 3; ++corner) {
-      for (int field = 0; field < 6; ++field)
-        jumps_of[corner][field] = jumps[entry.panel].corner(corner, field);
-      jumps_of[corner][6] = 1;
-    }
+    const PanelNumbers& source = surface.numbers[entry.panel];
+    const CornerJumps& jump = jumps[entry.panel].of_kernel;
     switch (entry.kind) {
       case PairKind::Same:
       case PairKind::SharedEdge:
       case PairKind::SharedVertex:
       case PairKind::Near:
-        fine.add(source, jumps_of);
+        fine.add(source, jump);
         break;
       case PairKind::Close:
-        coarse.add(source, jumps_of);
+        coarse.add(source, jump);
         break;
       case PairKind::Middle:
       case PairKind::Far:
-        coarse.addByPoints(source, rule, jumps_of);
+        coarse.addByPoints(source, surface.nodes[entry.panel], jump);
         break;
     }
   }
@@ -103,7 +91,7 @@ NearPanels findNearPanels(const PanelSurface& surface, int threads) {
       if (!may_be_near[s]) continue;
       const PairKind kind = classifyPair(surface, t, s);
       if (kind == PairKind::Far) continue;
-      const double integral = s >= t ? computePairIntegral(surface, t, s) : 0;
+      const double integral = s >= t ? computePairIntegral(surface, t, s, kind) : 0;
       near.of_panel[t].push_back({static_cast<int>(s), kind, integral});
     }
   });

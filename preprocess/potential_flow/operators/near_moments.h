@@ -34,6 +34,7 @@ struct PanelJump {
   Eigen::Matrix<double, 3, 6> corner;
   Eigen::Matrix<double, 1, 6> mean;
   Eigen::Matrix<double, 3, 6> gradient;
+  CornerJumps of_kernel;  ///< the values at the corners
 };
 
 /// Returns the jumps on all panels, from the values at the vertices.
@@ -58,9 +59,9 @@ class NodePotentials {
   }
 
   /// Adds a source a little apart by points.
-  void addByPoints(const PanelNumbers& source, const PanelRule& rule, const CornerJumps& jumps) {
+  void addByPoints(const PanelNumbers& source, const PanelNodes& nodes, const CornerJumps& jumps) {
     static const auto kernel = kAddPointDipoles.fastest();
-    kernel(source, rule, jumps, nodes_, kPadded, potentials_);
+    kernel(source, nodes, jumps, nodes_, kPadded, potentials_);
   }
 
   /// Adds at node k the potential of a jump, and that of a jump of 1 everywhere, the solid angle.

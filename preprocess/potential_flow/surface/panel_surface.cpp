@@ -196,6 +196,10 @@ PanelSurface makePanelSurface(const TriangleMesh& mesh, bool sheet) {
       throw std::runtime_error("potential flow: triangle " + std::to_string(t) + " has no area");
   }
   AMBIENT_ASSERT(surface.length > 0 && std::isfinite(surface.length));
+  for (const Panel& panel : surface.panels) {
+    surface.numbers.push_back(numbersOf(panel));
+    surface.nodes.push_back(nodesOf(panel));
+  }
   fillArrays(surface);
   findConnectivity(mesh, surface);
   return surface;

@@ -17,20 +17,25 @@ inline Doubles polynomial(const double (&c)[kCount], const Doubles& x) {
   return sum;
 }
 
-/// Natural logarithm of positive normal numbers, within 2 ulp above 1.5; absolute error 2e-16
-/// below.
-inline Doubles logOf(const Doubles& x) {
+/// Natural logarithm of the ratio of positive normal numbers, within 2 ulp above 1.5; absolute
+/// error 2e-16 below.
+inline Doubles logOfRatio(const Doubles& x, const Doubles& y) {
   constexpr double kLog2 = 0x1.62e42fefa2p-1, kLog2Low = 0x1.9ef35793c7673p-41;
+  constexpr double kRoot = 1.4142135623730951;
   constexpr double kOddInverses[] = {1.0 / 3,  1.0 / 5,  1.0 / 7,  1.0 / 9,  1.0 / 11,
                                      1.0 / 13, 1.0 / 15, 1.0 / 17, 1.0 / 19, 1.0 / 21};
-  const Bits bits = (Bits)x;
-  // x = 2^power m, m in (0.7, 1.42). A power in the last bits of 2^52 is a double of that number.
-  Doubles power = (Doubles)(bits >> 52 | 0x4330000000000000) - (0x1p52 + 1023);
-  Doubles m = (Doubles)((bits & 0xfffffffffffff) | 0x3ff0000000000000);
-  const Mask is_large = m > 1.4142135623730951;
-  m = is_large ? 0.5 * m : m;
-  power = is_large ? power + 1.0 : power;
-  const Doubles s = (m - 1.0) / (m + 1.0), square = s * s;  // log(m) = 2 artanh(s)
+  const Bits of_x = (Bits)x, of_y = (Bits)y;
+  // x / y = 2^power m / n, in (0.7, 1.42) the quotient. A power in the last bits of 2^52 is a
+  // double of that number.
+  Doubles power =
+      (Doubles)(of_x >> 52 | 0x4330000000000000) - (Doubles)(of_y >> 52 | 0x4330000000000000);
+  Doubles m = (Doubles)((of_x & 0xfffffffffffff) | 0x3ff0000000000000);
+  Doubles n = (Doubles)((of_y & 0xfffffffffffff) | 0x3ff0000000000000);
+  const Mask is_large = m > kRoot * n, is_small = n > kRoot * m;
+  power = is_large ? power + 1.0 : is_small ? power - 1.0 : power;
+  n = is_large ? n + n : n;
+  m = is_small ? m + m : m;
+  const Doubles s = (m - n) / (m + n), square = s * s;  // log(m / n) = 2 artanh(s)
   const Doubles rest = 2.0 * s * square * polynomial(kOddInverses, square);
   return power * kLog2 + (2.0 * s + (rest + power * kLog2Low));
 }
@@ -82,13 +87,13 @@ inline LaneViews viewFrom(const Vectors& at, const PanelNumbers& panel) {
     const Doubles gap = sum - panel.edge_length[k];
     // On the edge itself the logarithm is infinite, but always multiplied by a distance of 0.
     const Mask is_off = gap > zero;
-    const Doubles ratio = is_off ? (sum + panel.edge_length[k]) / (is_off ? gap : one) : one;
-    view.edge_potential[k] = logOf(ratio);
+    view.edge_potential[k] =
+        logOfRatio(is_off ? sum + panel.edge_length[k] : one, is_off ? gap : one);
     view.edge_distance[k] = dot(d[k], inAllLanes<Doubles>(panel.edge_normal[k]));
   }
   view.height = -dot(d[0], inAllLanes<Doubles>(panel.normal));
-  const Doubles denominator = r[0] * r[1] * r[2] + dot(d[0], d[1]) * r[2] + dot(d[1], d[2]) * r[0] +
-                              dot(d[2], d[0]) * r[1];
+  const Doubles denominator =
+      r[0] * r[1] * r[2] + dot(d[0], d[1]) * r[2] + dot(d[1], d[2]) * r[0] + dot(d[2], d[0]) * r[1];
   // van Oosterom and Strackee 1983, with the triple product -d0.(d1 x d2) = 2 area height.
   view.solid_angle = 2.0 * angleOf(2 * panel.area * view.height, denominator);
   return view;
@@ -189,31 +194,43 @@ void AMBIENT_KERNEL(addDoubleLayer)(const PanelNumbers& panel, const CornerJumps
   }
 }
 
-void AMBIENT_KERNEL(addPointDipoles)(const PanelNumbers& panel, const PanelRule& rule,
+void AMBIENT_KERNEL(addPointDipoles)(const PanelNumbers& panel, const PanelNodes& nodes,
                                      const CornerJumps& jumps, const PanelPoints& points, int count,
                                      PanelPotentials& potentials) {
-  double nodes[PanelRule::kCount][3];
-  for (int i = 0; i < PanelRule::kCount; ++i)
-    for (int axis = 0; axis < 3; ++axis) {
-      nodes[i][axis] = 0;
-      for (int corner = 0; corner < 3; ++corner)
-        nodes[i][axis] += rule.barycentric[i][corner] * panel.corner[corner][axis];
-    }
   for (int lane = 0; lane < count; lane += kWidth) {
     const Vectors at = load(points.at, lane);
     Doubles weights[3] = {};
-    for (int i = 0; i < PanelRule::kCount; ++i) {
-      const Vectors way = at - inAllLanes<Doubles>(nodes[i]);
+    for (int i = 0; i < PanelNodes::kCount; ++i) {
+      const Vectors way = at - inAllLanes<Doubles>(nodes.place[i]);
       const Doubles square = dot(way, way);
-      const Doubles kernel = rule.weight[i] / (square * squareRoot(square));
-      for (int corner = 0; corner < 3; ++corner)
-        weights[corner] += rule.barycentric[i][corner] * kernel;
+      const Doubles kernel = nodes.weight[i] / (square * squareRoot(square));
+      for (int corner = 0; corner < 3; ++corner) weights[corner] += nodes.hat[i][corner] * kernel;
     }
-    const Doubles height = dot(at - inAllLanes<Doubles>(panel.corner[0]),
-                               inAllLanes<Doubles>(panel.normal));
+    const Doubles height =
+        dot(at - inAllLanes<Doubles>(panel.corner[0]), inAllLanes<Doubles>(panel.normal));
     for (Doubles& weight : weights) weight *= panel.area * height;
     addWeighted(weights, jumps, lane, potentials);
   }
+}
+
+double AMBIENT_KERNEL(meanInverseDistance)(const PanelNodes& a, const PanelNodes& b) {
+  constexpr int kLanes = 8;  // the last ones without weight
+  double at[3][kLanes], weights[kLanes], sums[kLanes];
+  for (int i = 0; i < kLanes; ++i) {
+    const int node = i < PanelNodes::kCount ? i : 0;
+    for (int axis = 0; axis < 3; ++axis) at[axis][i] = a.place[node][axis];
+    weights[i] = i < PanelNodes::kCount ? a.weight[i] : 0;
+  }
+  for (int lane = 0; lane < kLanes; lane += kWidth) {
+    const Vectors from = load(at, lane);
+    Doubles sum = {};
+    for (int j = 0; j < PanelNodes::kCount; ++j) {
+      const Vectors way = from - inAllLanes<Doubles>(b.place[j]);
+      sum += b.weight[j] / squareRoot(dot(way, way));
+    }
+    store(sums + lane, load(weights + lane) * sum);
+  }
+  return sumLanes(sums);
 }
 
 }  // namespace ambient

@@ -39,10 +39,10 @@ struct PanelPotentials {
   alignas(64) double at[7][kMostPanelPoints];
 };
 
-/// A rule of six points on a triangle.
-struct PanelRule {
+/// Six points on a panel with weights that sum up to 1, and hat functions there.
+struct PanelNodes {
   static constexpr int kCount = 6;
-  double barycentric[kCount][3], weight[kCount];
+  double place[kCount][3], hat[kCount][3], weight[kCount];
 };
 
 /// Values of the six jumps and of the jump of 1 at the corners of a panel.
@@ -57,9 +57,10 @@ using CornerJumps = double[3][7];
                            PanelTensors& tensors);                                             \
   void addDoubleLayer##set(const PanelNumbers& panel, const CornerJumps& jumps,                \
                            const PanelPoints& points, int count, PanelPotentials& potentials); \
-  void addPointDipoles##set(const PanelNumbers& panel, const PanelRule& rule,                  \
+  void addPointDipoles##set(const PanelNumbers& panel, const PanelNodes& nodes,                \
                             const CornerJumps& jumps, const PanelPoints& points, int count,    \
-                            PanelPotentials& potentials);
+                            PanelPotentials& potentials);                                      \
+  double meanInverseDistance##set(const PanelNodes& a, const PanelNodes& b);
 AMBIENT_PANEL_KERNELS(Baseline)
 AMBIENT_PANEL_KERNELS(Avx2)
 AMBIENT_PANEL_KERNELS(Avx512)
@@ -70,7 +71,9 @@ extern const Kernels<decltype(&viewPanelBaseline)> kViewPanel;
 extern const Kernels<decltype(&viewStokesletsBaseline)> kViewStokeslets;
 /// Adds the potentials int h_b n.(x - y)/r^3 dy of linear jumps, in closed form.
 extern const Kernels<decltype(&addDoubleLayerBaseline)> kAddDoubleLayer;
-/// Adds the same by the points of a rule, for panels a little apart.
+/// Adds the same by points of the panel, for panels a little apart.
 extern const Kernels<decltype(&addPointDipolesBaseline)> kAddPointDipoles;
+/// Computes the mean of 1/r between the points of two panels.
+extern const Kernels<decltype(&meanInverseDistanceBaseline)> kMeanInverseDistance;
 
 }  // namespace ambient

@@ -22,7 +22,8 @@ using test::differenceOf;
 
 /// A hull without symmetries, turned along axes by signs, its points in another order.
 std::unique_ptr<btConvexHullShape> skewHull(const Vector3& signs) {
-  std::vector<Vector3> points{{0.1, 0, 0.2}, {1, 0.1, 0}, {0.2, 0.7, 0}, {0, 0.2, 0.5}, {0.8, 0.3, 0.4}};
+  std::vector<Vector3> points{
+      {0.1, 0, 0.2}, {1, 0.1, 0}, {0.2, 0.7, 0}, {0, 0.2, 0.5}, {0.8, 0.3, 0.4}};
   if (signs.prod() < 0) std::swap(points[0], points[3]);
   if (signs.sum() < 1) std::swap(points[1], points[2]);
   auto hull = std::make_unique<btConvexHullShape>();
@@ -47,8 +48,8 @@ class Arm {
     const Vector3 z = signs_.prod() * signs_.cwiseProduct(axis);
     const btVector3 turn = btVector3(0, 0, 1).cross(toBullet(z));
     const btScalar angle = btAcos(btScalar(z.z()));
-    const btQuaternion rotation = turn.length() > 0 ? btQuaternion(turn.normalized(), angle)
-                                                    : btQuaternion::getIdentity();
+    const btQuaternion rotation =
+        turn.length() > 0 ? btQuaternion(turn.normalized(), angle) : btQuaternion::getIdentity();
     shape.addChildShape(btTransform(rotation, toBullet(signs_.cwiseProduct(place))), &part);
   }
 
@@ -72,8 +73,8 @@ Wrench loadOn(const std::shared_ptr<const FluidBody>& body, const Vector3& signs
   return makeSurfaceLoads(body, {900, 0.1, {}, {}}, FlowSettings())->load(motion);
 }
 
-void expectImage(FluidBodyCache& cache, const btCollisionShape& shape, const btCollisionShape& image,
-                 const Vector3& signs) {
+void expectImage(FluidBodyCache& cache, const btCollisionShape& shape,
+                 const btCollisionShape& image, const Vector3& signs) {
   const auto body = cache.fluidBody(shape), turned = cache.fluidBody(image);
   EXPECT_EQ(cache.counts().made, 1);
   EXPECT_NE(body->name, turned->name);
@@ -86,9 +87,9 @@ void expectImage(FluidBodyCache& cache, const btCollisionShape& shape, const btC
   EXPECT_NEAR(turned->viscous.separation.axes.determinant(), 1, 1e-12);
   const double volume = computeMassProperties(meshOf(turned->surface)).volume;
   EXPECT_NEAR(volume, turned->volume, 1e-6 * volume);  // its triangles are not inside out
-  EXPECT_LT(differenceOf(turned->added_mass_parts.sum(),
-                         imageOf(body->added_mass_parts.sum(), signs)),
-            1e-6);
+  EXPECT_LT(
+      differenceOf(turned->added_mass_parts.sum(), imageOf(body->added_mass_parts.sum(), signs)),
+      1e-6);
   const Wrench load = loadOn(body, Vector3::Ones()), of_image = loadOn(turned, signs);
   const Vector3 torque = signs.prod() * signs.cwiseProduct(load.torque),
                 force = signs.cwiseProduct(load.force);

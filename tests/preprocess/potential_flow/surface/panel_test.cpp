@@ -11,7 +11,6 @@
 #include "bullet_ambient/base/pi.h"
 #include "preprocess/potential_flow/surface/panel_pair.h"
 #include "preprocess/potential_flow/surface/panel_views.h"
-#include "preprocess/potential_flow/surface/quadrature_rules.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 #include "tests/reference/triangle_potentials.h"
 
@@ -85,10 +84,9 @@ struct SeenPanel {
   Vector3d corner(int k) const { return Vector3d(panel.corner[k]); }
 };
 
-/// Jumps on a panel, and the points of a rule as kernels take them.
+/// Jumps on the panel.
 struct JumpsOnPanel {
   CornerJumps at;
-  PanelRule rule;
 
   JumpsOnPanel() {
     std::mt19937 random(8);
@@ -96,10 +94,6 @@ struct JumpsOnPanel {
     for (auto& corner : at) {
       for (double& value : corner) value = number(random);
       corner[6] = 1;
-    }
-    for (int i = 0; i < PanelRule::kCount; ++i) {
-      rule.weight[i] = kTriangleRule6[i].weight;
-      for (int k = 0; k < 3; ++k) rule.barycentric[i][k] = kTriangleRule6[i].barycentric[k];
     }
   }
 };
@@ -122,6 +116,7 @@ void expectSameBits(const Kernels<Pointer>& kernels, const Call& call) {
 TEST(PanelViews, EveryInstructionSetGivesTheSameBits) {
   const SeenPanel seen;
   const JumpsOnPanel jumps;
+  const PanelNodes nodes = nodesOf(skewPanel());
   const auto see = [&](auto kernel, int count, auto& result) {
     kernel(seen.panel, seen.points, count, result);
   };
@@ -131,8 +126,11 @@ TEST(PanelViews, EveryInstructionSetGivesTheSameBits) {
     kernel(seen.panel, jumps.at, seen.points, count, result);
   });
   expectSameBits<PanelPotentials>(kAddPointDipoles, [&](auto kernel, int count, auto& result) {
-    kernel(seen.panel, jumps.rule, jumps.at, seen.points, count, result);
+    kernel(seen.panel, nodes, jumps.at, seen.points, count, result);
   });
+  const PanelNodes others = nodesOf(makePanel({3, 0, 1}, {4, 0.5, 0}, {3.3, 0.8, -0.2}));
+  expectSameBits<double>(kMeanInverseDistance,
+                         [&](auto kernel, int, double& result) { result = kernel(nodes, others); });
 }
 
 TEST(PanelViews, AddDoubleLayersOfJumps) {
@@ -140,9 +138,9 @@ TEST(PanelViews, AddDoubleLayersOfJumps) {
   const JumpsOnPanel jumps;
   PanelPotentials exact{}, by_points{};
   kAddDoubleLayer.fastest()(seen.panel, jumps.at, seen.points, kMostPanelPoints, exact);
-  kAddPointDipoles.fastest()(seen.panel, jumps.rule, jumps.at, seen.points, kMostPanelPoints,
-                             by_points);
   const Panel panel = skewPanel();
+  kAddPointDipoles.fastest()(seen.panel, nodesOf(panel), jumps.at, seen.points, kMostPanelPoints,
+                             by_points);
   int far = 0;
   for (int i = 0; i < kMostPanelPoints; ++i) {
     const Vector3d weights = computeDoubleLayer(panel, seen.point(i));
