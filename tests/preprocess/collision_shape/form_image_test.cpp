@@ -68,8 +68,8 @@ Matrix6 imageOf(const Matrix6& inertia, const Vector3& signs) {
 
 /// Wrench of the form law on a body in oil that moves at once along and about skew axes.
 Wrench loadOn(const std::shared_ptr<const FluidBody>& body, const Vector3& signs) {
-  const Twist motion(signs.prod() * signs.cwiseProduct(Vector3(0.3, -0.7, 0.4)),
-                     signs.cwiseProduct(Vector3(0.9, 0.2, -0.5)));
+  const Vector3 spin(0.3, -0.7, 0.4), velocity(0.9, 0.2, -0.5);
+  const Twist motion{signs.prod() * signs.cwiseProduct(spin), signs.cwiseProduct(velocity)};
   return makeSurfaceLoads(body, {900, 0.1, {}, {}}, FlowSettings())->load(motion);
 }
 

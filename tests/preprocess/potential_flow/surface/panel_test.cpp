@@ -150,7 +150,8 @@ TEST(PanelViews, AddDoubleLayersOfJumps) {
       double sum = 0;
       for (int k = 0; k < 3; ++k) sum += weights[k] * jumps.at[k][field];
       EXPECT_NEAR(exact.at[field][i], sum, 1e-13 * (1 + weights.norm())) << i;
-      if (is_far) EXPECT_NEAR(by_points.at[field][i], sum, 1e-4 * weights.cwiseAbs().sum()) << i;
+      if (!is_far) continue;
+      EXPECT_NEAR(by_points.at[field][i], sum, 1e-4 * weights.cwiseAbs().sum()) << i;
     }
   }
   EXPECT_GT(far, 2);
