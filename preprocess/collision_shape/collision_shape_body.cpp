@@ -69,17 +69,6 @@ Matrix3 axisAlong(int up_axis) {
   return turn;
 }
 
-/// Axes of which the third is a unit vector.
-Matrix3 axesAlong(const Vector3& third) {
-  int aside = 0;
-  third.cwiseAbs().minCoeff(&aside);
-  Matrix3 axes;
-  axes.col(2) = third;
-  axes.col(0) = third.cross(Vector3(Vector3::Unit(aside))).normalized();
-  axes.col(1) = third.cross(Vector3(axes.col(0)));
-  return axes;
-}
-
 PlacedShape alongAxis(const Shape& shape, int up_axis) {
   PlacedShape part{shape};
   part.pose.linear() = axisAlong(up_axis);

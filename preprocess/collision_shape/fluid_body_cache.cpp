@@ -12,6 +12,7 @@
 #include "preprocess/builder/body_maker.h"
 #include "preprocess/collision_shape/collision_shape_body.h"
 #include "preprocess/collision_shape/form_body.h"
+#include "preprocess/collision_shape/form_image.h"
 
 AMBIENT_BEGIN
 namespace {
@@ -90,6 +91,19 @@ struct FluidBodyCache::Store {
     return unit;
   }
 
+  /// Forms that are images of each other are solved once. What is said of a body may tell places in
+  /// it, and so is said of no image.
+  SharedBody getImage(const std::string& content, const ShapeForm& form,
+                      const std::function<std::string()>& whose) {
+    if (isSoonMade(form, settings) || settings.waterline_subdivisions > 0)
+      return getUnit(content, form, whose);
+    const FormImage image = firstImage(form);
+    SharedBody unit = getUnit(image.form.kind + contentOf(image.form.parts), image.form, whose);
+    if (image.turned == 0) return unit;
+    if (!unit->provenance.said.empty()) return getUnit(content, form, whose);
+    return std::make_shared<const FluidBody>(imageOf(*unit, image.turned));
+  }
+
   /// Lets a body have lists in common with others of its kind.
   void share(FluidBody& body) {
     const std::lock_guard<std::mutex> lock(mutex);
@@ -124,7 +138,7 @@ SharedBody FluidBodyCache::fluidBodyOf(const std::function<std::string()>& whose
     const ShapeForm form = normalised(recognised(read));
     const std::string content = form.kind + contentOf(form.parts);
     const std::string sized = withSize(content, form.size);
-    const SharedBody unit = store.getUnit(content, form, whose);
+    const SharedBody unit = store.getImage(content, form, whose);
     FluidBody body = form.size == 1 ? *unit : scaled(*unit, form.size);
     body.faces = {};
     body.omits_faces = true;

@@ -11,10 +11,11 @@
 AMBIENT_BEGIN
 
 /// Makes and keeps the fluid bodies of collision shapes. Shapes with equal numbers share one fluid
-/// body; shapes that differ in size alone are solved once and scaled. Forms without a flow to
-/// solve, those of spheres, boxes, cylinders, capsules and cones, are made again where more than 16
-/// others came in between. May be shared by worlds and threads; shapes must not change during a
-/// call.
+/// body; shapes that differ in size alone, or are images of each other across planes of their
+/// frame, as the limbs of a robot, are solved once: scaled, and turned over by firstImage(). Forms
+/// without a flow to solve, those of spheres, boxes, cylinders, capsules and cones, are made again
+/// where more than 16 others came in between. May be shared by worlds and threads; shapes must not
+/// change during a call.
 ///
 /// A form is solved at size 1, with its numbers rounded to a millionth: the result depends on the
 /// shape alone, not on earlier shapes.

@@ -101,6 +101,16 @@ void append(std::string& bytes, const double* values, std::size_t count) {
 
 }  // namespace
 
+Matrix3 axesAlong(const Vector3& third) {
+  int aside = 0;
+  third.cwiseAbs().minCoeff(&aside);
+  Matrix3 axes;
+  axes.col(2) = third;
+  axes.col(0) = third.cross(Vector3(Vector3::Unit(aside))).normalized();
+  axes.col(1) = third.cross(Vector3(axes.col(0)));
+  return axes;
+}
+
 PlacedShape scaled(PlacedShape part, double factor) {
   const auto scale = [&](double length) { return length * factor; };
   changeLengths(part, scale, scale);

@@ -3,9 +3,13 @@
 #include <string>
 #include <vector>
 
+#include "bullet_ambient/spatial/vector_types.h"
 #include "preprocess/shape/shapes.h"
 
 namespace ambient {
+
+/// Returns axes of which the third is a unit vector, the others by that alone.
+Matrix3 axesAlong(const Vector3& third);
 
 /// Multiplies all lengths of a shape.
 PlacedShape scaled(PlacedShape part, double factor);

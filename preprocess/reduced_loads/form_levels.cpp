@@ -176,30 +176,43 @@ struct Means {
         quarters[k].push_back(0.25 * (places[k] - other).squaredNorm());
   }
 
+  struct Nearest {
+    std::size_t mean;
+    double others;  ///< no other mean is nearer than this
+  };
+
   /// Returns the nearest mean, the first of equal ones. Those farther from the one of `before` than
   /// twice the feature is are no nearer.
-  std::size_t nearest(const Vector6& feature, std::size_t before) const {
-    constexpr double kRounding = 1 + 1e-9;
-    const double limit = kRounding * (places[before] - feature).squaredNorm();
-    std::size_t best = before;
-    double least = std::numeric_limits<double>::infinity();
+  Nearest nearest(const Vector6& feature, std::size_t before) const {
+    const double own = (places[before] - feature).squaredNorm(), limit = kRounding * own;
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    Nearest best{before, kNone};
+    double least = kNone, second = kNone, left_out = kNone;
     for (std::size_t k = 0; k < places.size(); ++k) {
-      if (quarters[before][k] > limit) continue;
+      if (quarters[before][k] > limit) {
+        left_out = std::min(left_out, quarters[before][k]);
+        continue;
+      }
       const double distance = (places[k] - feature).squaredNorm();
+      second = std::min(second, std::max(distance, least));
       if (distance < least) {
         least = distance;
-        best = k;
+        best.mean = k;
       }
     }
+    best.others = std::min(std::sqrt(second), 2 * std::sqrt(left_out) - std::sqrt(own));
     return best;
   }
 
+  static constexpr double kRounding = 1 + 1e-9;
   Features places;
   std::vector<std::vector<double>> quarters;
 };
 
-void moveToMeans(const FaceTable& faces, const Features& features,
-                 const std::vector<std::size_t>& owner, Features& means) {
+/// Returns by how much the mean that moved farthest did.
+double moveToMeans(const FaceTable& faces, const Features& features,
+                   const std::vector<std::size_t>& owner, Features& means) {
+  double farthest = 0;
   Features sums(means.size(), Vector6::Zero());
   std::vector<double> weights(means.size(), 0);
   for (std::size_t i = 0; i < features.size(); ++i) {
@@ -207,29 +220,41 @@ void moveToMeans(const FaceTable& faces, const Features& features,
     sums[owner[i]] += weight * features[i];
     weights[owner[i]] += weight;
   }
-  for (std::size_t k = 0; k < means.size(); ++k)
-    if (weights[k] > 0) means[k] = sums[k] / weights[k];
+  for (std::size_t k = 0; k < means.size(); ++k) {
+    if (!(weights[k] > 0)) continue;
+    const Vector6 mean = sums[k] / weights[k];
+    farthest = std::max(farthest, (mean - means[k]).squaredNorm());
+    means[k] = mean;
+  }
+  return std::sqrt(farthest);
 }
 
 /// At most `count` clusters of faces that are alike in normal and place: k-means on (n, c) with
-/// weights sqrt(A), started from the faces that are farthest from each other. Deterministic.
-/// Centroids in units of the body's size. @pre 0 < count <= faces.size().
+/// weights sqrt(A), started from the faces that are farthest from each other. Deterministic. Faces
+/// whose other means cannot have come nearer than their own one keep it (Hamerly 2010, from
+/// memory). Centroids in units of the body's size. @pre 0 < count <= faces.size().
 FaceClusters clusterFaces(const FaceTable& faces, int count) {
   constexpr int kRounds = 30;
   AMBIENT_ASSERT(count > 0 && static_cast<std::size_t>(count) <= faces.size());
   const Features features = featuresOf(faces);
   Features means = farthestFirst(faces, features, count);
   std::vector<std::size_t> owner(features.size(), 0);
+  std::vector<double> others(features.size(), 0);  // no other mean is nearer
+  double moved = 0;
   for (int round = 0; round < kRounds; ++round) {
     const Means near(means);
     bool changed = round == 0;
     for (std::size_t i = 0; i < features.size(); ++i) {
-      const std::size_t now = near.nearest(features[i], owner[i]);
-      changed |= now != owner[i];
-      owner[i] = now;
+      others[i] -= Means::kRounding * moved;
+      const double own = (means[owner[i]] - features[i]).norm();
+      if (Means::kRounding * own < others[i]) continue;
+      const Means::Nearest now = near.nearest(features[i], owner[i]);
+      changed |= now.mean != owner[i];
+      owner[i] = now.mean;
+      others[i] = now.others / Means::kRounding;
     }
     if (!changed) break;
-    moveToMeans(faces, features, owner, means);
+    moved = moveToMeans(faces, features, owner, means);
   }
   FaceClusters clusters(means.size());
   for (std::size_t i = 0; i < features.size(); ++i)
@@ -266,11 +291,10 @@ Matrix6 scaleOf(const FaceTable& faces) {
 
 /// Motions, and the loads on the faces in them over their scales.
 struct LoadSamples {
-  LoadSamples(const FaceTable& faces, const ShapeFactors& of_body, std::uint64_t seed, int count,
-              int translations = 0)
+  /// `form`: scaleOf() the faces.
+  LoadSamples(const PackedFaces& packed, const Matrix6& form, const ShapeFactors& of_body,
+              std::uint64_t seed, int count, int translations = 0)
       : shape(of_body) {
-    const PackedFaces packed(faces, shape.shape);
-    const Matrix6 form = scaleOf(faces);
     ArbitraryNumbers numbers(seed);
     for (int i = 0; i < count; ++i) add(packed, form, sampleMotion(numbers), 1);
     for (int i = 0; i < translations; ++i)
@@ -397,8 +421,10 @@ class LevelMaker {
   LevelMaker(const FluidBody& body, const FormShape& shape)
       : centred_(body, formLawFaces(body, shape)),
         shape_(centredShape(shape)),
-        for_error_(centred_.faces, shape_, kErrorSeed, kErrorMotions),
-        for_fit_(centred_.faces, shape_, kFitSeed, kFitMotions, kFitTranslations),
+        packed_(centred_.faces, shape_.shape),
+        form_(scaleOf(centred_.faces)),
+        for_error_(packed_, form_, shape_, kErrorSeed, kErrorMotions),
+        for_fit_(packed_, form_, shape_, kFitSeed, kFitMotions, kFitTranslations),
         mirrors_(findMirrors()),
         axis_(findAxis()),
         folded_(mirrors_.folded(centred_.faces)) {}
@@ -480,6 +506,8 @@ class LevelMaker {
 
   CentredFaces centred_;
   ShapeFactors shape_;
+  PackedFaces packed_;
+  Matrix6 form_;
   LoadSamples for_error_, for_fit_;
   FaceMirrors mirrors_;
   std::optional<int> axis_;

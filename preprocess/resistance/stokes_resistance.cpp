@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <stdexcept>
@@ -33,7 +34,6 @@ namespace ambient {
 namespace {
 
 using Eigen::Index;
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 // Limits of the distance of centroids over the sum of the radii.
@@ -77,14 +77,17 @@ std::vector<Group> groupsOf(const std::vector<Panel>& panels, const std::vector<
   return groups;
 }
 
+/// Symmetric 3 x 3 blocks, by the components of PanelTensors.
+using Blocks = std::vector<Vector6>;
+
 /// Points that see one panel, at most sixteen, and the groups that their tensors count for.
 class PointBlock {
  public:
-  PointBlock(const Panel& source, std::vector<Matrix3d>& rows) : source_(source), rows_(rows) {}
+  PointBlock(const Panel& source, Blocks& rows) : source_(numbersOf(source)), rows_(rows) {}
 
   /// Adds a point of a group with its weight, and evaluates a full block.
   void add(std::size_t group, const Vector3d& point, double weight) {
-    points_[count_] = point;
+    for (int axis = 0; axis < 3; ++axis) points_.at[axis][count_] = point[axis];
     group_[count_] = group;
     weight_[count_] = weight;
     if (++count_ == kMostPanelPoints) flush();
@@ -99,17 +102,20 @@ class PointBlock {
 
   /// Evaluates what is left.
   void flush() {
+    static const auto view = kViewStokeslets.fastest();
     if (count_ == 0) return;
-    std::array<Matrix3d, kMostPanelPoints> tensors;
-    computeStokeslets(source_, points_.data(), count_, tensors.data());
-    for (std::size_t i = 0; i < count_; ++i) rows_[group_[i]] += weight_[i] * tensors[i];
+    for (auto& axis : points_.at) std::fill(axis + count_, std::end(axis), axis[0]);
+    view(source_, points_, count_ <= 8 ? 8 : kMostPanelPoints, tensors_);
+    for (std::size_t i = 0; i < count_; ++i)
+      for (int c = 0; c < 6; ++c) rows_[group_[i]][c] += weight_[i] * tensors_.at[c][i];
     count_ = 0;
   }
 
  private:
-  const Panel& source_;
-  std::vector<Matrix3d>& rows_;
-  std::array<Vector3d, kMostPanelPoints> points_;
+  PanelNumbers source_;
+  Blocks& rows_;
+  PanelPoints points_;
+  PanelTensors tensors_;
   std::array<std::size_t, kMostPanelPoints> group_{};
   std::array<double, kMostPanelPoints> weight_{};
   std::size_t count_ = 0;
@@ -126,7 +132,7 @@ bool hasPoints(std::size_t first, std::size_t second, const std::vector<Group>& 
 
 /// Adds int_G int_S of the groups G that have points and one panel S of a group.
 void addIntegrals(const Panel& source, std::size_t of, const std::vector<Panel>& panels,
-                  const std::vector<Group>& groups, std::vector<Matrix3d>& rows) {
+                  const std::vector<Group>& groups, Blocks& rows) {
   PointBlock block(source, rows);
   for (std::size_t g = 0; g < groups.size(); ++g) {
     if (!hasPoints(g, of, groups)) continue;
@@ -152,33 +158,6 @@ void addIntegrals(const Panel& source, std::size_t of, const std::vector<Panel>&
 
 }  // namespace
 
-void computeStokeslets(const Panel& panel, const Vector3d* points, std::size_t count,
-                       Matrix3d* tensors) {
-  const PanelViews views = viewPanel(panel, points, count);
-  const Vector3d& n = panel.normal;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double height = views.height[i];
-    const double lid = height * views.solid_angle[i];  // |h| Omega: both change sign with the side
-    std::array<double, 3> distance;                    // R of the corners
-    for (int k = 0; k < 3; ++k) distance[k] = (panel.corner[k] - points[i]).norm();
-    Matrix3d edges = Matrix3d::Zero();
-    Vector3d q = Vector3d::Zero();
-    double potential = -lid;
-    for (int k = 0; k < 3; ++k) {
-      const Vector3d& m = panel.edge_normal[k];
-      const double f = views.edge_potential[k][i], along = views.edge_distance[k][i] * f;
-      const double change = (distance[(k + 1) % 3] - distance[k]) / panel.edge_length[k];
-      potential += along;
-      edges += (along * m + change * panel.edge[k]) * m.transpose();
-      q += f * m;
-    }
-    const Matrix3d bent = n * (height * q).transpose();
-    const Matrix3d tensor = potential * (2 * Matrix3d::Identity() - n * n.transpose()) +
-                            lid * n * n.transpose() + bent + bent.transpose() - edges;
-    tensors[i] = (tensor + tensor.transpose()) / 2;
-  }
-}
-
 Eigen::MatrixXd assembleStokesMatrix(const std::vector<Panel>& panels,
                                      const std::vector<int>& group, int count, int threads) {
   AMBIENT_ASSERT(group.size() == panels.size() && count > 0);
@@ -187,12 +166,15 @@ Eigen::MatrixXd assembleStokesMatrix(const std::vector<Panel>& panels,
   Eigen::MatrixXd A(size, size);
   parallelFor(threads, count, [&](std::ptrdiff_t column) {
     const auto of = static_cast<std::size_t>(column);
-    std::vector<Matrix3d> rows(groups.size(), Matrix3d::Zero());
+    Blocks rows(groups.size(), Vector6::Zero());
     for (const std::size_t s : groups[of].members)
       addIntegrals(panels[s], of, panels, groups, rows);
     rows[of] /= 2;
-    for (std::size_t g = 0; g < rows.size(); ++g)
-      A.block<3, 3>(3 * static_cast<Index>(g), 3 * column) = rows[g];
+    for (std::size_t g = 0; g < rows.size(); ++g) {
+      const Vector6& b = rows[g];
+      A.block<3, 3>(3 * static_cast<Index>(g), 3 * column) << b[0], b[3], b[4], b[3], b[1], b[5],
+          b[4], b[5], b[2];
+    }
   });
   for (Index j = 0; j < size; ++j)
     for (Index i = 0; i <= j; ++i) A(i, j) = A(j, i) = A(i, j) + A(j, i);

@@ -9,11 +9,6 @@
 
 namespace ambient {
 
-/// Computes int_T (I/r + r r^T/r^3) dy, r = x - y, of a panel T [length] at up to 16 points x,
-/// exact for every x, on the panel too; docs/theory.md eq. (94). Symmetric.
-void computeStokeslets(const Panel& panel, const Eigen::Vector3d* points, std::size_t count,
-                       Eigen::Matrix3d* tensors);
-
 /// Assembles the matrix of the Stokes equation (93) with one force per area on each group of
 /// panels, tested by the same groups: 3 G x 3 G, symmetric [length^3]. One panel of a pair is
 /// integrated in closed form, the other over sixteen points if they touch, six if they are nearer

@@ -1,5 +1,6 @@
 #include "preprocess/mesh/mend/mesh_mending.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <map>
@@ -16,19 +17,60 @@ namespace {
 using Eigen::Vector3d;
 using Edge = std::pair<int, int>;
 
-/// Directed edges that no triangle runs along the other way round, as often as one is missing.
-std::set<Edge> openEdges(const std::vector<Eigen::Vector3i>& triangles) {
-  std::map<Edge, int> count;
-  for (const Eigen::Vector3i& t : triangles) {
-    for (int k = 0; k < 3; ++k) ++count[{t[k], t[(k + 1) % 3]}];
-  }
-  std::set<Edge> open;
-  for (const auto& [edge, times] : count) {
-    const auto back = count.find({edge.second, edge.first});
-    if (back == count.end() || back->second < times) open.insert(edge);
+/// Directed edges that no triangle runs along the other way round, as often as one is missing; each
+/// once, ascending.
+std::vector<Edge> openEdges(const std::vector<Eigen::Vector3i>& triangles) {
+  std::vector<Edge> edges;
+  edges.reserve(3 * triangles.size());
+  for (const Eigen::Vector3i& t : triangles)
+    for (int k = 0; k < 3; ++k) edges.emplace_back(t[k], t[(k + 1) % 3]);
+  std::sort(edges.begin(), edges.end());
+  std::vector<Edge> open;
+  for (auto edge = edges.begin(); edge != edges.end();) {
+    const auto end = std::upper_bound(edge, edges.end(), *edge);
+    const auto back = std::equal_range(edges.begin(), edges.end(), Edge(edge->second, edge->first));
+    if (back.second - back.first < end - edge) open.push_back(*edge);
+    edge = end;
   }
   return open;
 }
+
+/// Places by their coordinates along each axis.
+class SortedPlaces {
+ public:
+  void add(int vertex, const Vector3d& place) { axes_[0].push_back({place, vertex}); }
+
+  void sort() {
+    axes_[1] = axes_[2] = axes_[0];
+    for (int axis = 0; axis < 3; ++axis)
+      std::sort(axes_[axis].begin(), axes_[axis].end(),
+                [=](const auto& v, const auto& w) { return v.place[axis] < w.place[axis]; });
+  }
+
+  /// Calls body(vertex, place) for those in a box, in any order.
+  template <class Body>
+  void forAllIn(const Eigen::AlignedBox3d& box, const Body& body) const {
+    auto first = axes_[0].begin(), last = axes_[0].end();
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::vector<Place>& along = axes_[axis];
+      const auto from = std::partition_point(along.begin(), along.end(), [&](const Place& v) {
+        return v.place[axis] < box.min()[axis];
+      });
+      const auto to = std::partition_point(
+          from, along.end(), [&](const Place& v) { return v.place[axis] <= box.max()[axis]; });
+      if (to - from < last - first) first = from, last = to;
+    }
+    for (; first != last; ++first)
+      if (box.contains(first->place)) body(first->vertex, first->place);
+  }
+
+ private:
+  struct Place {
+    Vector3d place;
+    int vertex;
+  };
+  std::array<std::vector<Place>, 3> axes_;
+};
 
 /// A side of a triangle: its first corner and the vertices on it, in order.
 struct Side {
@@ -46,12 +88,12 @@ class CrackMender {
 
   /// False if there was nothing to divide.
   bool divideOnce() {
-    const std::set<Edge> open = openEdges(triangles_);
-    const std::vector<int> ends = endsOf(open);
-    std::map<Edge, std::vector<int>> inside;
+    const std::vector<Edge> open = openEdges(triangles_);
+    const SortedPlaces ends = endsOf(open);
+    Insides inside;
     for (const Edge& edge : open) {
       std::vector<int> between = verticesOn(edge, ends);
-      if (!between.empty()) inside.emplace(edge, std::move(between));
+      if (!between.empty()) inside.emplace_back(edge, std::move(between));
     }
     if (inside.empty()) return false;
     std::vector<Eigen::Vector3i> divided;
@@ -63,50 +105,48 @@ class CrackMender {
   TriangleMesh mesh() const { return makeTriangleMesh(points_, triangles_); }
 
  private:
-  double x(int vertex) const { return points_[static_cast<std::size_t>(vertex)].x(); }
+  using Insides = std::vector<std::pair<Edge, std::vector<int>>>;  // ascending
 
-  // In order of x.
-  std::vector<int> endsOf(const std::set<Edge>& edges) const {
-    std::set<int> ends;
-    for (const Edge& edge : edges) ends.insert({edge.first, edge.second});
-    std::vector<int> sorted(ends.begin(), ends.end());
-    std::sort(sorted.begin(), sorted.end(),
-              [&](int v, int w) { return x(v) != x(w) ? x(v) < x(w) : v < w; });
-    return sorted;
+  SortedPlaces endsOf(const std::vector<Edge>& edges) const {
+    std::vector<bool> is_end(points_.size());
+    for (const Edge& edge : edges) is_end[edge.first] = is_end[edge.second] = true;
+    SortedPlaces ends;
+    for (std::size_t v = 0; v < points_.size(); ++v)
+      if (is_end[v]) ends.add(static_cast<int>(v), points_[v]);
+    ends.sort();
+    return ends;
   }
 
-  // In order along the edge, of those in order of x.
-  std::vector<int> verticesOn(const Edge& edge, const std::vector<int>& candidates) const {
+  // In order along the edge.
+  std::vector<int> verticesOn(const Edge& edge, const SortedPlaces& candidates) const {
     const Vector3d a = points_[static_cast<std::size_t>(edge.first)];
-    const Vector3d along = points_[static_cast<std::size_t>(edge.second)] - a;
-    const double low = std::min(x(edge.first), x(edge.second));
-    const double high = std::max(x(edge.first), x(edge.second));
+    const Vector3d b = points_[static_cast<std::size_t>(edge.second)], along = b - a;
+    const Vector3d room = Vector3d::Constant(2 * tolerance_);  // for rounding, too
     const double length = along.norm();
     std::vector<std::pair<double, int>> found;
-    const auto first = std::partition_point(candidates.begin(), candidates.end(),
-                                            [&](int v) { return x(v) < low - tolerance_; });
-    for (auto next = first; next != candidates.end() && x(*next) <= high + tolerance_; ++next) {
-      const int v = *next;
-      if (v == edge.first || v == edge.second) continue;
-      const Vector3d to_v = points_[static_cast<std::size_t>(v)] - a;
+    candidates.forAllIn({a.cwiseMin(b) - room, a.cwiseMax(b) + room}, [&](int v, const auto& at) {
+      if (v == edge.first || v == edge.second) return;
+      const Vector3d to_v = at - a;
       const double s = to_v.dot(along) / length;
-      if (s <= 0 || s >= length || (to_v - along * (s / length)).norm() > tolerance_) continue;
+      if (s <= 0 || s >= length || (to_v - along * (s / length)).norm() > tolerance_) return;
       found.emplace_back(s, v);
-    }
+    });
     std::sort(found.begin(), found.end());
     std::vector<int> vertices;
     for (const auto& [s, v] : found) vertices.push_back(v);
     return vertices;
   }
 
-  void append(const Eigen::Vector3i& triangle, const std::map<Edge, std::vector<int>>& inside,
-              std::vector<Eigen::Vector3i>& divided) const {
+  static void append(const Eigen::Vector3i& triangle, const Insides& inside,
+                     std::vector<Eigen::Vector3i>& divided) {
     std::array<Side, 3> sides;
     for (int k = 0; k < 3; ++k) {
       Side& side = sides[static_cast<std::size_t>(k)];
       side.from = triangle[k];
-      const auto found = inside.find({triangle[k], triangle[(k + 1) % 3]});
-      if (found == inside.end()) continue;
+      const Edge edge(triangle[k], triangle[(k + 1) % 3]);
+      const auto found = std::partition_point(inside.begin(), inside.end(),
+                                              [&](const auto& on) { return on.first < edge; });
+      if (found == inside.end() || found->first != edge) continue;
       for (const int v : found->second) {
         if (v != triangle[(k + 2) % 3]) side.between.push_back(v);  // its own, if it is flat
       }

@@ -24,30 +24,20 @@ PanelJump jumpOn(const PanelSurface& surface, const Eigen::Matrix<double, Eigen:
     j.gradient += surface.panels[t].hatGradient(a) * j.corner.row(a);
   }
   j.mean = j.corner.colwise().mean();
+  for (int a = 0; a < 3; ++a) {
+    for (int field = 0; field < 6; ++field) j.of_kernel[a][field] = j.corner(a, field);
+    j.of_kernel[a][6] = 1;
+  }
   return j;
 }
 
-/// int_S h_b n.(x - y)/r^3 dy by points at all nodes x of a panel, for panels a little apart.
-Eigen::Matrix<double, 6, 3> computeDoubleLayerByPoints(const Panel& source,
-                                                       const NodePotentials<6>& nodes) {
-  using Array6 = Eigen::Array<double, 6, 1>;
-  Array6 x, y, z;
-  for (int k = 0; k < 6; ++k) {
-    const Vector3d& node = nodes.node(k);
-    x[k] = node.x(), y[k] = node.y(), z[k] = node.z();
-  }
-  Eigen::Matrix<double, 6, 3> weights = Eigen::Matrix<double, 6, 3>::Zero();
-  for (const TriangleNode& node : kTriangleRule6) {
-    const Vector3d point = source.at(node.barycentric);
-    const Array6 square =
-        (x - point.x()).square() + (y - point.y()).square() + (z - point.z()).square();
-    const Array6 kernel = node.weight / (square * square.sqrt());
-    for (int b = 0; b < 3; ++b) weights.col(b).array() += node.barycentric[b] * kernel;
-  }
-  const Vector3d &n = source.normal, &c = source.centroid;
-  const Array6 height = n.x() * (x - c.x()) + n.y() * (y - c.y()) + n.z() * (z - c.z());
-  for (int b = 0; b < 3; ++b) weights.col(b).array() *= source.area * height;
-  return weights;
+/// Whether a panel lies in the plane of another one, as on a flat side: neither sees the other one
+/// across.
+bool areInOnePlane(const Panel& panel, const Panel& other) {
+  constexpr double kRounding = 1e-12;  // of the size of the surface, which is 1
+  for (const Vector3d& corner : panel.corner)
+    if (std::abs(other.normal.dot(corner - other.centroid)) > kRounding) return false;
+  return true;
 }
 
 }  // namespace
@@ -64,11 +54,11 @@ Matrix36 computeNearMoments(const PanelSurface& surface, const std::vector<NearP
   NodePotentials<6> coarse(surface.panels[t], kTriangleRule6);
   NodePotentials<16> fine(surface.panels[t], kTriangleRule16);
   for (const NearPanels::Entry& entry : near) {
-    const Panel& source = surface.panels[entry.panel];
-    const Matrix36& jump = jumps[entry.panel].corner;
+    if (areInOnePlane(surface.panels[t], surface.panels[entry.panel])) continue;  // itself, too
+    const PanelNumbers& source = surface.numbers[entry.panel];
+    const CornerJumps& jump = jumps[entry.panel].of_kernel;
     switch (entry.kind) {
       case PairKind::Same:
-        break;  // a flat panel has no double layer on itself
       case PairKind::SharedEdge:
       case PairKind::SharedVertex:
       case PairKind::Near:
@@ -79,7 +69,7 @@ Matrix36 computeNearMoments(const PanelSurface& surface, const std::vector<NearP
         break;
       case PairKind::Middle:
       case PairKind::Far:
-        coarse.addAll(computeDoubleLayerByPoints(source, coarse), jump);
+        coarse.addByPoints(source, surface.nodes[entry.panel], jump);
         break;
     }
   }
@@ -91,11 +81,17 @@ NearPanels findNearPanels(const PanelSurface& surface, int threads) {
   NearPanels near;
   const Eigen::Index n = surface.panelCount();
   near.of_panel.resize(n);
+  const PanelArrays& a = surface.arrays;
   parallelFor(threads, n, [&](std::ptrdiff_t t) {
+    constexpr double kReach = kFarLimit * (1 + 1e-9);  // classifyPair() decides at the limit
+    const Eigen::Array<bool, Eigen::Dynamic, 1> may_be_near =
+        (a.x - a.x[t]).square() + (a.y - a.y[t]).square() + (a.z - a.z[t]).square() <=
+        (kReach * (a.radius + a.radius[t])).square();
     for (Eigen::Index s = 0; s < n; ++s) {
+      if (!may_be_near[s]) continue;
       const PairKind kind = classifyPair(surface, t, s);
       if (kind == PairKind::Far) continue;
-      const double integral = s >= t ? computePairIntegral(surface, t, s) : 0;
+      const double integral = s >= t ? computePairIntegral(surface, t, s, kind) : 0;
       near.of_panel[t].push_back({static_cast<int>(s), kind, integral});
     }
   });

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <vector>
 
 #include "preprocess/potential_flow/surface/panel_pair.h"
+#include "preprocess/potential_flow/surface/panel_views.h"
 #include "preprocess/potential_flow/surface/quadrature_rules.h"
 
 namespace ambient {
@@ -32,6 +34,7 @@ struct PanelJump {
   Eigen::Matrix<double, 3, 6> corner;
   Eigen::Matrix<double, 1, 6> mean;
   Eigen::Matrix<double, 3, 6> gradient;
+  CornerJumps of_kernel;  ///< the values at the corners
 };
 
 /// Returns the jumps on all panels, from the values at the vertices.
@@ -43,32 +46,33 @@ template <std::size_t N>
 class NodePotentials {
  public:
   NodePotentials(const Panel& panel, const std::array<TriangleNode, N>& rule) : rule_(rule) {
-    for (std::size_t k = 0; k < N; ++k) nodes_[k] = panel.at(rule[k].barycentric);
-    potential_.setZero();
-    solid_angle_.setZero();
+    for (int k = 0; k < kPadded; ++k) {
+      const Eigen::Vector3d node = panel.at(rule[std::min<std::size_t>(k, N - 1)].barycentric);
+      for (int axis = 0; axis < 3; ++axis) nodes_.at[axis][k] = node[axis];
+    }
   }
 
   /// Adds a source by closed forms.
-  void add(const Panel& source, const Eigen::Matrix<double, 3, 6>& jump) {
-    std::array<Eigen::Vector3d, N> weights;
-    computeDoubleLayers(source, nodes_.data(), N, weights.data());
-    for (std::size_t k = 0; k < N; ++k) add(k, weights[k].transpose() * jump, weights[k].sum());
+  void add(const PanelNumbers& source, const CornerJumps& jumps) {
+    static const auto kernel = kAddDoubleLayer.fastest();
+    kernel(source, jumps, nodes_, kPadded, potentials_);
   }
 
-  /// Adds a source, given the weights of its corners at all nodes.
-  void addAll(const Eigen::Matrix<double, static_cast<int>(N), 3>& weights,
-              const Eigen::Matrix<double, 3, 6>& jump) {
-    potential_ += weights * jump;
-    solid_angle_ += weights.rowwise().sum();
+  /// Adds a source a little apart by points.
+  void addByPoints(const PanelNumbers& source, const PanelNodes& nodes, const CornerJumps& jumps) {
+    static const auto kernel = kAddPointDipoles.fastest();
+    kernel(source, nodes, jumps, nodes_, kPadded, potentials_);
   }
 
   /// Adds at node k the potential of a jump, and that of a jump of 1 everywhere, the solid angle.
   void add(std::size_t k, const Eigen::Matrix<double, 1, 6>& potential, double solid_angle) {
-    potential_.row(k) += potential;
-    solid_angle_[k] += solid_angle;
+    for (int field = 0; field < 6; ++field) potentials_.at[field][k] += potential[field];
+    potentials_.at[6][k] += solid_angle;
   }
 
-  const Eigen::Vector3d& node(std::size_t k) const { return nodes_[k]; }
+  Eigen::Vector3d node(std::size_t k) const {
+    return {nodes_.at[0][k], nodes_.at[1][k], nodes_.at[2][k]};
+  }
 
   /// Moments of int (mu(y) - mu(x)) with the panel's hat functions; `jump` is its own mu.
   Eigen::Matrix<double, 3, 6> moments(const Panel& panel,
@@ -76,17 +80,19 @@ class NodePotentials {
     Eigen::Matrix<double, 3, 6> sum = Eigen::Matrix<double, 3, 6>::Zero();
     for (std::size_t k = 0; k < N; ++k) {
       const Eigen::Map<const Eigen::Vector3d> hat(rule_[k].barycentric.data());
-      sum += (rule_[k].weight * panel.area) * hat *
-             (potential_.row(k) - solid_angle_[k] * (hat.transpose() * jump));
+      Eigen::Matrix<double, 1, 6> potential = -potentials_.at[6][k] * (hat.transpose() * jump);
+      for (int field = 0; field < 6; ++field) potential[field] += potentials_.at[field][k];
+      sum += (rule_[k].weight * panel.area) * hat * potential;
     }
     return sum;
   }
 
  private:
+  static constexpr int kPadded = N <= 8 ? 8 : kMostPanelPoints;  // the last node again
+
   const std::array<TriangleNode, N>& rule_;
-  std::array<Eigen::Vector3d, N> nodes_;
-  Eigen::Matrix<double, N, 6, Eigen::RowMajor> potential_;
-  Eigen::Matrix<double, N, 1> solid_angle_;
+  PanelPoints nodes_;
+  PanelPotentials potentials_{};
 };
 
 /// Computes the moments on panel t that the panels near it cause, times 4 pi.

@@ -5,12 +5,17 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "preprocess/potential_flow/surface/panel_views.h"
+#include "preprocess/potential_flow/surface/quadrature_rules.h"
 
 namespace ambient {
 
 const Kernels<decltype(&viewPanelBaseline)> kViewPanel{AMBIENT_KERNELS(viewPanel)};
-
-namespace {
+const Kernels<decltype(&viewStokesletsBaseline)> kViewStokeslets{AMBIENT_KERNELS(viewStokeslets)};
+const Kernels<decltype(&addDoubleLayerBaseline)> kAddDoubleLayer{AMBIENT_KERNELS(addDoubleLayer)};
+const Kernels<decltype(&addPointDipolesBaseline)> kAddPointDipoles{
+    AMBIENT_KERNELS(addPointDipoles)};
+const Kernels<decltype(&meanInverseDistanceBaseline)> kMeanInverseDistance{
+    AMBIENT_KERNELS(meanInverseDistance)};
 
 PanelNumbers numbersOf(const Panel& panel) {
   PanelNumbers numbers;
@@ -26,7 +31,17 @@ PanelNumbers numbersOf(const Panel& panel) {
   return numbers;
 }
 
-}  // namespace
+PanelNodes nodesOf(const Panel& panel) {
+  PanelNodes nodes;
+  for (int i = 0; i < PanelNodes::kCount; ++i) {
+    const TriangleNode& node = kTriangleRule6[static_cast<std::size_t>(i)];
+    const Eigen::Vector3d place = panel.at(node.barycentric);
+    std::copy(place.begin(), place.end(), nodes.place[i]);
+    std::copy(node.barycentric.begin(), node.barycentric.end(), nodes.hat[i]);
+    nodes.weight[i] = node.weight;
+  }
+  return nodes;
+}
 
 Panel makePanel(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
   Panel p;

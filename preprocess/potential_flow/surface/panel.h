@@ -37,7 +37,14 @@ struct Panel {
 /// makePanelSurface() refuses such panels.
 Panel makePanel(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
 
+struct PanelNodes;
+struct PanelNumbers;
 struct PanelViews;
+
+/// Returns the panel in plain numbers, for the kernels of panel_views.h.
+PanelNumbers numbersOf(const Panel& panel);
+/// Returns the points of kTriangleRule6 on a panel.
+PanelNodes nodesOf(const Panel& panel);
 
 /// Computes the views of a panel from up to 16 points, see panel_views.h.
 PanelViews viewPanel(const Panel& panel, const Eigen::Vector3d* points, std::size_t count);

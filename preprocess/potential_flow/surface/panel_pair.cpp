@@ -106,16 +106,9 @@ double analyticByPoints(const Panel& t, const Panel& s, const std::array<Triangl
   return outer.area * meanAt(points, weights, inner);
 }
 
-double pointsByPoints(const Panel& t, const Panel& s) {
-  std::array<Vector3d, kTriangleRule6.size()> y;
-  for (std::size_t j = 0; j < y.size(); ++j) y[j] = s.at(kTriangleRule6[j].barycentric);
-  double mean = 0;
-  for (const TriangleNode& node : kTriangleRule6) {
-    const Vector3d x = t.at(node.barycentric);
-    for (std::size_t j = 0; j < y.size(); ++j)
-      mean += node.weight * kTriangleRule6[j].weight / (x - y[j]).norm();
-  }
-  return t.area * s.area * mean;
+double pointsByPoints(const PanelSurface& surface, Index t, Index s) {
+  static const auto mean = kMeanInverseDistance.fastest();
+  return surface.panels[t].area * surface.panels[s].area * mean(surface.nodes[t], surface.nodes[s]);
 }
 
 /// Centroids with second moments; computeFarPairIntegrals() has the same for whole rows.
@@ -154,9 +147,13 @@ PairKind classifyPair(const PanelSurface& surface, Index t, Index s) {
 }
 
 double computePairIntegral(const PanelSurface& surface, Index t, Index s) {
+  return computePairIntegral(surface, t, s, classifyPair(surface, t, s));
+}
+
+double computePairIntegral(const PanelSurface& surface, Index t, Index s, PairKind kind) {
   const Panel& a = surface.panels[t];
   const Panel& b = surface.panels[s];
-  switch (classifyPair(surface, t, s)) {
+  switch (kind) {
     case PairKind::Same:
       return selfIntegral(a);
     case PairKind::SharedEdge:
@@ -170,7 +167,7 @@ double computePairIntegral(const PanelSurface& surface, Index t, Index s) {
     case PairKind::Close:
       return analyticByPoints(a, b, kTriangleRule6);
     case PairKind::Middle:
-      return pointsByPoints(a, b);
+      return pointsByPoints(surface, t, s);
     case PairKind::Far:
       break;
   }

@@ -20,6 +20,9 @@ PairKind classifyPair(const PanelSurface& surface, Eigen::Index t, Eigen::Index 
 /// eq. (9)), quadrature by q for the others. The order of t and s matters to the error of the
 /// quadrature only.
 double computePairIntegral(const PanelSurface& surface, Eigen::Index t, Eigen::Index s);
+/// The same, where the kind of the pair is known.
+double computePairIntegral(const PanelSurface& surface, Eigen::Index t, Eigen::Index s,
+                           PairKind kind);
 
 /// row[k] = far-field integral of panel t and panel first + k, for a whole row: PairKind::Far.
 void computeFarPairIntegrals(const PanelArrays& arrays, Eigen::Index t, Eigen::Index first,

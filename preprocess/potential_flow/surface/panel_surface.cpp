@@ -141,7 +141,7 @@ void fillArrays(PanelSurface& surface) {
   const Index n = surface.panelCount();
   PanelArrays& a = surface.arrays;
   for (Eigen::ArrayXd* array : {&a.x, &a.y, &a.z, &a.normal_x, &a.normal_y, &a.normal_z, &a.area,
-                                &a.xx, &a.yy, &a.zz, &a.xy, &a.xz, &a.yz})
+                                &a.radius, &a.xx, &a.yy, &a.zz, &a.xy, &a.xz, &a.yz})
     array->resize(n);
   for (Index t = 0; t < n; ++t) {
     const Panel& p = surface.panels[t];
@@ -150,7 +150,7 @@ void fillArrays(PanelSurface& surface) {
       moment += (corner - p.centroid) * (corner - p.centroid).transpose() / 12;
     a.x[t] = p.centroid.x(), a.y[t] = p.centroid.y(), a.z[t] = p.centroid.z();
     a.normal_x[t] = p.normal.x(), a.normal_y[t] = p.normal.y(), a.normal_z[t] = p.normal.z();
-    a.area[t] = p.area;
+    a.area[t] = p.area, a.radius[t] = p.radius;
     a.xx[t] = moment(0, 0), a.yy[t] = moment(1, 1), a.zz[t] = moment(2, 2);
     a.xy[t] = moment(0, 1), a.xz[t] = moment(0, 2), a.yz[t] = moment(1, 2);
   }
@@ -196,6 +196,10 @@ PanelSurface makePanelSurface(const TriangleMesh& mesh, bool sheet) {
       throw std::runtime_error("potential flow: triangle " + std::to_string(t) + " has no area");
   }
   AMBIENT_ASSERT(surface.length > 0 && std::isfinite(surface.length));
+  for (const Panel& panel : surface.panels) {
+    surface.numbers.push_back(numbersOf(panel));
+    surface.nodes.push_back(nodesOf(panel));
+  }
   fillArrays(surface);
   findConnectivity(mesh, surface);
   return surface;

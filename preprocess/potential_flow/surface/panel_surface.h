@@ -6,6 +6,7 @@
 
 #include "preprocess/mesh/triangle_mesh.h"
 #include "preprocess/potential_flow/surface/panel.h"
+#include "preprocess/potential_flow/surface/panel_views.h"
 
 namespace ambient {
 
@@ -26,7 +27,7 @@ std::vector<FaceBulge> estimateBulges(const TriangleMesh& mesh);
 struct PanelArrays {
   Eigen::ArrayXd x, y, z;  ///< centroids
   Eigen::ArrayXd normal_x, normal_y, normal_z;
-  Eigen::ArrayXd area;
+  Eigen::ArrayXd area, radius;
   Eigen::ArrayXd xx, yy, zz, xy, xz, yz;  ///< second central moments per area
 };
 
@@ -37,6 +38,8 @@ struct PanelSurface {
   double volume = 0;       ///< in units of length^3; 0 for a sheet
   Eigen::Matrix3Xi triangles;
   std::vector<Panel> panels;
+  std::vector<PanelNumbers> numbers;  ///< of the panels, for kernels
+  std::vector<PanelNodes> nodes;
   PanelArrays arrays;
   std::vector<int> component;         ///< of each vertex; -1: vertex without a triangle
   std::vector<bool> boundary_vertex;  ///< on an edge with one triangle only

@@ -29,16 +29,51 @@ struct PanelViews {
   alignas(64) double edge_potential[3][kMostPanelPoints];
 };
 
-// The kernel, once per instruction set.
-void viewPanelBaseline(const PanelNumbers& panel, const PanelPoints& points, int count,
-                       PanelViews& views);
-void viewPanelAvx2(const PanelNumbers& panel, const PanelPoints& points, int count,
-                   PanelViews& views);
-void viewPanelAvx512(const PanelNumbers& panel, const PanelPoints& points, int count,
-                     PanelViews& views);
+/// Symmetric tensors at points: xx, yy, zz, xy, xz, yz.
+struct PanelTensors {
+  alignas(64) double at[6][kMostPanelPoints];
+};
 
-/// Computes the views of eight or sixteen points, each as if it were alone.
-/// @pre `count` is 8 or 16, and so many points are finite
+/// Potentials at points: those of six jumps on panels, and that of a jump of 1, the solid angle.
+struct PanelPotentials {
+  alignas(64) double at[7][kMostPanelPoints];
+};
+
+/// Six points on a panel with weights that sum up to 1, and hat functions there.
+struct PanelNodes {
+  static constexpr int kCount = 6;
+  double place[kCount][3], hat[kCount][3], weight[kCount];
+};
+
+/// Values of the six jumps and of the jump of 1 at the corners of a panel.
+using CornerJumps = double[3][7];
+
+// The kernels, once per instruction set. Each point is computed as if it were alone.
+// @pre `count` is 8 or 16, and so many points are finite
+#define AMBIENT_PANEL_KERNELS(set)                                                             \
+  void viewPanel##set(const PanelNumbers& panel, const PanelPoints& points, int count,         \
+                      PanelViews& views);                                                      \
+  void viewStokeslets##set(const PanelNumbers& panel, const PanelPoints& points, int count,    \
+                           PanelTensors& tensors);                                             \
+  void addDoubleLayer##set(const PanelNumbers& panel, const CornerJumps& jumps,                \
+                           const PanelPoints& points, int count, PanelPotentials& potentials); \
+  void addPointDipoles##set(const PanelNumbers& panel, const PanelNodes& nodes,                \
+                            const CornerJumps& jumps, const PanelPoints& points, int count,    \
+                            PanelPotentials& potentials);                                      \
+  double meanInverseDistance##set(const PanelNodes& a, const PanelNodes& b);
+AMBIENT_PANEL_KERNELS(Baseline)
+AMBIENT_PANEL_KERNELS(Avx2)
+AMBIENT_PANEL_KERNELS(Avx512)
+
+/// Computes the views.
 extern const Kernels<decltype(&viewPanelBaseline)> kViewPanel;
+/// Computes int (I/r + r r^T/r^3) dy over the panel; docs/theory.md eq. (94).
+extern const Kernels<decltype(&viewStokesletsBaseline)> kViewStokeslets;
+/// Adds the potentials int h_b n.(x - y)/r^3 dy of linear jumps, in closed form.
+extern const Kernels<decltype(&addDoubleLayerBaseline)> kAddDoubleLayer;
+/// Adds the same by points of the panel, for panels a little apart.
+extern const Kernels<decltype(&addPointDipolesBaseline)> kAddPointDipoles;
+/// Computes the mean of 1/r between the points of two panels.
+extern const Kernels<decltype(&meanInverseDistanceBaseline)> kMeanInverseDistance;
 
 }  // namespace ambient

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -11,6 +12,7 @@
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/mesh/shapes/primitives.h"
+#include "preprocess/potential_flow/surface/panel_views.h"
 #include "preprocess/potential_flow/surface/surface_refinement.h"
 #include "tests/preprocess/potential_flow/flow_fixtures.h"
 #include "tests/reference/ellipsoid_added_mass.h"
@@ -65,12 +67,27 @@ TEST(EllipsoidResistance, IsThatOfTheIntegralsByQuadrature) {
   }
 }
 
+/// Of a panel, at up to eight points.
+std::vector<Eigen::Matrix3d> stokesletsOf(const Panel& panel, const std::vector<Vector3d>& points) {
+  PanelPoints seen;
+  for (int axis = 0; axis < 3; ++axis)
+    for (std::size_t i = 0; i < 8; ++i)
+      seen.at[axis][i] = points[std::min(i, points.size() - 1)][axis];
+  PanelTensors found;
+  kViewStokeslets.fastest()(numbersOf(panel), seen, 8, found);
+  std::vector<Eigen::Matrix3d> tensors(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto at = [&](int component) { return found.at[component][i]; };
+    tensors[i] << at(0), at(3), at(4), at(3), at(1), at(5), at(4), at(5), at(2);
+  }
+  return tensors;
+}
+
 TEST(Stokeslets, OfAPanelAreThoseOfPoints) {
   const Panel panel = makePanel({0, 0, 0.1}, {1, 0.2, 0}, {0.3, 0.9, -0.2});
   const std::vector<Vector3d> points = {
       {0.4, 0.3, 0.5}, {-1, 2, -0.7}, {3, 1, 0.2}, {0.5, 0.4, -0.3}};
-  std::vector<Eigen::Matrix3d> tensors(points.size());
-  computeStokeslets(panel, points.data(), points.size(), tensors.data());
+  const std::vector<Eigen::Matrix3d> tensors = stokesletsOf(panel, points);
   constexpr int kCuts = 200;
   for (std::size_t i = 0; i < points.size(); ++i) {
     Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();  // midpoints of kCuts^2 small triangles
@@ -90,16 +107,13 @@ TEST(Stokeslets, OnThePanelAreThoseOfItsParts) {
   // The tensor at the centroid is the sum over the three triangles around it, and at a corner
   // finite.
   const Panel panel = makePanel({0, 0, 0.1}, {1, 0.2, 0}, {0.3, 0.9, -0.2});
-  Eigen::Matrix3d whole, part, sum = Eigen::Matrix3d::Zero();
-  computeStokeslets(panel, &panel.centroid, 1, &whole);
-  for (int k = 0; k < 3; ++k) {
-    computeStokeslets(makePanel(panel.corner[k], panel.corner[(k + 1) % 3], panel.centroid),
-                      &panel.centroid, 1, &part);
-    sum += part;
-  }
+  const Eigen::Matrix3d whole = stokesletsOf(panel, {panel.centroid})[0];
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (int k = 0; k < 3; ++k)
+    sum += stokesletsOf(makePanel(panel.corner[k], panel.corner[(k + 1) % 3], panel.centroid),
+                        {panel.centroid})[0];
   EXPECT_LT((whole - sum).cwiseAbs().maxCoeff(), 1e-13);
-  computeStokeslets(panel, &panel.corner[1], 1, &part);
-  EXPECT_TRUE(part.allFinite());
+  EXPECT_TRUE(stokesletsOf(panel, {panel.corner[1]})[0].allFinite());
 }
 
 TEST(StokesResistance, OfEllipsoidsIsTheClosedForm) {

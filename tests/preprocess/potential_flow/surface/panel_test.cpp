@@ -84,18 +84,77 @@ struct SeenPanel {
   Vector3d corner(int k) const { return Vector3d(panel.corner[k]); }
 };
 
-TEST(PanelViews, EveryInstructionSetGivesTheSameBits) {
-  const SeenPanel seen;
+/// Jumps on the panel.
+struct JumpsOnPanel {
+  CornerJumps at;
+
+  JumpsOnPanel() {
+    std::mt19937 random(8);
+    std::uniform_real_distribution<double> number(-1, 1);
+    for (auto& corner : at) {
+      for (double& value : corner) value = number(random);
+      corner[6] = 1;
+    }
+  }
+};
+
+/// Calls a kernel in each instruction set, and compares the bytes of what it writes.
+template <class Result, class Pointer, class Call>
+void expectSameBits(const Kernels<Pointer>& kernels, const Call& call) {
   for (const int count : {8, 16}) {
-    PanelViews baseline{}, other{};
-    viewPanelBaseline(seen.panel, seen.points, count, baseline);
+    Result baseline{}, other{};
+    call(kernels.baseline, count, baseline);
     for (const InstructionSet set : {InstructionSet::kAvx2, InstructionSet::kAvx512}) {
-      const auto view = kViewPanel.of(set);
-      if (!view) continue;
-      view(seen.panel, seen.points, count, other);
+      other = {};
+      if (!kernels.of(set)) continue;
+      call(kernels.of(set), count, other);
       EXPECT_EQ(std::memcmp(&baseline, &other, sizeof other), 0);
     }
   }
+}
+
+TEST(PanelViews, EveryInstructionSetGivesTheSameBits) {
+  const SeenPanel seen;
+  const JumpsOnPanel jumps;
+  const PanelNodes nodes = nodesOf(skewPanel());
+  const auto see = [&](auto kernel, int count, auto& result) {
+    kernel(seen.panel, seen.points, count, result);
+  };
+  expectSameBits<PanelViews>(kViewPanel, see);
+  expectSameBits<PanelTensors>(kViewStokeslets, see);
+  expectSameBits<PanelPotentials>(kAddDoubleLayer, [&](auto kernel, int count, auto& result) {
+    kernel(seen.panel, jumps.at, seen.points, count, result);
+  });
+  expectSameBits<PanelPotentials>(kAddPointDipoles, [&](auto kernel, int count, auto& result) {
+    kernel(seen.panel, nodes, jumps.at, seen.points, count, result);
+  });
+  const PanelNodes others = nodesOf(makePanel({3, 0, 1}, {4, 0.5, 0}, {3.3, 0.8, -0.2}));
+  expectSameBits<double>(kMeanInverseDistance,
+                         [&](auto kernel, int, double& result) { result = kernel(nodes, others); });
+}
+
+TEST(PanelViews, AddDoubleLayersOfJumps) {
+  const SeenPanel seen;
+  const JumpsOnPanel jumps;
+  PanelPotentials exact{}, by_points{};
+  kAddDoubleLayer.fastest()(seen.panel, jumps.at, seen.points, kMostPanelPoints, exact);
+  const Panel panel = skewPanel();
+  kAddPointDipoles.fastest()(seen.panel, nodesOf(panel), jumps.at, seen.points, kMostPanelPoints,
+                             by_points);
+  int far = 0;
+  for (int i = 0; i < kMostPanelPoints; ++i) {
+    const Vector3d weights = computeDoubleLayer(panel, seen.point(i));
+    const bool is_far = (seen.point(i) - panel.centroid).norm() > 6 * panel.radius;
+    far += is_far ? 1 : 0;
+    for (int field = 0; field < 7; ++field) {
+      double sum = 0;
+      for (int k = 0; k < 3; ++k) sum += weights[k] * jumps.at[k][field];
+      EXPECT_NEAR(exact.at[field][i], sum, 1e-13 * (1 + weights.norm())) << i;
+      if (!is_far) continue;
+      EXPECT_NEAR(by_points.at[field][i], sum, 1e-4 * weights.cwiseAbs().sum()) << i;
+    }
+  }
+  EXPECT_GT(far, 2);
 }
 
 TEST(PanelViews, HaveLogarithmsAndAnglesToRounding) {
