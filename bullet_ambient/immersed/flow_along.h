@@ -99,7 +99,7 @@ class StationSamples {
   const Matrix3 to_world_;
   RegionSample centre_;
   const Vector3 still_axis_B_;
-  const double half_height_;  // for sampleRegion() [m]
+  const double half_height_;     // for sampleRegion() [m]
   const WaterSurface* surface_;  // that of the centre, if it is no plane
   bool may_turn_ = false;        // its velocity may differ by more than that of a wave
   bool is_finite_ = true, is_steady_ = true;
@@ -107,8 +107,8 @@ class StationSamples {
 };
 
 /// Finds what the flow along a body adds to its applied wrench in a step of `duration` [s]:
-/// FlowAlongBody::push_B, at_rest_B, side_push_W, growth_W, layers_W. Allocates nothing. Cost: nothing where
-/// the fluid moves as one.
+/// FlowAlongBody::push_B, at_rest_B, side_push_W, growth_W, layers_W. Allocates nothing. Cost:
+/// nothing where the fluid moves as one.
 void findPushes(AmbientBody& ambient, const MotionView& now, const FluidRegions& regions,
                 double duration) noexcept;
 

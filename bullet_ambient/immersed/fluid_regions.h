@@ -180,8 +180,8 @@ class FluidRegions {
   /// Removes a region. Returns false if there is none of that number.
   bool remove(RegionId id);
 
-  /// True if a region has had bounds, a flow, layers or waves, which may make the fluid differ along a
-  /// body.
+  /// True if a region has had bounds, a flow, layers or waves, which may make the fluid differ
+  /// along a body.
   bool mayDiffer() const noexcept { return may_differ_; }
   /// True if a region has had layers.
   bool haveLayers() const noexcept { return have_layers_; }

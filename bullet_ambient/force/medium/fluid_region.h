@@ -52,8 +52,8 @@ struct FluidRegion {
   /// Wind over a surface, added to `above` alone. A body that the surface cuts samples it in the
   /// middle of its dry height.
   FlowField flow_above = nullptr;
-  /// Density of `below` over height in place of Medium::density, which stays the one that added mass
-  /// is computed with; null: the same everywhere. docs/theory.md eq. (180).
+  /// Density of `below` over height in place of Medium::density, which stays the one that added
+  /// mass is computed with; null: the same everywhere. docs/theory.md eq. (180).
   std::shared_ptr<const DensityLayers> layers = nullptr;
   int priority = 0;  ///< in overlaps the highest priority wins; if equal, the region added last
 };

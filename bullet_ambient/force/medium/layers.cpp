@@ -29,17 +29,15 @@ double between(const DensityLevel& low, const DensityLevel& high, double height)
 struct AirLayer {
   double height, temperature, rate;
 };
-constexpr AirLayer kAir[] = {{0, 288.15, -0.0065},    {11000, 216.65, 0},
-                             {20000, 216.65, 0.001},  {32000, 228.65, 0.0028},
-                             {47000, 270.65, 0},      {51000, 270.65, -0.0028},
+constexpr AirLayer kAir[] = {{0, 288.15, -0.0065},    {11000, 216.65, 0}, {20000, 216.65, 0.001},
+                             {32000, 228.65, 0.0028}, {47000, 270.65, 0}, {51000, 270.65, -0.0028},
                              {71000, 214.65, -0.002}, {84852, 186.946, 0}};
 constexpr double kGasConstant = 8314.32 / 28.9644;  // R*/M_0 [J/(kg K)]
 constexpr double kGravity = 9.80665;                // [m/s^2]
 
 // Returns pressure at a height over that at the base of its layer [1].
 double pressureRatio(const AirLayer& base, double way) {
-  if (base.rate == 0)
-    return portable::exp(-kGravity * way / (kGasConstant * base.temperature));
+  if (base.rate == 0) return portable::exp(-kGravity * way / (kGasConstant * base.temperature));
   const double warmth = (base.temperature + base.rate * way) / base.temperature;
   return portable::pow(warmth, -kGravity / (kGasConstant * base.rate));
 }

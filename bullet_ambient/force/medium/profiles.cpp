@@ -31,17 +31,18 @@ FlowField operator+(FlowField a, FlowField b) {
 FlowField windProfile(const WindProfile& wind) {
   const FlowChecks check{"wind profile"};
   const Vector3 up = check.direction("up", wind.up);
-  const Vector3 velocity = check.finite("velocity [m/s]", wind.velocity) - wind.velocity.dot(up) * up;
+  const Vector3 velocity =
+      check.finite("velocity [m/s]", wind.velocity) - wind.velocity.dot(up) * up;
   check.require(wind.height > 0 && std::isfinite(wind.height), "height [m]", wind.height,
                 "positive and finite");
   check.require(wind.roughness >= 0 && wind.roughness < wind.height, "roughness [m]",
                 wind.roughness, "from 0 to below the height");
-  check.require(wind.exponent >= 0 && wind.exponent <= 1, "exponent", wind.exponent,
-                "from 0 to 1");
+  check.require(wind.exponent >= 0 && wind.exponent <= 1, "exponent", wind.exponent, "from 0 to 1");
   check.require(std::isfinite(wind.ground), "ground [m]", wind.ground, "finite");
   const double ground = wind.ground, roughness = wind.roughness, height = wind.height;
   if (roughness > 0)
-    return [=, over = velocity / portable::log(height / roughness)](const Vector3& point_W, double) {
+    return [=, over = Vector3(velocity / portable::log(height / roughness))](const Vector3& point_W,
+                                                                             double) {
       const double z = up.dot(point_W) - ground;
       if (!(z > roughness)) return FlowSample{};
       return shearedFlow(portable::log(z / roughness) * over, over / z, up);

@@ -1,6 +1,7 @@
 #include "bullet_ambient/force/surface/layered_buoyancy.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "bullet_ambient/force/surface/hydrostatics.h"
@@ -22,6 +23,12 @@ class ExcessSum {
   void addAll(double density) noexcept {
     excess_.mass += density * body_.shape.volume;
     excess_.moment += density * body_.shape.volume * body_.shape.centre_of_volume;
+  }
+  /// Adds the moment of a density that grows evenly along `up` [kg/m^4].
+  void addGrowth(double slope) noexcept {
+    const Matrix3& inertia = body_.shape.uniform_mass.inertia;
+    excess_.moment +=
+        slope * body_.shape.volume * (inertia.trace() / 2 * body_.up - inertia * body_.up);
   }
   void addBelow(double height, double density) noexcept {
     SurfacePlane plane;
@@ -50,6 +57,21 @@ std::pair<double, double> heightsOf(const LayeredBody& body) noexcept {
   return {centre - body.shape.sphere_radius, centre + body.shape.sphere_radius};
 }
 
+// Returns the slope of the density between two heights [kg/m^4]; none: it bends there.
+std::optional<double> slopeBetween(const DensityLayers& layers, double low, double high) noexcept {
+  const auto& levels = layers.levels();
+  if (high <= levels.front().height || low >= levels.back().height) return 0;
+  for (std::size_t i = 0; i + 1 < levels.size(); ++i)
+    if (low >= levels[i].height && high <= levels[i + 1].height && low < levels[i + 1].height)
+      return (levels[i + 1].density - levels[i].density) /
+             (levels[i + 1].height - levels[i].height);
+  return std::nullopt;
+}
+
+bool knowsSpread(const LayeredBody& body) noexcept {
+  return body.shape.uniform_mass.inertia.trace() > 0;
+}
+
 }  // namespace
 
 ExcessFluid findExcessFluid(const LayeredBody& body, const DensityLayers& layers,
@@ -58,6 +80,13 @@ ExcessFluid findExcessFluid(const LayeredBody& body, const DensityLayers& layers
   const double top = std::min(high, body.surface);
   ExcessSum sum(body);
   if (!(top > low)) return sum.result();
+  if (const auto slope = slopeBetween(layers, low, high);
+      slope && top == high && knowsSpread(body)) {
+    const double middle = body.origin_height + body.up.dot(body.shape.centre_of_volume);
+    sum.addAll(layers.density(middle) - reference);
+    sum.addGrowth(*slope);
+    return sum.result();
+  }
   if (top < high)
     sum.addBelow(top, layers.density(top) - reference);
   else
