@@ -385,9 +385,8 @@ Wrench pushBySpinUp(AmbientBody& ambient, const MotionView& now) {
 
 // Returns the layers around a body; null: there are none.
 const DensityLayers* layersAround(const AmbientBody& ambient, const FluidRegions& regions) {
-  const FluidBody& shape = *ambient.def->fluid_body;
   if (!regions.haveLayers() || ambient.place.is_above || ambient.in_hold >= 0) return nullptr;
-  if (!(shape.volume > 0) || (!ambient.hull && !(shape.sphere_radius > 0))) return nullptr;
+  if (!(ambient.def->fluid_body->volume > 0)) return nullptr;
   const auto entry = regions.all().find(ambient.place.region);
   return entry == regions.all().end() ? nullptr : entry->second.region.layers.get();
 }

@@ -288,11 +288,13 @@ void refreshModels(AmbientBody& ambient, const InverseMass& mass, const FluidReg
 }
 
 void takeStations(AmbientBody& ambient, const FluidRegions& regions) {
-  const bool has_stations = ambient.models->stations.reach > 0 && regions.mayDiffer();
-  if (has_stations && !ambient.flow_along) ambient.flow_along = std::make_unique<FlowAlongBody>();
   const std::shared_ptr<const FluidBody>& shape = ambient.def->fluid_body;
-  const bool needs_hull = regions.haveLayers() && shape->volume > 0 && !(shape->sphere_radius > 0);
-  ambient.hull = needs_hull ? LoadTables(shape).hull().get() : nullptr;
+  const bool has_stations = ambient.models->stations.reach > 0 && regions.mayDiffer();
+  const bool has_layers = shape->volume > 0 && regions.haveLayers();
+  if ((has_stations || has_layers) && !ambient.flow_along)
+    ambient.flow_along = std::make_unique<FlowAlongBody>();
+  ambient.hull =
+      has_layers && !(shape->sphere_radius > 0) ? LoadTables(shape).hull().get() : nullptr;
 }
 
 }  // namespace ambient

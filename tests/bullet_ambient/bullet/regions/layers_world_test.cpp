@@ -70,19 +70,19 @@ TEST(Layers, ANeutralFloatBobsWithTheBuoyancyFrequency) {
   }
 }
 
-// A sharp interface at the centre of a ball: half of each density.
+// A sharp interface at the centre of a ball: the mean of both densities.
 TEST(Layers, BuoyancyIsThatOfTheVolume) {
   FluidWorld scene;
   scene.world.setGravity({0, 0, bt(-kGravity)});
   FluidRegion tank = filledWith(idealFluid(kLayerDensity));
-  tank.layers = layers({{0, 1100}, {0, 900}});
+  tank.layers = layers({{0, 1100}, {0, 1000}});
   scene.fluid.addRegion(tank);
   const btRigidBody& body = addFloat(scene, {0, 0, 0});
   scene.of(body).readWrench(true);
-  scene.step(1.0 / 240);
+  scene.step(1e-4);
   const double weight = static_cast<double>(1 / body.getInvMass()) * kGravity;
-  EXPECT_NEAR(scene.of(body).wrench().buoyancy.force.z(), weight, byPrecision(1e-9, 1e-5) * weight);
-  EXPECT_NEAR(heightOf(body), 0, byPrecision(1e-9, 1e-6));
+  EXPECT_NEAR(scene.of(body).wrench().buoyancy.force.z(), 1.05 * weight,
+              byPrecision(1e-9, 1e-5) * weight);
 }
 
 // Drag goes with the density of the place.
@@ -90,7 +90,6 @@ TEST(Layers, LoadsGoWithTheDensity) {
   const auto dragAt = [](double height) {
     FluidWorld scene;
     FluidRegion tank = stratifiedTank();
-    tank.below.viscosity = 1e-3;
     scene.fluid.addRegion(tank);
     AttachDef attach;
     attach.fluid_body = longBox({1, 0.5, 0.5}, 4);
@@ -103,7 +102,7 @@ TEST(Layers, LoadsGoWithTheDensity) {
     scene.step(1e-4);
     return scene.of(body).wrench().pressure.force.x();
   };
-  EXPECT_NEAR(dragAt(5) / dragAt(0), 0.9, 1e-4);
+  EXPECT_NEAR(dragAt(5) / dragAt(0), 0.9, 1e-9);
 }
 
 // A box floats in two layers under a surface: its weight is the water that it displaces.
@@ -144,7 +143,7 @@ TEST(Turbulence, CarriesANeutralBallAsItsOwnParticle) {
   region.below.velocity = {0.2, 0, 0.1};
   double errors[2];
   for (int halving = 0; halving < 2; ++halving) {
-    const double step = 0.02 / (1 + halving);
+    const double step = 0.005 / (1 + halving);
     FluidWorld scene;
     scene.fluid.addRegion(region);
     btRigidBody& body = addFloat(scene, {0, 0, 0});
@@ -162,7 +161,7 @@ TEST(Turbulence, CarriesANeutralBallAsItsOwnParticle) {
     }
     errors[halving] = (toVector3(body.getWorldTransform().getOrigin()) - particle).norm();
   }
-  EXPECT_LT(errors[0], 0.01) << "of a way of 3 m";
+  EXPECT_LT(errors[0], 0.02) << "of a way of 3 m";
   EXPECT_NEAR(errors[1] / errors[0], 0.5, 0.1) << "first order: samples are of the step's start";
 }
 
