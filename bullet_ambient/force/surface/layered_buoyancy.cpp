@@ -78,11 +78,12 @@ ExcessFluid findExcessFluid(const LayeredBody& body, const DensityLayers& layers
                             double reference) noexcept {
   const auto [low, high] = heightsOf(body);
   const double top = std::min(high, body.surface);
+  const double middle = body.origin_height + body.up.dot(body.shape.centre_of_volume);
   ExcessSum sum(body);
+  if (!(high > low)) sum.addAll(layers.density(std::min(middle, body.surface)) - reference);
   if (!(top > low)) return sum.result();
   if (const auto slope = slopeBetween(layers, low, high);
       slope && top == high && knowsSpread(body)) {
-    const double middle = body.origin_height + body.up.dot(body.shape.centre_of_volume);
     sum.addAll(layers.density(middle) - reference);
     sum.addGrowth(*slope);
     return sum.result();

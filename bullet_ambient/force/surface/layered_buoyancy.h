@@ -28,9 +28,9 @@ struct ExcessFluid {
 /// of the fluid, docs/theory.md eq. (180). Exact where the density is linear over all of the body,
 /// by its second moments (FluidBody::uniform_mass, if that is known), and for spheres, and upright
 /// boxes and cylinders. Else the mass errs by less than 1e-3, and the moment over the body's length
-/// by less than 3e-3, of its volume times the difference of the densities that it meets. Cost: four
-/// of computeWetVolume() for each piece of the layers that the body reaches into. Allocates
-/// nothing.
+/// by less than 3e-3, of its volume times the difference of the densities that it meets. A body
+/// without triangles has the density at its centre. Cost: four of computeWetVolume() for each piece
+/// of the layers that the body reaches into. Allocates nothing.
 ExcessFluid findExcessFluid(const LayeredBody& body, const DensityLayers& layers,
                             double reference) noexcept;
 
