@@ -100,8 +100,8 @@ void bindSettings(py::module_& module) {
   module.def("_check_flow", [](const py::object& settings) { flowFrom(settings); });
   module.def("_standard_atmosphere",
              [](double height) { return toPython(standardAtmosphere(height)); });
-  module.def("_flow_velocity", &velocitiesOf, py::arg("flow"), py::arg("points"),
-             py::arg("time"), py::arg("up"));
+  module.def("_flow_velocity", &velocitiesOf, py::arg("flow"), py::arg("points"), py::arg("time"),
+             py::arg("up"));
   module.def(
       "air", [] { return toPython(air()); }, "Returns air at 20 C and sea level.");
   module.def(

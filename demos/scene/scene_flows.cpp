@@ -98,7 +98,8 @@ FlowField toFlow(const json& from, const Vector3& up) {
   return sum;
 }
 
-void readFlows(const json& from, const Vector3& up, FluidRegion& region) {
+void readFlows(const json& from, const Vector3& upward, FluidRegion& region) {
+  const Vector3 up = upward.isZero(0) ? Vector3(0, 0, 1) : upward;
   if (from.contains("flow")) region.flow = toFlow(from.at("flow"), up);
   if (from.contains("flow_above")) region.flow_above = toFlow(from.at("flow_above"), up);
   if (from.contains("layers")) region.layers = toLayers(from.at("layers"), up);

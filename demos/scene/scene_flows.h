@@ -12,8 +12,8 @@ namespace ambient {
 FlowField toFlow(const nlohmann::json& from, const Vector3& up);
 
 /// Gives a region what the keys "flow", "flow_above" and "layers" of a water or region say,
-/// likewise.
+/// likewise; `upward` may be 0 in a world without gravity, and is then z.
 /// @throws std::invalid_argument as toFlow(), or naming level, value and limit.
-void readFlows(const nlohmann::json& from, const Vector3& up, FluidRegion& region);
+void readFlows(const nlohmann::json& from, const Vector3& upward, FluidRegion& region);
 
 }  // namespace ambient

@@ -13,7 +13,7 @@ import bullet_ambient as ba
 LENGTH, MEAN, HEIGHT = 40, 9.0, 0.4  # of the turbulence [m], wind at 10 m [m/s], height of the picture over the sea [m]
 WIND = [ba.wind_profile([MEAN, 0, 0], roughness=0.0002),
         ba.turbulence(length=LENGTH, intensity=2, smallest=LENGTH / 40, carried=[MEAN, 0, 0], seed=3)]
-TIMES, SIDE, STEP = (10, 60), 120, 1 / 60  # [s], [m], [s]
+TIMES, SIDE, STEP = (40, 160), 120, 1 / 60  # [s], [m], [s]
 
 
 def scene():
@@ -32,7 +32,7 @@ def draw(file):
     import matplotlib.pyplot as plt
 
     motion = ba.World(scene()).run(TIMES[-1], 1)
-    axis = np.linspace(0, SIDE, 161)
+    axis = np.linspace(0, SIDE, 121)
     x, y = np.meshgrid(axis, axis)
     points = np.stack([x.ravel(), y.ravel(), np.full(x.size, HEIGHT)], axis=1)
     figure, panels = plt.subplots(1, 2, figsize=(10, 4.7), sharey=True, layout="constrained")
@@ -52,7 +52,7 @@ def draw(file):
         panel.set(title=f"{time} s", xlabel="x [m]", aspect="equal", xlim=(0, SIDE), ylim=(0, SIDE))
     panels[0].set_ylabel("y [m]")
     figure.colorbar(colours, ax=panels, label=f"wind {HEIGHT} m over the sea [m/s]", shrink=0.9)
-    figure.savefig(file, dpi=90)
+    figure.savefig(file, dpi=75)
 
 
 if __name__ == "__main__":
