@@ -41,8 +41,8 @@ struct Turbulence {
 };
 
 /// Makes a field of 64 waves without divergence: the turbulence alone, without the mean velocity
-/// that carries it along. Any step and any start give the same field. Cost: 16 sines and cosines, and some
-/// thirty instructions for each wave.
+/// that carries it along. Any step and any start give the same field. Cost: 16 sines and cosines,
+/// and some thirty instructions for each wave.
 /// @throws std::invalid_argument, naming value and limit, if a number is not physical.
 FlowField turbulence(const Turbulence& turbulence);
 

@@ -6,11 +6,11 @@
 
 #include "bullet_ambient/base/plain_text.h"
 #include "bullet_ambient/force/medium/waves.h"
+#include "bullet_ambient/wind.h"
 #include "demos/integrators/integrators.h"
 #include "demos/scene/scene_water.h"
 #include "tests/demos/scene/scene_text.h"
 #include "tests/support/refusal_of.h"
-#include "bullet_ambient/wind.h"
 #include "tests/support/refusals.h"
 
 namespace ambient {
