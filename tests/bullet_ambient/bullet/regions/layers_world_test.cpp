@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "bullet_ambient/base/pi.h"
@@ -10,6 +12,7 @@
 #include "tests/bullet_ambient/bullet/regions/region_world.h"
 #include "tests/bullet_ambient/bullet/state/state_scene.h"
 #include "tests/support/bodies/part_bodies.h"
+#include "tests/support/threads.h"
 
 // Worlds in layers of density, wind profiles, gusts and turbulence: docs/theory.md section 23.
 namespace ambient::test {
@@ -202,6 +205,46 @@ TEST(Gusts, GoOnWithTheSameBitsAfterARestore) {
   };
   expectGoesOn(runOf(scene), runOf(scene), 30);
   expectGoesOn(runOf(scene), runOf(other), 30);
+}
+
+TEST(Gusts, HaveTheSameBitsOnAnyNumberOfThreads) {
+  WindyWorld alone, together;
+  together.fluid.setTaskRunner(onThreads(3));
+  alone.step(kSceneStep, 60);
+  together.step(kSceneStep, 60);
+  for (std::size_t i = 0; i < alone.bodies.size(); ++i)
+    EXPECT_TRUE(moveAlike(*alone.bodies[i], *together.bodies[i])) << i;
+}
+
+// A link of a multibody in layers is lifted as a rigid body is.
+TEST(Layers, LiftLinksAsBodies) {
+  const auto rise = [](bool is_link) {
+    RobotWorld scene;
+    scene.world.setGravity({0, 0, bt(-kGravity)});
+    FluidRegion tank = filledWith(idealFluid(kLayerDensity));
+    tank.layers = layers({{-1, 1200}, {1, 1200}});
+    scene.fluid.addRegion(tank);
+    AttachDef attach;
+    attach.fluid_body = longBox(kBoxSize, 2);
+    const double mass = 210;  // sinks in the medium, rises in the layers
+    const btVector3 moments = toBullet(boxMoments(kBoxSize, mass));
+    btEmptyShape no_shape;
+    if (!is_link) {
+      btRigidBody& body = scene.contents.add(mass, moments, no_shape, btTransform::getIdentity());
+      body.setGravity({0, 0, bt(-kGravity)});
+      scene.fluid.add(body, attach);
+      scene.step(1.0 / 60, 10);
+      return heightOf(body);
+    }
+    auto robot = std::make_unique<btMultiBody>(0, bt(mass), moments, false, false);
+    robot->finalizeMultiDof();
+    btMultiBody& tree = scene.takeUndamped(std::move(robot));
+    scene.fluid.add(tree, -1, attach);
+    scene.step(1.0 / 60, 10);
+    return static_cast<double>(tree.getBasePos().z());
+  };
+  EXPECT_GT(rise(false), 0.003);
+  EXPECT_NEAR(rise(true), rise(false), 1e-3 * rise(false));
 }
 
 // A boat with its centre of mass below the water drifts with the wind on its dry part; the water
