@@ -28,7 +28,8 @@ Wrench pushByFlow(const AmbientBody& ambient, const Quaternion& q) noexcept {
   const FlowAlongBody& flow = *ambient.flow_along;
   const double mass = 1 / ambient.models->inverse_mass.mass;
   const Wrench push_B = flow.at_rest_B + flow.push_B;
-  return Wrench{q * push_B.torque, q * push_B.force + mass * flow.lean_W} + flow.wrenchAtSides();
+  return Wrench{q * push_B.torque, q * push_B.force + mass * flow.lean_W} + flow.wrenchAtSides() +
+         flow.layers_W;
 }
 
 void addFlowAlong(const AmbientBody& ambient, const Quaternion& orientation,

@@ -188,6 +188,8 @@ struct AmbientBody {
                                ///< load on the body depends on it
   /// In this step; null: no region makes the fluid differ along the body.
   std::unique_ptr<FlowAlongBody> flow_along;
+  /// Hull for layers, of the tables of the fluid body; null: a sphere, or no region has layers.
+  const PackedHull* hull = nullptr;
   std::unique_ptr<VesselState> vessel;   ///< null: the body has no holds
   btMultiBody* multi_body = nullptr;     ///< that of a link; null: a rigid body
   std::shared_ptr<AmbientBody*> handle;  ///< where it is kept, for its Immersed: ends with it

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "bullet_ambient/fluid_body/fluid_body.h"
+#include "bullet_ambient/force/surface/layered_buoyancy.h"
 #include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/immersed/fluid_regions.h"
+#include "bullet_ambient/spatial/rotation.h"
 
 namespace ambient {
 
@@ -168,7 +172,7 @@ constexpr double kSmallAgainstWave = 0.3;
 
 // True if the velocity along a body may change by jumps or in any other way, not by waves alone.
 bool mayDiffer(const RegionsAround& around) {
-  return !around.is_alone || (around.entry && around.entry->region.flow);
+  return !around.is_alone || (around.entry && hasFlow(around.entry->region));
 }
 
 bool isTaken(const RegionsAround& around, double length) {
@@ -201,6 +205,14 @@ bool needsStations(const AmbientBody& ambient, const RegionsAround& around) noex
   return isTaken(around, ambient.models->stations.lengths.maxCoeff());
 }
 
+double halfHeight(const AmbientBody& ambient, const MotionView& now,
+                  const FluidRegion& region) noexcept {
+  if (!region.flow_above || !region.surface) return 0;
+  const BodyStations& of_body = ambient.models->stations;
+  const Vector3 up_B = now.state.orientation.conjugate() * region.surface->up();
+  return (of_body.ways_B.transpose() * up_B).cwiseAbs().sum() / std::sqrt(0.6);
+}
+
 StationSamples::StationSamples(const AmbientBody& ambient, const MotionView& now,
                                const FluidRegions& regions, const RegionsAround& around,
                                const RegionSample& centre) noexcept
@@ -208,6 +220,7 @@ StationSamples::StationSamples(const AmbientBody& ambient, const MotionView& now
       to_world_(now.rotation()),
       centre_(centre),
       still_axis_B_(ambient.models->stations.still_axis_B),
+      half_height_(around.entry ? halfHeight(ambient, now, around.entry->region) : 0),
       surface_(bendingSurface(around.entry)),
       may_turn_(mayDiffer(around)) {
   const BodyStations& of_body = ambient.models->stations;
@@ -230,7 +243,8 @@ void StationSamples::take(const AmbientBody& ambient, const FluidRegions& region
     return;
   }
   RegionCall call(regions);
-  station.sample = sampleRegion(entry->region, point_W, regions.time, ambient.def->medium);
+  station.sample =
+      sampleRegion(entry->region, point_W, regions.time, ambient.def->medium, half_height_);
   is_steady_ = is_steady_ && ambient::isSteady(entry->region);
   if (station.sample.is_finite) {
     station.has_surface = surface_ && entry->region.surface.get() == surface_;
@@ -369,10 +383,50 @@ Wrench pushBySpinUp(AmbientBody& ambient, const MotionView& now) {
   return push;
 }
 
+// Returns the layers around a body; null: there are none.
+const DensityLayers* layersAround(const AmbientBody& ambient, const FluidRegions& regions) {
+  if (!regions.haveLayers() || ambient.place.is_above || ambient.in_hold >= 0) return nullptr;
+  if (!(ambient.def->fluid_body->volume > 0)) return nullptr;
+  const auto entry = regions.all().find(ambient.place.region);
+  return entry == regions.all().end() ? nullptr : entry->second.region.layers.get();
+}
+
+// Returns the height along `up` of the surface at a body; infinite: it is all below.
+double surfaceAt(const AmbientBody& ambient, const Vector3& up, const Vector3& centre) {
+  if (!ambient.surface()) return std::numeric_limits<double>::infinity();
+  const SurfacePlane& plane = ambient.floating->plane_W;
+  return up.dot(centre) + plane.depth(centre) / plane.normal.dot(up);
+}
+
+// Finds what buoyancy in layers adds to that in a fluid of constant density, in the middle of the
+// way that the velocity leads the body in the step, and multiplies AmbientBody::load_share by the
+// density there over that of the medium; eq. (180).
+void findLayerPush(AmbientBody& ambient, const MotionView& now, const DensityLayers& layers,
+                   double duration) {
+  const FrameOffset& frame = ambient.def->fluid_frame;
+  const double reference = ambient.medium.density, half = duration / 2;
+  const Vector3 turn = half * now.twist_W.angular, &up = layers.up();
+  const Matrix3 R = (rotationFromVector(turn) * now.state.orientation).toRotationMatrix();
+  const Vector3 centre = now.centre() + half * now.twist_W.linear;
+  const double surface = surfaceAt(ambient, up, centre);
+  const LayeredBody body{*ambient.def->fluid_body, ambient.hull,
+                         frame.rotation.transpose() * (R.transpose() * up),
+                         up.dot(centre + R * frame.translation), surface};
+  const ExcessFluid excess = findExcessFluid(body, layers, reference);
+  const Vector3 moment_W = R * (frame.rotation * excess.moment + excess.mass * frame.translation);
+  const Vector3 lift = ambient.medium.acceleration - now.gravity;
+  ambient.flow_along->layers_W = {moment_W.cross(lift), excess.mass * lift};
+  const double height = up.dot(centre + R * ambient.model().centre_of_volume);
+  ambient.load_share *= layers.density(std::min(height, surface)) / reference;
+}
+
 }  // namespace
 
-void findPushes(AmbientBody& ambient, const MotionView& now, double duration) noexcept {
+void findPushes(AmbientBody& ambient, const MotionView& now, const FluidRegions& regions,
+                double duration) noexcept {
   if (!ambient.flow_along) return;
+  if (const DensityLayers* layers = layersAround(ambient, regions))
+    findLayerPush(ambient, now, *layers, duration);
   FlowAlongBody& flow = *ambient.flow_along;
   if (flow.sides_F.count > 0) findSidePush(ambient, now, duration);
   if (!flow.spin_up_B.isZero(0)) flow.push_B = pushBySpinUp(ambient, now);

@@ -39,6 +39,10 @@ bool isLargeAgainstWaves(const FluidRegion& region, double length) noexcept;
 /// flow, or it is not small against the waves; docs/theory.md eq. (83). Cost: some comparisons.
 bool needsStations(const AmbientBody& ambient, const RegionsAround& around) noexcept;
 
+/// Returns half the height of a body for sampleRegion() [m]; 0 where the region has no flow above.
+double halfHeight(const AmbientBody& ambient, const MotionView& now,
+                  const FluidRegion& region) noexcept;
+
 /// Samples of the regions at the stations of a body, as differences from that at its centre of
 /// mass. Stations in a fluid of another density or viscosity count as the centre.
 class StationSamples {
@@ -95,6 +99,7 @@ class StationSamples {
   const Matrix3 to_world_;
   RegionSample centre_;
   const Vector3 still_axis_B_;
+  const double half_height_;     // for sampleRegion() [m]
   const WaterSurface* surface_;  // that of the centre, if it is no plane
   bool may_turn_ = false;        // its velocity may differ by more than that of a wave
   bool is_finite_ = true, is_steady_ = true;
@@ -102,8 +107,9 @@ class StationSamples {
 };
 
 /// Finds what the flow along a body adds to its applied wrench in a step of `duration` [s]:
-/// FlowAlongBody::push_B, at_rest_B, side_push_W, growth_W. Allocates nothing. Cost: nothing where
-/// the fluid moves as one.
-void findPushes(AmbientBody& ambient, const MotionView& now, double duration) noexcept;
+/// FlowAlongBody::push_B, at_rest_B, side_push_W, growth_W, layers_W. Allocates nothing. Cost:
+/// nothing where the fluid moves as one.
+void findPushes(AmbientBody& ambient, const MotionView& now, const FluidRegions& regions,
+                double duration) noexcept;
 
 }  // namespace ambient

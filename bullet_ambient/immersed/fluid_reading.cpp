@@ -148,7 +148,7 @@ class MiddleWrenches {
                                to_world_.transpose() * (s.gravity - s.ambient_acceleration));
     if (!s.flow) return;
     found_.buoyancy.force += model.mass * (to_world_.transpose() * s.flow->lean_W);
-    found_.buoyancy += turned(to_world_.transpose(), s.flow->side_push_W);
+    found_.buoyancy += turned(to_world_.transpose(), s.flow->side_push_W + s.flow->layers_W);
   }
 
   // `all`: less the load at rest in the mean flow.

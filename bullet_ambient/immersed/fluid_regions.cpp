@@ -269,8 +269,9 @@ void FluidRegions::insert(Entry& entry) {
   for (const SurfaceKind& kind : surfacesOf(entry.region)) ++surfaces_[kind];
   index_.add(entry);
   const FluidRegion& region = entry.region;
-  may_differ_ = may_differ_ || region.bounds || region.flow ||
+  may_differ_ = may_differ_ || region.bounds || hasFlow(region) || region.layers ||
                 (region.surface && region.surface->waveNumber() > 0);
+  have_layers_ = have_layers_ || region.layers;
   has_changed = true;
 }
 

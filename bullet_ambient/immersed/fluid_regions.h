@@ -117,7 +117,7 @@ struct SurfaceKind {
   bool may_blow;                   ///< true: the region's fluid above may move
 
   explicit SurfaceKind(const FluidRegion& region)
-      : below(region.below), may_blow(region.flow || (region.above && mayBlow(*region.above))) {
+      : below(region.below), may_blow(hasFlow(region) || (region.above && mayBlow(*region.above))) {
     if (region.above) above.emplace(*region.above);
   }
   /// Returns the fluid above for a body whose own medium is `own`.
@@ -180,9 +180,11 @@ class FluidRegions {
   /// Removes a region. Returns false if there is none of that number.
   bool remove(RegionId id);
 
-  /// True if a region has had bounds, a flow or waves, which may make the fluid differ along a
-  /// body.
+  /// True if a region has had bounds, a flow, layers or waves, which may make the fluid differ
+  /// along a body.
   bool mayDiffer() const noexcept { return may_differ_; }
+  /// True if a region has had layers.
+  bool haveLayers() const noexcept { return have_layers_; }
 
   std::vector<HoldAround> in_holds;  ///< of the bodies in holds, by AmbientBody::in_hold
   double time = 0;                   ///< sum of all steps of the world so far [s]
@@ -198,7 +200,7 @@ class FluidRegions {
   std::map<FluidKind, int> media_;
   std::map<SurfaceKind, int> surfaces_;
   int next_ = 0;
-  bool may_differ_ = false;
+  bool may_differ_ = false, have_layers_ = false;
 };
 
 /// @throws std::invalid_argument as checkRegion(), beginning with the region's number.

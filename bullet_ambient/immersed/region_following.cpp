@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/fluid_body/fluid_body.h"
+#include "bullet_ambient/force/loads/load_tables.h"
 #include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/immersed/flow_along.h"
 #include "bullet_ambient/immersed/fluid_regions.h"
@@ -43,8 +45,9 @@ RegionSample sampleFor(AmbientBody& ambient, const MotionView& now,
                        const FluidRegions::Entry& entry, const FluidRegions& regions,
                        Complaints& complaints) noexcept {
   RegionCall call(regions);
-  const RegionSample sample = sampleRegion(entry.region, pointIn(entry.region, now.centre()),
-                                           regions.time, ambient.def->medium);
+  const RegionSample sample =
+      sampleRegion(entry.region, pointIn(entry.region, now.centre()), regions.time,
+                   ambient.def->medium, halfHeight(ambient, now, entry.region));
   if (sample.is_finite) return sample;
   ++ambient.counters.rejected;
   if (!call.was_refused) sayNotFinite(entry.id, complaints);  // or it was said what it did
@@ -305,8 +308,13 @@ void refreshModels(AmbientBody& ambient, const InverseMass& mass, const FluidReg
 }
 
 void takeStations(AmbientBody& ambient, const FluidRegions& regions) {
+  const std::shared_ptr<const FluidBody>& shape = ambient.def->fluid_body;
   const bool has_stations = ambient.models->stations.reach > 0 && regions.mayDiffer();
-  if (has_stations && !ambient.flow_along) ambient.flow_along = std::make_unique<FlowAlongBody>();
+  const bool has_layers = shape->volume > 0 && regions.haveLayers();
+  if ((has_stations || has_layers) && !ambient.flow_along)
+    ambient.flow_along = std::make_unique<FlowAlongBody>();
+  ambient.hull =
+      has_layers && !(shape->sphere_radius > 0) ? LoadTables(shape).hull().get() : nullptr;
 }
 
 }  // namespace ambient

@@ -3,6 +3,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "demos/scene/scene_flows.h"
 #include "demos/scene/scene_parts.h"
 #include "demos/scene/scene_water.h"
 #include "preprocess/shape/json_schema.h"
@@ -36,6 +37,7 @@ FluidRegion readRegion(const Command& command) {
   region.below = toMedium(command.values, is_air ? air() : water());
   if (is_air) region.below.velocity = vectorOr(command.values, "wind", Vector3::Zero());
   region.bounds = toBounds(command.values);
+  readFlows(command.values, CalmSea().up, region);
   return region;
 }
 

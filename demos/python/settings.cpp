@@ -1,12 +1,18 @@
 #include <pybind11/stl.h>
 
 #include <array>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 
 #include "bullet_ambient/base/plain_text.h"
+#include "bullet_ambient/wind.h"
+#include "demos/python/arrays.h"
 #include "demos/python/bindings.h"
+#include "demos/scene/scene_flows.h"
+#include "demos/scene/scene_parts.h"
+#include "preprocess/shape/json_schema.h"
 
 namespace ambient {
 namespace {
@@ -67,9 +73,35 @@ py::object toPython(const Medium& medium) {
                                  py::arg("acceleration") = tuple(medium.acceleration));
 }
 
+namespace {
+
+// Velocities of a flow of a scene at points (N, 3) and a time.
+py::array velocitiesOf(const std::string& flow, const InputArray& points, double time,
+                       const InputArray& up) {
+  nlohmann::json schema{{"$ref", "#/definitions/flow"}};
+  schema["definitions"] = sceneSchema().document().at("definitions");
+  const nlohmann::json from = parseJson(flow, "flow");
+  JsonSchema(schema, "flow").check(from, "flow");
+  if (points.ndim() != 2 || points.shape(1) != 3)
+    throw py::value_error("points must be an array (N, 3)");
+  const FlowField field = toFlow(from, vectorFrom(up, "up"));
+  py::array_t<double> velocities({points.shape(0), points.shape(1)});
+  const double* at = points.data();
+  double* to = velocities.mutable_data();
+  for (py::ssize_t i = 0; field && i < points.shape(0); ++i)
+    Eigen::Map<Vector3>(to + 3 * i) = field(Eigen::Map<const Vector3>(at + 3 * i), time).velocity;
+  return velocities;
+}
+
+}  // namespace
+
 void bindSettings(py::module_& module) {
   module.def("_check_medium", [](const py::object& settings) { mediumFrom(settings); });
   module.def("_check_flow", [](const py::object& settings) { flowFrom(settings); });
+  module.def("_standard_atmosphere",
+             [](double height) { return toPython(standardAtmosphere(height)); });
+  module.def("_flow_velocity", &velocitiesOf, py::arg("flow"), py::arg("points"), py::arg("time"),
+             py::arg("up"));
   module.def(
       "air", [] { return toPython(air()); }, "Returns air at 20 C and sea level.");
   module.def(

@@ -150,6 +150,7 @@ struct WaterDef {
   std::vector<WaveComponent> waves;  ///< empty: still water
   Medium medium = water();
   std::optional<RegionBounds> bounds;  ///< bounds of a pool; none: a sea
+  FluidRegion flows;  ///< flow, flow_above and layers of the water's region; the rest is not read
 };
 
 /// One scene, checked. SI units; W is the world frame.
@@ -164,7 +165,7 @@ struct Scene {
   Vector3 gravity{0, 0, -9.81};  ///< [m/s^2]
   Medium medium = air();
   std::optional<WaterDef> water;
-  std::vector<FluidRegion> regions;  ///< regions without surface, filled with one medium each
+  std::vector<FluidRegion> regions;  ///< regions without surface
   FluidModel model = FluidModel::kAmbient;
   PressureLaw law = PressureLaw::kForm;  ///< law of bodies that name none
   double linear_drag_speed = 1;          ///< speed c of linearDrag(), for kUwrbd [m/s]

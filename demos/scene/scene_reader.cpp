@@ -220,6 +220,21 @@ JointDef toJoint(const json& from) {
   return joint;
 }
 
+// Reads water and regions.
+void readFluids(const json& from, Scene& scene) {
+  std::string place = "water";
+  try {
+    if (from.contains("water")) scene.water = toWater(from.at("water"), scene.gravity);
+    if (!from.contains("regions")) return;
+    for (const json& region : from.at("regions")) {
+      place = "regions[" + std::to_string(scene.regions.size()) + "]";
+      scene.regions.push_back(toRegion(region, scene.gravity));
+    }
+  } catch (const std::invalid_argument& error) {
+    raiseInputError(scene.file.string(), place, ": ", error.what());
+  }
+}
+
 Scene toScene(const json& from, const std::filesystem::path& file) {
   Scene scene;
   scene.name = file.stem().string();
@@ -231,9 +246,7 @@ Scene toScene(const json& from, const std::filesystem::path& file) {
   scene.output_step = from.value("output_step", scene.time_step);
   scene.gravity = vectorOr(from, "gravity", scene.gravity);
   if (from.contains("medium")) scene.medium = toMedium(from.at("medium"), Medium{});
-  if (from.contains("water")) scene.water = toWater(from.at("water"), scene.gravity);
-  if (from.contains("regions"))
-    for (const json& region : from.at("regions")) scene.regions.push_back(toRegion(region));
+  readFluids(from, scene);
   scene.model = valueOf(kFluidModelNames, from.value("model", "ambient")).value();
   scene.linear_drag_speed = from.value("linear_drag_speed", scene.linear_drag_speed);
   scene.flight = toFlightSettings(from);

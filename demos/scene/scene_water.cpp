@@ -7,6 +7,7 @@
 #include <string>
 
 #include "bullet_ambient/force/medium/waves.h"
+#include "demos/scene/scene_flows.h"
 #include "demos/scene/scene_parts.h"
 
 namespace ambient {
@@ -86,14 +87,16 @@ WaterDef toWater(const json& from, const Vector3& gravity) {
   def.sea.current = vectorOr(from, "current", def.sea.current);
   def.waves = toWaves(from);
   def.bounds = toBounds(from);
+  readFlows(from, vectorOr(from, "up", -gravity), def.flows);
   return def;
 }
 
-FluidRegion toRegion(const json& from) {
+FluidRegion toRegion(const json& from, const Vector3& gravity) {
   FluidRegion region;
   region.bounds = toBounds(from);
   region.below = toMedium(from.at("medium"), Medium{});
   region.priority = from.value("priority", 0);
+  readFlows(from, -gravity, region);
   return region;
 }
 
@@ -105,7 +108,7 @@ std::optional<RegionBounds> toBounds(const json& parent) {
 }
 
 FluidRegion makeWaterRegion(const WaterDef& water, const std::optional<Medium>& above) {
-  FluidRegion region;
+  FluidRegion region = water.flows;
   region.bounds = water.bounds;
   region.below = water.medium;
   region.above = above;

@@ -13,9 +13,11 @@ namespace ambient {
 /// Reads a medium; missing keys are taken from `absent`.
 Medium toMedium(const nlohmann::json& from, const Medium& absent);
 
+/// Reads a water. @throws std::invalid_argument as readFlows().
 WaterDef toWater(const nlohmann::json& from, const Vector3& gravity);
 
-FluidRegion toRegion(const nlohmann::json& from);
+/// Reads a region. @throws std::invalid_argument as readFlows().
+FluidRegion toRegion(const nlohmann::json& from, const Vector3& gravity);
 
 /// Reads the key "bounds"; none if it is missing.
 std::optional<RegionBounds> toBounds(const nlohmann::json& parent);

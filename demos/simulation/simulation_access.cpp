@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "bullet_ambient/bullet/core/conversions.h"
+#include "bullet_ambient/force/medium/profiles.h"
 #include "demos/scene/scene_water.h"
 #include "demos/simulation/simulation.h"
 #include "preprocess/mesh/input_error.h"
@@ -20,14 +21,6 @@ bool isSameFluid(const Medium& a, const Medium& b) {
   return a.density == b.density && a.viscosity == b.viscosity;
 }
 
-FlowField sumOf(const FlowField& a, const FlowField& b) {
-  if (!a) return b;
-  return [a, b](const Vector3& point, double time) {
-    const FlowSample x = a(point, time), y = b(point, time);
-    return FlowSample{x.velocity + y.velocity, x.acceleration + y.acceleration};
-  };
-}
-
 void scale(btScalar& mass, btVector3& inertia, double by_mass, double by_moments) {
   mass *= static_cast<btScalar>(by_mass);
   inertia *= static_cast<btScalar>(by_moments);
@@ -38,7 +31,7 @@ void scale(btScalar& mass, btVector3& inertia, double by_mass, double by_moments
 void Simulation::fillWithFluids(const Scene& scene, const FlowField& flow) {
   fluids_ = makeRegions(scene);
   if (flow) {
-    for (FluidRegion& region : fluids_) region.flow = sumOf(region.flow, flow);
+    for (FluidRegion& region : fluids_) region.flow = region.flow + flow;
     for (const BodyDef& body : scene.bodies)
       if (body.mass > 0 && !isSameFluid(body.attach.medium, scene.medium))
         raiseInputError(file_, "body \"", body.name,

@@ -1,15 +1,10 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 
+#include "bullet_ambient/base/philox.h"
+
 namespace ambient {
-
-using RandomBlock = std::array<std::uint64_t, 4>;
-
-/// Philox4x64-10 (Salmon, Moraes, Dror and Shaw, 2011): four random numbers as a function of a
-/// counter and a key.
-RandomBlock philox(const RandomBlock& counter, const std::array<std::uint64_t, 2>& key) noexcept;
 
 /// Uses of random numbers, which do not meet.
 enum class RandomStream : std::uint64_t { kVariations, kBiases, kNoise, kGust };

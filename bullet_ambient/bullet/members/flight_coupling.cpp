@@ -92,7 +92,7 @@ bool prepareFluid(AmbientBody& ambient, const MotionView* now, const Twist& twis
     exchangeWater(ambient, *now, time_step);
     saySunk(ambient, bodies.complaints);
   }
-  if (may_be_in_region) findPushes(ambient, *now, time_step);
+  if (may_be_in_region) findPushes(ambient, *now, bodies.regions, time_step);
   return true;
 }
 

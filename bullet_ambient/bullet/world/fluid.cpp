@@ -33,8 +33,9 @@ void knowFluids(AmbientBodies& bodies, const FluidRegion& region, bool is_coming
   bodies.forEach([&](AmbientBody& ambient) { setModels(ambient, std::move(made[next++])); });
 }
 
-// Makes room for what differs of the fluid along each body.
-void takeAllStations(AmbientBodies& bodies) {
+// Makes room for what differs of the fluid along each body, after a change of regions.
+void takeAllStations(AmbientBodies& bodies, bool knew, bool knew_layers) {
+  if (bodies.regions.mayDiffer() == knew && bodies.regions.haveLayers() == knew_layers) return;
   bodies.forEach([&](AmbientBody& ambient) { takeStations(ambient, bodies.regions); });
 }
 
@@ -122,9 +123,9 @@ RegionId Fluid::addRegion(FluidRegion region) {
   FluidRegions& regions = members_->regions;
   checkRegion(regions.next(), region);
   knowFluids(*members_, region, true);
-  const bool knew = regions.mayDiffer();
+  const bool knew = regions.mayDiffer(), knew_layers = regions.haveLayers();
   const RegionId id = regions.add(std::move(region));
-  if (!knew) takeAllStations(*members_);
+  takeAllStations(*members_, knew, knew_layers);
   return id;
 }
 
@@ -134,9 +135,9 @@ void Fluid::setRegion(RegionId id, FluidRegion region) {
   checkRegion(id, region);
   const FluidRegion before = regions.require(id);
   knowFluids(*members_, region, true);
-  const bool knew = regions.mayDiffer();
+  const bool knew = regions.mayDiffer(), knew_layers = regions.haveLayers();
   regions.set(id, std::move(region));
-  if (!knew) takeAllStations(*members_);
+  takeAllStations(*members_, knew, knew_layers);
   knowFluids(*members_, before, false);
 }
 

@@ -27,10 +27,13 @@ void checkRegionMedium(const Medium& medium, const std::string& which) {
 // Bits of BareVelocity::parts.
 constexpr unsigned kMedium = 1, kWaves = 2, kFlow = 4;
 
+// What is there already carries the flow along, docs/theory.md eq. (172).
 void add(unsigned part, const FlowSample& flow, Medium& medium, BareVelocity& bare) {
+  Vector3 acceleration = flow.acceleration;
+  if (!flow.gradient.isZero(0)) acceleration += flow.gradient * medium.velocity;
   medium.velocity += flow.velocity;
-  medium.acceleration += flow.acceleration;
-  bare.add(part, flow.velocity, flow.acceleration);
+  medium.acceleration += acceleration;
+  bare.add(part, flow.velocity, acceleration);
 }
 
 // An exception of the function counts as a sample that is not finite.
@@ -44,6 +47,27 @@ FlowSample sampleFlow(const FlowField& flow, const Vector3& point_W, double time
 
 bool isFinite(const Medium& medium) {
   return medium.velocity.allFinite() && medium.acceleration.allFinite();
+}
+
+// Returns how far the middle of the dry height of a body is above the point of a sample [m].
+double riseToDryMiddle(const RegionSample& sample, double half_height) {
+  return std::abs(sample.height) < half_height ? (half_height + sample.height) / 2 : 0;
+}
+
+void addFlow(const FluidRegion& region, const Vector3& point_W, double time, double half_height,
+             RegionSample& sample) noexcept {
+  FlowSample above;
+  if (region.flow) {
+    const FlowSample flow = sampleFlow(region.flow, point_W, time);
+    add(kFlow, flow, sample.below, sample.bare_below);
+    if (!region.flow_above) add(kFlow, flow, sample.above, sample.bare_above);
+    above = flow;
+  }
+  if (!region.flow_above || !region.surface) return;
+  const Vector3 up = region.surface->up();
+  const Vector3 raised = point_W + riseToDryMiddle(sample, half_height) * up;
+  add(kFlow, sumOf(above, sampleFlow(region.flow_above, raised, time)), sample.above,
+      sample.bare_above);
 }
 
 }  // namespace
@@ -77,8 +101,15 @@ BareVelocity bareVelocityOf(const Medium& medium) noexcept {
   return bare;
 }
 
+FlowSample sumOf(const FlowSample& a, const FlowSample& b) noexcept {
+  FlowSample sum{a.velocity + b.velocity, a.acceleration + b.acceleration, a.gradient + b.gradient};
+  if (!a.gradient.isZero(0)) sum.acceleration += a.gradient * b.velocity;
+  if (!b.gradient.isZero(0)) sum.acceleration += b.gradient * a.velocity;
+  return sum;
+}
+
 RegionSample sampleRegion(const FluidRegion& region, const Vector3& point_W, double time,
-                          const Medium& own) noexcept {
+                          const Medium& own, double half_height) noexcept {
   AMBIENT_ASSERT(isFinite(region.below));
   const Medium above = region.above.value_or(unnamedAbove(region.below.density, own));
   RegionSample sample{region.below, above, std::numeric_limits<double>::infinity()};
@@ -91,11 +122,7 @@ RegionSample sampleRegion(const FluidRegion& region, const Vector3& point_W, dou
     is_finite = std::isfinite(water.height);
     add(kWaves, {water.velocity, water.acceleration}, sample.below, sample.bare_below);
   }
-  if (region.flow) {
-    const FlowSample flow = sampleFlow(region.flow, point_W, time);
-    add(kFlow, flow, sample.below, sample.bare_below);
-    add(kFlow, flow, sample.above, sample.bare_above);
-  }
+  if (hasFlow(region)) addFlow(region, point_W, time, half_height, sample);
   if (is_finite && isFinite(sample.below) && isFinite(sample.above)) return sample;
   return {region.below, above, is_finite ? sample.height : 0, false};
 }
@@ -109,6 +136,9 @@ void checkRegion(const FluidRegion& region) {
         rejectRegion(std::string("size along ") + kAxes[axis] + " [m]", size, "positive");
     }
   }
+  if (region.layers && !(region.below.density > 0))
+    rejectRegion("density that added mass has in layers [kg/m^3]", region.below.density,
+                 "positive: set FluidRegion::below");
   checkRegionMedium(region.below, region.surface ? "below the surface" : "of the medium");
   if (!region.surface) return;
   if (!(region.below.density > 0))

@@ -19,11 +19,21 @@ struct RegionBounds {
   bool hold(const Vector3& point_W) const noexcept;
 };
 
+class DensityLayers;
+
 /// Velocity [m/s] and acceleration [m/s^2] of the fluid at a point, world axes.
 struct FlowSample {
   Vector3 velocity{0, 0, 0};
+  /// Of a particle of the fluid that this flow alone carries, docs/theory.md eq. (172).
   Vector3 acceleration{0, 0, 0};
+  /// Rows: gradients of the components of the velocity [1/s]. Read where other flows carry this one
+  /// along; where it is left out, that part of the acceleration is missing.
+  Matrix3 gradient = Matrix3::Zero();
 };
+
+/// Returns the sum of two flows at a point, of which each carries the other along, docs/theory.md
+/// eq. (172).
+FlowSample sumOf(const FlowSample& a, const FlowSample& b) noexcept;
 
 /// Wind or current as a function of place [m] and time [s]; WaterSurface::sample() has the rules.
 using FlowField = std::function<FlowSample(const Vector3& point_W, double time)>;
@@ -39,6 +49,12 @@ struct FluidRegion {
   /// waves are added to `below`. Sampled along each body at the start of each step, docs/theory.md
   /// eq. (83). Where it gives no acceleration, that is how its velocity changes, see BareVelocity.
   FlowField flow = nullptr;
+  /// Wind over a surface, added to `above` alone. A body that the surface cuts samples it in the
+  /// middle of its dry height.
+  FlowField flow_above = nullptr;
+  /// Density of `below` over height in place of Medium::density, which stays the one that added
+  /// mass is computed with; null: the same everywhere. docs/theory.md eq. (180).
+  std::shared_ptr<const DensityLayers> layers = nullptr;
   int priority = 0;  ///< in overlaps the highest priority wins; if equal, the region added last
 };
 
@@ -49,9 +65,13 @@ FluidRegion waterBelow(double level);
 /// Makes a region of air that moves with a velocity [m/s] within bounds.
 FluidRegion windZone(const RegionBounds& bounds, const Vector3& velocity);
 
+/// True if a function gives the velocity of a region's fluid.
+inline bool hasFlow(const FluidRegion& region) {
+  return region.flow || (region.surface && region.flow_above);
+}
 /// True if the fluid of a region does not change with time: no flow function and no moving surface.
 inline bool isSteady(const FluidRegion& region) {
-  return !region.flow && (!region.surface || region.surface->isStill());
+  return !hasFlow(region) && (!region.surface || region.surface->isStill());
 }
 
 /// Returns the fluid above a surface where FluidRegion::above is unset: a body's own medium if it
@@ -90,9 +110,10 @@ struct RegionSample {
   const Medium& here() const { return isAbove() ? above : below; }
 };
 /// Samples surface and flow of a region at a point and time [s], for a body whose own medium is
-/// `own`.
+/// `own`. `half_height`: of the body [m]; FluidRegion::flow_above is sampled in the middle of what
+/// of it is dry.
 RegionSample sampleRegion(const FluidRegion& region, const Vector3& point_W, double time,
-                          const Medium& own = {}) noexcept;
+                          const Medium& own = {}, double half_height = 0) noexcept;
 
 /// Checks a region. @throws std::invalid_argument, naming value and limit, if bounds or media are
 /// not physical, or the medium below a surface is a vacuum.

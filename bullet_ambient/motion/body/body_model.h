@@ -85,10 +85,12 @@ struct FlowAlongBody {
   PoolSides sides_F;        ///< sides of its pool that cut the body
   Wrench side_push_W;       ///< pressure of the water across them, eq. (90); world axes
   Wrench growth_W;          ///< of added mass that comes into the pool, eq. (91); world axes
+  Wrench layers_W;          ///< buoyancy by layers of other density, eq. (180); world axes
 
   Wrench wrenchAtSides() const { return side_push_W + growth_W; }
   bool isNone() const {
-    return stations == 0 && lean_W.isZero(0) && spin_up_B.isZero(0) && sides_F.count == 0;
+    return stations == 0 && lean_W.isZero(0) && spin_up_B.isZero(0) && sides_F.count == 0 &&
+           layers_W.force.isZero(0) && layers_W.torque.isZero(0);
   }
 };
 

@@ -27,6 +27,17 @@ from .cases import CaseCounts, collect, run_cases, write_cases
 from .settings import FlowSettings, Medium
 from .sweeps import Rollout, rollout
 from .vector_env import VectorEnv
+from .winds import (
+    air_layers,
+    current_profile,
+    discrete_gust,
+    dryden_gusts,
+    flow_velocity,
+    layers,
+    standard_atmosphere,
+    turbulence,
+    wind_profile,
+)
 from .worlds import Gust, WorldBatch, act, observe
 
 __version__ = library_version.split()[1].rstrip(",")
@@ -48,12 +59,21 @@ __all__ = [
     "WorldBatch",
     "act",
     "air",
+    "air_layers",
     "collect",
+    "current_profile",
+    "discrete_gust",
+    "dryden_gusts",
+    "flow_velocity",
+    "layers",
     "library_version",
     "observe",
     "rollout",
     "run_cases",
     "scene_names",
+    "standard_atmosphere",
+    "turbulence",
     "water",
+    "wind_profile",
     "write_cases",
 ]

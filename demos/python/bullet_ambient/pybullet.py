@@ -27,6 +27,7 @@ __all__ = ["Fluid", "Spectrum", "Wave", "plugin_path"]
 _PIECE = 1000  # largest number of bytes sent at once; PyBullet takes at most 1023
 _SPECTRUM = ("significant_height", "peak_period", "direction", "peak_enhancement", "components", "seed")  # of scenes
 _Vector = Sequence[float]
+_Flows = Sequence[Mapping[str, Any]]
 
 
 class Wave(NamedTuple):
@@ -90,6 +91,9 @@ class Fluid:
         waves: Optional[Iterable[Wave]] = None,
         spectrum: Optional[Spectrum] = None,
         wind: Optional[_Vector] = None,
+        flow: Optional[_Flows] = None,
+        flow_above: Optional[_Flows] = None,
+        layers: Optional[Mapping[str, Any]] = None,
         bounds: Optional[_Vector] = None,
         up: Optional[_Vector] = None,
         priority: int = 0,
@@ -99,25 +103,28 @@ class Fluid:
 
         Units: `density` [kg/m^3], `viscosity` [Pa s], `current` and `wind` [m/s]. `waves` and `spectrum` are added up.
         `bounds`: six numbers, lowest and highest corner [m]. `up`: direction against gravity. Where regions overlap, the
-        one with the highest priority counts, and among equals the one added last.
+        one with the highest priority counts, and among equals the one added last. `flow`, of water and air, `flow_above`,
+        of the air, and `layers` are those of bullet_ambient.winds.
         """
         single = None if waves is None else [Wave(*wave)._asdict() for wave in waves]
         sea = None if spectrum is None else dict(zip(_SPECTRUM, Spectrum(*spectrum)))
         self._give("water", level=level, density=density, viscosity=viscosity, current=current, waves=single, spectrum=sea,
-                   wind=wind, bounds=_corners(bounds), up=up, priority=int(priority), name=name)
+                   wind=wind, flow=flow, flow_above=flow_above, layers=layers, bounds=_corners(bounds), up=up, priority=int(priority), name=name)
 
     def air(self, wind: Optional[_Vector] = None, *, bounds: Optional[_Vector] = None, density: Optional[float] = None,
-            priority: int = 0, name: str = "air") -> None:
-        """Adds or changes air with a wind [m/s], everywhere or within bounds."""
-        self._give("air", wind=wind, bounds=_corners(bounds), density=density, priority=int(priority), name=name)
+            flow: Optional[_Flows] = None, layers: Optional[Mapping[str, Any]] = None, priority: int = 0,
+            name: str = "air") -> None:
+        """Adds or changes air with a wind [m/s], everywhere or within bounds. `flow`, `layers`: as in water()."""
+        self._give("air", wind=wind, flow=flow, layers=layers, bounds=_corners(bounds), density=density, priority=int(priority), name=name)
 
     def region(self, name: str = "region", *, density: Optional[float] = None, viscosity: Optional[float] = None,
-               velocity: Optional[_Vector] = None, bounds: Optional[_Vector] = None, priority: int = 0) -> None:
+               velocity: Optional[_Vector] = None, flow: Optional[_Flows] = None,
+               layers: Optional[Mapping[str, Any]] = None, bounds: Optional[_Vector] = None, priority: int = 0) -> None:
         """Adds or changes a fluid without a surface, everywhere or within bounds.
 
-        Units: density [kg/m^3], viscosity [Pa s], velocity [m/s].
+        Units: density [kg/m^3], viscosity [Pa s], velocity [m/s]. `flow`, `layers`: as in water().
         """
-        self._give("region", name=name, density=density, viscosity=viscosity, velocity=velocity, bounds=_corners(bounds),
+        self._give("region", name=name, density=density, viscosity=viscosity, velocity=velocity, flow=flow, layers=layers, bounds=_corners(bounds),
                    priority=int(priority))
 
     def remove(self, name: str = "water") -> None:

@@ -3,6 +3,7 @@
 
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/force/medium/waves.h"
+#include "bullet_ambient/wind.h"
 #include "preprocess/base/surface_form.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/bullet_ambient/bullet/robots/state/robot_state_scene.h"
@@ -167,6 +168,10 @@ TEST(Step, AllocatesNothing) {
   for (int layer = 0; layer < 20; ++layer) {
     FluidRegion region;
     region.below = layer % 2 ? air() : Medium{};
+    if (layer % 2) {
+      region.flow = drydenGusts({}) + turbulence({});
+      region.layers = airLayers(0, 600);
+    }
     region.bounds = RegionBounds{{-100, -100, 400.0 + 5 * layer}, {100, 100, 405.0 + 5 * layer}};
     scene.fluid.addRegion(region);
   }

@@ -191,6 +191,27 @@ class MotionTest(Case):
         self.steps(60)
         self.assertGreater(self.speed(body), 0.1)
 
+    def test_flows_and_layers_reach_bodies(self):
+        wind = [bullet_ambient.wind_profile([10, 0, 0], roughness=0, exponent=0, ground=-100)]
+        for region in (lambda: self.fluid.air(flow=wind, name="water"), lambda: self.fluid.region("water", density=1.2, flow=wind),
+                       lambda: self.fluid.water(level=-50, flow_above=wind)):
+            region()
+            body = self.box(mass=0.1)
+            self.steps(60)
+            self.assertGreater(self.speed(body), 0.1)
+            p.removeBody(body, physicsClientId=self.client)
+            self.fluid.remove()
+        self.gravity()
+        rises = []
+        for density in (1000, 2000):
+            self.fluid.region("water", density=1000, layers=bullet_ambient.layers([-50, 50], [density, density]))
+            body = self.box(mass=1)
+            self.steps(10)
+            rises.append(self.height(body) + 1)
+            p.removeBody(body, physicsClientId=self.client)
+            self.fluid.remove()
+        self.assertGreater(rises[1], 1.5 * rises[0])
+
     def test_a_current_that_is_set_anew_in_each_step_carries_what_is_in_it(self):
         """0.5 sin(2 pi t / 4) m/s: the water moves by 0.6366 m to and fro, and a neutral ball without friction with it."""
         self.fluid.settings(law="published", separation=math.pi)

@@ -26,6 +26,7 @@ import pybullet_limits  # noqa: E402
 import scene_energy  # noqa: E402
 import vessels  # noqa: E402
 import viscosity  # noqa: E402
+import wind_field  # noqa: E402
 
 
 class PyBulletTest(unittest.TestCase):
@@ -64,6 +65,13 @@ class ViscosityTest(unittest.TestCase):
                     scene = ba.Scene(name, {"time_step": step, "output_step": step})
                     fallen = -1e3 * ba.World(scene).run(scene.duration).twist[-1, :, 5]
                 np.testing.assert_allclose(fallen, speeds, rtol=0.01, err_msg=f"{name} at {step} s")
+
+
+class WindFieldTest(unittest.TestCase):
+    def test_boats_drift_with_the_wind(self):
+        drift = ba.World(wind_field.scene()).run(20).twist[-1, :, 3]
+        self.assertGreater(drift.min(), 0.05)
+        self.assertLess(drift.max(), 0.6)
 
 
 class VesselsTest(unittest.TestCase):

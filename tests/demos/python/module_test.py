@@ -343,6 +343,39 @@ class WorldTest(Temporary):
         with self.assertRaisesRegex(TypeError, r"^World takes a Scene, as in World\(Scene\(\.\.\.\)\)$"):
             ba.World(STILL)
 
+    def test_a_world_takes_winds_and_layers(self):
+        wind = [ba.wind_profile([6, 0, 0], roughness=0.1, ground=-5), ba.turbulence(length=4, smallest=2, carried=[4, 0, 0], seed=2)]
+        ball = {**BALL, "mass": 0.01}
+        air = {"density": 1.2, "viscosity": 1.8e-5}
+        scene = {**STILL, "duration": 1, "bodies": [ball], "regions": [{"medium": air, "flow": wind}]}
+        twists = [ba.World(ba.Scene(scene, {"time_step": step, "output_step": 1})).run(1).twist[-1, 0, 3:] for step in (0.01, 0.005)]
+        self.assertGreater(twists[0][0], 0.1)
+        np.testing.assert_allclose(twists[0], twists[1], atol=0.1)
+        heavy = ba.Scene({**STILL, "gravity": [0, 0, -9.81], "regions": [
+            {"medium": {"density": 1000}, "layers": ba.layers([-1, 1], [1000, 3000])}]})
+        light = heavy.replace({"regions.0.layers": ba.layers([-1, 1], [1000, 1000])})
+        rises = [ba.World(scene).run(0.2).position[-1, 0, 2] for scene in (heavy, light)]
+        self.assertGreater(rises[0], 1.2 * rises[1])
+
+    def test_flows_are_sampled(self):
+        wind = ba.wind_profile([6, 0, 0], height=8, roughness=0.125)
+        points = [[0, 0, 1], [5, 5, 8]]
+        np.testing.assert_allclose(ba.flow_velocity([wind], points), [[3, 0, 0], [6, 0, 0]], atol=1e-12)
+        gust = ba.discrete_gust([0, 2, 0], rise=2, hold=None)
+        np.testing.assert_allclose(ba.flow_velocity([wind, gust], points[:1], 9), [[3, 2, 0]], atol=1e-12)
+        current = ba.current_profile([0, 2], [[1, 0, 0], [0, 0, 0]])
+        np.testing.assert_allclose(ba.flow_velocity([current], [[0, 0, -0.5]]), [[0.75, 0, 0]], atol=1e-12)
+        dryden = [ba.flow_velocity([ba.dryden_gusts(height=30, seed=seed)], points, 3) for seed in (1, 1, 2)]
+        np.testing.assert_array_equal(dryden[0], dryden[1])
+        self.assertTrue((dryden[0] != dryden[2]).any())
+        with self.assertRaisesRegex(ValueError, r"^wind profile: roughness \[m\] is 20; must be from 0 to below the height$"):
+            ba.flow_velocity([ba.wind_profile([1, 0, 0], roughness=20)], points)
+        with self.assertRaisesRegex(ValueError, "number of|must be|flow"):
+            ba.flow_velocity([{"storm": {}}], points)
+        self.assertAlmostEqual(ba.standard_atmosphere(0).density, 1.225, delta=1e-4)
+        self.assertRaisesRegex(ValueError, "must be from -5000 to 86000", ba.standard_atmosphere, 1e5)
+        self.assertEqual(ba.air_layers(0, 500), {"standard_atmosphere": [0, 500]})
+
     def test_regions_change_while_it_runs(self):
         world = ba.World(ba.Scene({**STILL, "gravity": [0, 0, -9.81], "water": {"level": -5}}))
         world.step()

@@ -6,6 +6,7 @@
 
 #include "bullet_ambient/base/plain_text.h"
 #include "bullet_ambient/force/medium/waves.h"
+#include "bullet_ambient/wind.h"
 #include "demos/integrators/integrators.h"
 #include "demos/scene/scene_water.h"
 #include "tests/demos/scene/scene_text.h"
@@ -391,6 +392,32 @@ TEST(SceneWater, MakesRegionsOfWaterFirst) {
   EXPECT_TRUE(still.surface->isStill());
   EXPECT_EQ(sampleRegion(still, {0, 0, 0}, 0).here().velocity, Vector3(1, 0, 0));
   EXPECT_TRUE(sampleRegion(still, {0, 0.6, 0}, 0).isAbove());
+}
+
+// All flows and layers as C++ makes them, with the scene's up: y.
+TEST(SceneWater, TakesFlowsAndLayers) {
+  json text = seaScene();
+  text["water"]["flow"] = json::parse(R"([
+    {"current_profile": {"levels": [[0, 1, 0, 0], [2, 0, 0, 0]], "surface": 0.5}},
+    {"discrete_gust": {"velocity": [0, 0, 2], "start": 1, "rise": 2, "hold": null}}])");
+  text["water"]["flow_above"] = json::parse(R"([
+    {"wind_profile": {"velocity": [9, 0, 0], "height": 5, "roughness": 0, "exponent": 0.5, "ground": 0.5}}])");
+  text["water"]["layers"] = {{"levels", {{-3, 1030}, {-1, 1020}}}};
+  text["regions"][0]["flow"] = json::parse(R"([
+    {"turbulence": {"length": 3, "intensity": 0.5, "smallest": 1, "carried": [1, 0, 0], "seed": 5},
+     "dryden_gusts": {"height": 20, "speed": 7, "intensity": 2, "direction": [1, 0, 1], "seed": 6}}])");
+  text["regions"][0]["layers"] = {{"standard_atmosphere", {0, 500}}};
+  const std::vector<FluidRegion> regions = makeRegions(sceneFrom(text));
+  EXPECT_EQ(regions[0].flow({0, -0.5, 0}, 9).velocity, Vector3(0.5, 0, 2));
+  EXPECT_NEAR(regions[0].flow_above({0, 1.75, 0}, 0).velocity.x(), 4.5, 1e-12);
+  EXPECT_EQ(regions[0].layers->density(-2), 1025);
+  EXPECT_EQ(regions[0].layers->up(), Vector3(0, 1, 0));
+  Turbulence eddies{3, 0.5, 1, {1, 0, 0}, 5};
+  const DrydenGusts gusts{20, 7, 2, {1, 0, 1}, {0, 1, 0}, 6};
+  EXPECT_EQ(regions[1].flow({1, 2, 3}, 4).velocity,
+            (turbulence(eddies) + drydenGusts(gusts))({1, 2, 3}, 4).velocity);
+  EXPECT_EQ(regions[1].layers->density(0), standardAtmosphere(0).density);
+  EXPECT_FALSE(regions[2].flow || regions[2].layers);
 }
 
 TEST(SceneWater, AddsTheWavesOfASpectrum) {

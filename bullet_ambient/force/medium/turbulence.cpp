@@ -1,0 +1,281 @@
+#include "bullet_ambient/force/medium/turbulence.h"
+
+#include <array>
+#include <cmath>
+#include <memory>
+
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/base/elementary.h"
+#include "bullet_ambient/base/philox.h"
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/force/medium/flow_checks.h"
+#include "bullet_ambient/spatial/rotation.h"
+
+namespace ambient {
+namespace {
+
+// Uses of random numbers of one seed.
+enum GustStream : std::uint64_t { kDrydenPhases, kCubeTurns, kShellPhases };
+
+constexpr std::size_t kShellsOfCube = 4;
+constexpr double kKarmanScale = 0.7468342;  // k_e L = sqrt(pi) Gamma(5/6) / Gamma(1/3)
+constexpr double kFirstShell = 0.32421;     // of k / k_e: 2e-4 of the energy is below its shell
+
+using Vector4 = Eigen::Matrix<double, 4, 1>;
+
+RandomBlock gustNumbers(std::uint64_t seed, GustStream stream, std::size_t index) {
+  return philox({index, stream, 0, 0}, {seed, 0});
+}
+double phaseOf(std::uint64_t bits) { return 2 * kPi * uniformOf(bits); }
+
+// Returns the share of the energy of Dryden's spectrum below a wave number; `x`: that times the
+// length. `is_along`: of the component along the wind.
+double drydenShare(bool is_along, double x) {
+  if (is_along) return 2 / kPi * portable::atan(x);
+  return (2 * portable::atan(x) - x / (1 + x * x)) / kPi;
+}
+
+// Sum of modes whose frequencies are two to the octave: an octave on, sine and cosine are those of
+// twice the angle. Components: along the wind, across it, up, and 0.
+class DrydenSum {
+ public:
+  explicit DrydenSum(const DrydenGusts& gusts);
+
+  FlowSample sample(double time) const noexcept;
+
+ private:
+  static constexpr int kPerOctave = 2, kMostOctaves = 15;
+  static constexpr double kLowest = 1.0 / 16, kHighest = 128;  // of x
+
+  struct Mode {
+    Vector4 cosine = Vector4::Zero(), sine = Vector4::Zero();  // [m/s]
+  };
+  void setMode(int base, int octave, double wave_number, const DrydenScales& scales,
+               std::uint64_t seed);
+
+  int octaves_ = 0;
+  Matrix3 axes_;                            // of the components, in W
+  std::array<double, kPerOctave> first_{};  // frequencies [rad/s]
+  std::array<std::array<Mode, kMostOctaves>, kPerOctave> modes_{};
+};
+
+DrydenSum::DrydenSum(const DrydenGusts& gusts) {
+  const DrydenScales scales = drydenScales(gusts);
+  const Vector3 up = gusts.up.normalized();
+  axes_.col(0) = (gusts.direction - gusts.direction.dot(up) * up).normalized();
+  axes_.col(1) = up.cross(axes_.col(0));
+  axes_.col(2) = up;
+  const double lowest = kLowest / scales.lengths.maxCoeff();  // wave number [1/m]
+  const double highest = kHighest / scales.lengths.minCoeff();
+  while (std::ldexp(lowest, octaves_) < highest) ++octaves_;
+  AMBIENT_ASSERT(octaves_ <= kMostOctaves);
+  for (int base = 0; base < kPerOctave; ++base) {
+    const double wave_number = base == 0 ? lowest : std::sqrt(2.0) * lowest;
+    first_[static_cast<std::size_t>(base)] = gusts.speed * wave_number;
+    for (int octave = 0; octave < octaves_; ++octave)
+      setMode(base, octave, std::ldexp(wave_number, octave), scales, gusts.seed);
+  }
+}
+
+void DrydenSum::setMode(int base, int octave, double wave_number, const DrydenScales& scales,
+                        std::uint64_t seed) {
+  const double half = std::sqrt(std::sqrt(2.0));  // of a band
+  const bool is_first = base == 0 && octave == 0;
+  const RandomBlock numbers =
+      gustNumbers(seed, kDrydenPhases, static_cast<std::size_t>(kPerOctave * octave + base));
+  Mode& mode = modes_[static_cast<std::size_t>(base)][static_cast<std::size_t>(octave)];
+  for (int i = 0; i < 3; ++i) {
+    const double x = scales.lengths[i] * wave_number;
+    const double below = is_first ? 0 : drydenShare(i == 0, x / half);
+    const double share = drydenShare(i == 0, x * half) - below;
+    const double amplitude = scales.intensities[i] * std::sqrt(2 * share);
+    const auto [sine, cosine] =
+        portable::sineAndCosine(phaseOf(numbers[static_cast<std::size_t>(i)]));
+    mode.cosine[i] = amplitude * cosine;
+    mode.sine[i] = amplitude * sine;
+  }
+}
+
+FlowSample DrydenSum::sample(double time) const noexcept {
+  Vector4 velocity = Vector4::Zero(), acceleration = Vector4::Zero();
+  for (std::size_t base = 0; base < first_.size(); ++base) {
+    double frequency = first_[base];
+    auto [sine, cosine] = portable::sineAndCosine(frequency * time);
+    for (std::size_t octave = 0; octave < static_cast<std::size_t>(octaves_); ++octave) {
+      const Mode& mode = modes_[base][octave];
+      velocity += cosine * mode.cosine + sine * mode.sine;
+      acceleration += (frequency * cosine) * mode.sine - (frequency * sine) * mode.cosine;
+      const double doubled = 2 * sine * cosine;
+      cosine = 1 - 2 * sine * sine;
+      sine = doubled;
+      frequency *= 2;
+    }
+  }
+  return {axes_ * velocity.head<3>(), axes_ * acceleration.head<3>()};
+}
+
+// Energy of von Karman's spectrum at a wave number over its scale k_e, per logarithm of it [1].
+double karmanDensity(double x) { return x * x * x * x * x / portable::pow(1 + x * x, 17.0 / 6); }
+
+// Waves in shells whose wave numbers are 2^(3/4) apart. Of each shell four run along the diagonals
+// of a cube, with the same energies in all directions; four shells, three octaves apart, share a
+// cube, and the sines and cosines of one by doubled angles.
+class KarmanWaves {
+ public:
+  explicit KarmanWaves(const Turbulence& turbulence);
+
+  FlowSample sample(const Vector3& point_W, double time) const noexcept;
+
+ private:
+  static constexpr int kCubes = 4, kWays = 4 * kCubes;
+
+  struct Way {
+    Vector3 along{0, 0, 0};          // unit
+    Vector3 e{0, 0, 0}, f{0, 0, 0};  // across it, unit; f = +- along x e
+    double first = 0;                // wave number of its first wave [1/m]
+  };
+  struct Wave {
+    double cosine = 0, sine = 0;  // of its phase at the origin at time 0, times its amplitude [m/s]
+  };
+  void turnCube(int cube, double first, std::uint64_t seed);
+
+  Vector3 carried_;
+  std::array<Way, kWays> ways_;
+  std::array<std::array<Wave, kWays>, kShellsOfCube> waves_{};
+};
+
+// Returns the share of the energy of von Karman's spectrum from x on, over a shell.
+double karmanShare(double x) {
+  constexpr double kAll = 1.0325159;  // int x^4 (1 + x^2)^(-17/6) dx from 0 on
+  constexpr int kParts = 64;
+  const double width = 0.75 * portable::log(2.0), begin = portable::log(x) - width / 2;
+  double energy = 0;
+  for (int part = 0; part < kParts; ++part)
+    energy += karmanDensity(portable::exp(begin + (part + 0.5) / kParts * width));
+  return energy * width / kParts / kAll;
+}
+
+KarmanWaves::KarmanWaves(const Turbulence& turbulence) : carried_(turbulence.carried) {
+  const double scale = kKarmanScale / turbulence.length;  // k_e [1/m]
+  const double last = 2 * kPi / turbulence.smallest;      // infinite: none
+  for (int cube = 0; cube < kCubes; ++cube) {
+    const double x = kFirstShell * portable::exp(0.75 * cube * portable::log(2.0));
+    turnCube(cube, scale * x, turbulence.seed);
+    for (std::size_t shell = 0; shell < kShellsOfCube; ++shell) {
+      const double there = std::ldexp(x, 3 * static_cast<int>(shell));
+      if (scale * there > last) continue;
+      const double amplitude = turbulence.intensity * std::sqrt(0.75 * karmanShare(there));
+      const RandomBlock phases = gustNumbers(turbulence.seed, kShellPhases,
+                                             kCubes * shell + static_cast<std::size_t>(cube));
+      for (std::size_t i = 0; i < phases.size(); ++i) {
+        const auto [sine, cosine] = portable::sineAndCosine(phaseOf(phases[i]));
+        waves_[shell][4 * static_cast<std::size_t>(cube) + i] = {amplitude * cosine,
+                                                                 amplitude * sine};
+      }
+    }
+  }
+}
+
+void KarmanWaves::turnCube(int cube, double first, std::uint64_t seed) {
+  const RandomBlock turn = gustNumbers(seed, kCubeTurns, static_cast<std::size_t>(cube));
+  // Attitude with a uniform distribution (Shoemake 1992).
+  const double share = uniformOf(turn[0]);
+  const auto a = portable::sineAndCosine(phaseOf(turn[1]));
+  const auto b = portable::sineAndCosine(phaseOf(turn[2]));
+  const double p = std::sqrt(1 - share), q = std::sqrt(share);
+  const Quaternion attitude(q * b.cosine, p * a.sine, p * a.cosine, q * b.sine);
+  for (int i = 0; i < 4; ++i) {
+    const Vector3 diagonal(1, i & 1 ? -1 : 1, i & 2 ? -1 : 1);
+    Way& way = ways_[static_cast<std::size_t>(4 * cube + i)];
+    way.along = attitude * (diagonal / std::sqrt(3.0));
+    way.e = attitude * Vector3(0, 1, -diagonal.y() * diagonal.z()) / std::sqrt(2.0);
+    way.f = (turn[3] >> i & 1 ? 1 : -1) * way.along.cross(way.e);
+    way.first = first;
+  }
+}
+
+FlowSample KarmanWaves::sample(const Vector3& point_W, double time) const noexcept {
+  const Vector3 place = point_W - time * carried_;
+  std::array<double, kWays> sine, cosine, number;
+  for (std::size_t i = 0; i < kWays; ++i) {
+    number[i] = ways_[i].first;
+    const auto at = portable::sineAndCosine(number[i] * ways_[i].along.dot(place));
+    sine[i] = at.sine;
+    cosine[i] = at.cosine;
+  }
+  // Of the waves along each way: velocity along e and f, and its change over the number.
+  std::array<double, kWays> by_e{}, by_f{}, change_e{}, change_f{};
+  for (std::size_t shell = 0; shell < kShellsOfCube; ++shell) {
+    for (std::size_t i = 0; i < kWays; ++i) {
+      const Wave& wave = waves_[shell][i];
+      const double c = wave.cosine * cosine[i] - wave.sine * sine[i];
+      const double s = wave.cosine * sine[i] + wave.sine * cosine[i];
+      by_e[i] += c;
+      by_f[i] += s;
+      change_e[i] -= number[i] * s;
+      change_f[i] += number[i] * c;
+    }
+    for (int octave = 0; octave < 3; ++octave)
+      for (std::size_t i = 0; i < kWays; ++i) {
+        const double doubled = 2 * sine[i] * cosine[i];
+        cosine[i] = 1 - 2 * sine[i] * sine[i];
+        sine[i] = doubled;
+      }
+    for (double& k : number) k *= 8;
+  }
+  FlowSample flow;
+  for (std::size_t i = 0; i < kWays; ++i) {
+    const Way& way = ways_[i];
+    flow.velocity += by_e[i] * way.e + by_f[i] * way.f;
+    flow.gradient += (change_e[i] * way.e + change_f[i] * way.f) * way.along.transpose();
+  }
+  flow.acceleration = flow.gradient * (flow.velocity - carried_);
+  return flow;
+}
+
+}  // namespace
+
+DrydenScales drydenScales(const DrydenGusts& gusts) {
+  constexpr double kFoot = 0.3048, kLow = 1000, kHigh = 2000, kAloft = 1750;  // [ft]
+  const double height = gusts.height / kFoot;
+  if (height >= kLow) {
+    const double share = std::fmin(1, (height - kLow) / (kHigh - kLow));
+    const double length = kFoot * (kLow + share * (kAloft - kLow));
+    return {Vector3::Constant(length), Vector3::Constant(gusts.intensity)};
+  }
+  const double log = portable::log(0.177 + 0.000823 * height);
+  const double length = gusts.height * portable::exp(-1.2 * log);
+  const double intensity = gusts.intensity * portable::exp(-0.4 * log);
+  return {{length, length, gusts.height}, {intensity, intensity, gusts.intensity}};
+}
+
+FlowField drydenGusts(const DrydenGusts& gusts) {
+  const FlowChecks check{"Dryden gusts"};
+  check.require(gusts.height >= 3.048 && std::isfinite(gusts.height), "height [m]", gusts.height,
+                "at least 3.048 and finite");
+  check.require(gusts.speed > 0 && std::isfinite(gusts.speed), "speed [m/s]", gusts.speed,
+                "positive and finite");
+  check.require(gusts.intensity >= 0 && std::isfinite(gusts.intensity), "intensity [m/s]",
+                gusts.intensity, "zero or positive and finite");
+  const Vector3 up = check.direction("up", gusts.up);
+  check.direction("the horizontal part of the direction",
+                  gusts.direction - gusts.direction.dot(up) * up);
+  return [sum = std::make_shared<const DrydenSum>(gusts)](const Vector3&, double time) {
+    return sum->sample(time);
+  };
+}
+
+FlowField turbulence(const Turbulence& turbulence) {
+  const FlowChecks check{"turbulence"};
+  check.require(turbulence.length > 0 && std::isfinite(turbulence.length), "length [m]",
+                turbulence.length, "positive and finite");
+  check.require(turbulence.intensity >= 0 && std::isfinite(turbulence.intensity), "intensity [m/s]",
+                turbulence.intensity, "zero or positive and finite");
+  check.require(turbulence.smallest >= 0 && turbulence.smallest <= turbulence.length,
+                "smallest wavelength [m]", turbulence.smallest, "from 0 to the length");
+  check.finite("velocity that carries it [m/s]", turbulence.carried);
+  return [waves = std::make_shared<const KarmanWaves>(turbulence)](
+             const Vector3& point_W, double time) { return waves->sample(point_W, time); };
+}
+
+}  // namespace ambient
