@@ -53,6 +53,8 @@ class Simulation {
              const FlowField& flow = nullptr);
   ~Simulation();
 
+  /// Fluids of its Bullet world.
+  Fluid& fluid() { return fluid_; }
   /// Whether its Bullet world is one for robots.
   bool takesRobots() const;
   /// Adds the robots that `scene` has more than the simulation, with their links. `bodies`: results

@@ -56,6 +56,7 @@ std::vector<double> boundsOf(const std::string& key, std::vector<double> bounds,
 BatchPlan::BatchPlan(const Scene& from, const BatchSettings& with) : scene(from), settings(with) {
   requireFinite("worlds", settings.worlds, settings.worlds >= 1, ">= 1");
   requireFinite("substeps", settings.substeps, settings.substeps >= 1, ">= 1");
+  requireFinite("together", settings.together, settings.together >= 1, ">= 1");
   requireFinite("most_steps", static_cast<double>(settings.most_steps), settings.most_steps >= 0,
                 ">= 0");
   if (const auto& gust = settings.gust) {

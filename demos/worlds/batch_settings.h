@@ -105,6 +105,7 @@ struct BatchSettings {
   int worlds = 1;
   int substeps = 1;          ///< steps of the scene in an env step
   int threads = 0;           ///< 0: all cores
+  int together = 8;          ///< worlds whose flights are computed side by side; 1: each alone
   std::uint64_t seed = 0;    ///< world i has seed + i
   long long most_steps = 0;  ///< env steps after which a world is truncated; 0: never
   std::vector<ActionDef> actions = {};

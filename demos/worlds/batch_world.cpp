@@ -253,25 +253,35 @@ void BatchWorld::act(bool is_first) {
   }
 }
 
-void BatchWorld::step() {
-  if (!fault_.empty()) return;
-  if (!isActionFinite()) return observe();
+bool BatchWorld::begin() {
+  if (!fault_.empty()) return false;
+  if (!isActionFinite()) {
+    observe();
+    return false;
+  }
   ++steps_;
   drawGust();
+  return true;
+}
+
+void BatchWorld::substep(int k) noexcept {
+  if (!fault_.empty()) return;
+  const int substeps = plan_.settings.substeps;
   try {
-    for (int k = 0; k < plan_.settings.substeps && fault_.empty(); ++k) {
-      if (flow_) flow_->at(static_cast<double>(k) / plan_.settings.substeps, plan_.envStep());
-      act(k == 0);
-      if (k == plan_.settings.substeps - 1)
-        for (std::size_t i = 0; i < before_.size(); ++i)
-          before_[i] = simulation_->sample(plan_.accelerated[i]).twist;
-      simulation_->stepUnchecked();
-      if (auto sentence = simulation_->fault()) fail(std::move(*sentence));
-    }
-    if (flow_) flow_->at(1, plan_.envStep());
+    if (flow_) flow_->at(static_cast<double>(k) / substeps, plan_.envStep());
+    act(k == 0);
+    if (k == substeps - 1)
+      for (std::size_t i = 0; i < before_.size(); ++i)
+        before_[i] = simulation_->sample(plan_.accelerated[i]).twist;
+    simulation_->stepUnchecked();
+    if (auto sentence = simulation_->fault()) fail(std::move(*sentence));
   } catch (const std::exception& error) {
     fail(error.what());
   }
+}
+
+void BatchWorld::end() {
+  if (flow_) flow_->at(1, plan_.envStep());
   observe();
 }
 

@@ -33,8 +33,15 @@ class BatchWorld {
   void reset(const SimulationState& start, bool draws);
   /// Begins again with another seed, before reset().
   void setSeed(std::uint64_t seed);
-  /// Makes one env step, or nothing if the world has failed. Sets the sensors.
-  void step();
+  /// Begins an env step, or sets the sensors if the world has failed. Returns whether it has begun.
+  bool begin();
+  /// Makes the k-th substep, or nothing if the world has failed since. Between begin() and end().
+  void substep(int k) noexcept;
+  /// Ends the env step, and sets the sensors.
+  void end();
+
+  /// Fluids of its Bullet world.
+  Fluid& fluid() { return simulation_->fluid(); }
 
   bool isTruncated() const;
   const std::string& fault() const { return fault_; }  ///< empty: the world has not failed

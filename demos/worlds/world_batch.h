@@ -59,6 +59,11 @@ class WorldBatch {
  private:
   BatchWorld& at(int world) const { return *worlds_.at(static_cast<std::size_t>(world)); }
   void tell(std::size_t world);
+  /// Calls work(first, end) for groups of worlds that step together, on all threads.
+  template <class Work>
+  void forGroups(const Work& work);
+  /// Makes one env step of the worlds of a group; those with reset[i] != 0 are reset in its place.
+  void stepGroup(std::size_t first, std::size_t end, const std::uint8_t* reset);
 
   const BatchPlan plan_;
   std::vector<double> actions_, parameters_, observations_;

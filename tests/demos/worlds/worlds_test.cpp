@@ -88,6 +88,36 @@ TEST(WorldBatch, HasTheSameBitsAtAnyNumberOfThreadsAndAsBatchesOfOne) {
   }
 }
 
+TEST(WorldBatch, HasTheSameBitsInLanesAndAlone) {
+  struct Case {
+    Scene scene;
+    BatchSettings settings;
+  };
+  std::vector<Case> cases{{sceneFrom(vehicle()), wildSettings(203, 1)}};
+  BatchSettings plain = wildSettings(9, 1);
+  plain.actions.clear();
+  plain.variations = {{"position", "", {-0.1}, {0.1}}, {"current", "", {-0.2}, {0.2}}};
+  for (const char* name : {"rov_station", "ball_on_bottom", "boat_in_waves", "glider"})
+    cases.push_back({readNamedScene(name), plain});
+  for (Case& of : cases) {
+    of.settings.together = 1;
+    WorldBatch alone(of.scene, of.settings);
+    const auto expected = play(alone, 10);
+    of.settings.together = 8;
+    for (const int worlds : {1, 7, 8, 9, 203}) {
+      if (worlds > alone.worlds()) continue;
+      for (const int threads : {1, 2, 3, 7}) {
+        of.settings.worlds = worlds;
+        of.settings.threads = threads;
+        WorldBatch batch(of.scene, of.settings);
+        const auto rows = play(batch, 10);
+        EXPECT_TRUE(std::equal(rows.begin(), rows.end(), expected.begin()))
+            << of.scene.name << worlds << threads;
+      }
+    }
+  }
+}
+
 BatchSettings plainSettings(const std::vector<ActionDef>& actions) {
   BatchSettings settings;
   settings.worlds = 2;
