@@ -130,6 +130,16 @@ class Simulation {
   /// Sets the factors of Immersed::setFactors(); without effect on a body without fluid.
   void setFactors(std::size_t body, double added_mass, double loads);
 
+  /// Multiplies the coefficient of friction of a body.
+  void scaleFriction(std::size_t body, double factor);
+  /// Moves the centre of mass within the body, from where it is after restore() of the start, by an
+  /// offset in axes of the shape [m]; the body stays where it is, and the moments of inertia about
+  /// the centre. Its pose is that of the new centre.
+  /// @pre a rigid body that moves and has no joints; `prepared`: its own
+  void moveCentre(std::size_t body, const PreparedBody& prepared, const Vector3& offset);
+  /// Sets what a saved state has not of that: places of its shapes, thrusters and foils.
+  void setCentre(std::size_t body, const PreparedBody& prepared, const Vector3& offset);
+
   /// Medium of the fluid at the centre of mass of a body, as if the body were not there; of a body
   /// without fluid: a vacuum.
   Medium mediumAround(std::size_t body) const;
@@ -172,6 +182,8 @@ class Simulation {
   /// Fluids at a point: of its region; without one the medium of a body, or a vacuum.
   RegionSample fluidAround(std::size_t body, const Vector3& point) const;
   btRigidBody& rigidBody(std::size_t body);
+  /// Null: a link without a collider.
+  btCollisionObject* objectOf(std::size_t body) const;
   std::shared_ptr<const FluidBody> findFluidBody(const std::string& name) const;
   MotionSample sample(const WorldBody& of) const;
   /// Applies a wrench during the next step: about the centre of mass, axes of W.

@@ -72,9 +72,16 @@ void BatchWorld::applyMass(std::size_t body) {
   };
   const double mass = factor(VariationKind::kMass), moments = factor(VariationKind::kInertia);
   if (mass != 1 || moments != 1) simulation_->scaleMass(body, mass, mass * moments);
+  const double friction = factor(VariationKind::kFriction);
+  if (friction != 1) simulation_->scaleFriction(body, friction);
   const BodyDef& def = plan_.scene.bodies[body];
   simulation_->setFactors(body, def.attach.added_mass_factor * factor(VariationKind::kAddedMass),
                           def.attach.load_factor * factor(VariationKind::kLoads));
+}
+
+void BatchWorld::moveCentre(std::size_t body) {
+  if (const double* offset = find(VariationKind::kCentreOfMass, body))
+    simulation_->moveCentre(body, plan_.bodies[body], vectorAt(offset));
 }
 
 void BatchWorld::placeBody(std::size_t body) {
@@ -142,6 +149,7 @@ void BatchWorld::apply() {
   for (std::size_t body = 0; body < plan_.bodies.size(); ++body) {
     const auto varies = [body](const VariationField& v) { return v.body == body; };
     if (std::none_of(plan_.variations.begin(), plan_.variations.end(), varies)) continue;
+    moveCentre(body);
     placeBody(body);
     applyMass(body);
   }
@@ -311,6 +319,9 @@ void BatchWorld::observe() {
       view.to_W = view.now.orientation.toRotationMatrix();
     }
     view.field = &observation;
+    view.place = observation.place;
+    if (const double* offset = find(VariationKind::kCentreOfMass, observation.body))
+      view.place -= vectorAt(offset);
     if (steps_ > 0 && observation.accelerated >= 0)
       view.before = before_[static_cast<std::size_t>(observation.accelerated)];
     observation.read(view, numbers_.data());
@@ -383,6 +394,10 @@ void BatchWorld::restoreState(std::string_view bytes) {
   steps_ = head.steps;
   fault_.clear();
   setFlowAndThrusters();
+  for (const VariationField& v : plan_.variations)
+    if (v.kind == VariationKind::kCentreOfMass)
+      simulation_->setCentre(v.body, plan_.bodies[v.body],
+                             vectorAt(rows_.parameters + v.field.offset));
   if (flow_) {
     flow_->gust_before = vectorAt(head.gust);
     flow_->gust = vectorAt(head.gust + 3);

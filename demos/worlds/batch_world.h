@@ -69,6 +69,7 @@ class BatchWorld {
   const double* find(VariationKind kind, std::size_t body = kAny) const;
   void apply();
   void applyMass(std::size_t body);
+  void moveCentre(std::size_t body);
   void placeBody(std::size_t body);
   void setFlowAndThrusters();
   void drawGust();

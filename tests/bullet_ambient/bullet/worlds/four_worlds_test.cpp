@@ -130,7 +130,9 @@ TEST_P(FourWorlds, StepTogetherWithTheBitsOfEach) {
       tanks->push_back(std::make_unique<Tank>(GetParam().make(true), i));
     fluids.push_back(&together.back()->fluid());
   }
-  const auto heightOf = [&](int i) { return together[i]->flying().getWorldTransform().getOrigin(); };
+  const auto heightOf = [&](int i) {
+    return together[i]->flying().getWorldTransform().getOrigin();
+  };
   for (int n = 0; n < 60; ++n) {
     const btVector3 before = heightOf(0);
     const auto step = [&](int i) {
