@@ -33,6 +33,12 @@ constexpr std::array<std::pair<const char*, long long AmbientCounters::*>, 6> kW
      {"too_long", &AmbientCounters::too_long},
      {"halted", &AmbientCounters::halted}}};
 
+/// Lines of a drawn world.
+struct WorldLines {
+  std::vector<float> points;   ///< of both ends of each: x, y, z [m]
+  std::vector<float> colours;  ///< of each: red, green, blue, from 0 to 1
+};
+
 /// All that changes of a simulation from step to step, in memory.
 struct SimulationState {
   long long steps = 0;
@@ -137,7 +143,7 @@ class Simulation {
   /// the centre. Its pose is that of the new centre.
   /// @pre a rigid body that moves and has no joints; `prepared`: its own
   void moveCentre(std::size_t body, const PreparedBody& prepared, const Vector3& offset);
-  /// Sets what a saved state has not of that: places of its shapes, thrusters and foils.
+  /// Sets what a saved state has not of that: places of shapes, thrusters and foils.
   void setCentre(std::size_t body, const PreparedBody& prepared, const Vector3& offset);
 
   /// Medium of the fluid at the centre of mass of a body, as if the body were not there; of a body
@@ -147,6 +153,9 @@ class Simulation {
   double surfaceOver(const Vector3& point) const;
   /// Sum of the normal impulses of contacts on a body in the last step [N s].
   double contactImpulse(std::size_t body) const;
+
+  /// Draws bodies, joints and what `drawing` selects, through Bullet's debug drawer.
+  WorldLines lines(const FluidDrawing& drawing);
 
   /// Replaces water and regions by those of another scene, from the next step on.
   /// @throws std::invalid_argument or std::runtime_error, one sentence, if it has another number of

@@ -2,6 +2,7 @@
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
 #include <limits>
+#include <utility>
 
 #include "bullet_ambient/bullet/core/conversions.h"
 #include "demos/scene/scene_water.h"
@@ -27,6 +28,24 @@ FlowField sumOf(const FlowField& a, const FlowField& b) {
     return FlowSample{x.velocity + y.velocity, x.acceleration + y.acceleration};
   };
 }
+
+/// Keeps the lines that Bullet asks it to draw.
+class LineKeeper : public btIDebugDraw {
+ public:
+  WorldLines lines;
+
+  void drawLine(const btVector3& from, const btVector3& to, const btVector3& colour) override {
+    for (const btVector3& end : {from, to})
+      for (int k = 0; k < 3; ++k) lines.points.push_back(static_cast<float>(end[k]));
+    for (int k = 0; k < 3; ++k) lines.colours.push_back(static_cast<float>(colour[k]));
+  }
+  void drawContactPoint(const btVector3&, const btVector3&, btScalar, int,
+                        const btVector3&) override {}
+  void reportErrorWarning(const char*) override {}
+  void draw3dText(const btVector3&, const char*) override {}
+  void setDebugMode(int) override {}
+  int getDebugMode() const override { return DBG_DrawWireframe | DBG_DrawConstraints; }
+};
 
 void scale(btScalar& mass, btVector3& inertia, double by_mass, double by_moments) {
   mass *= static_cast<btScalar>(by_mass);
@@ -82,6 +101,16 @@ double Simulation::surfaceOver(const Vector3& point) const {
   for (const FluidRegion& region : fluids_)
     if (region.surface) return sampleRegion(region, point, fluid_.time()).height;
   return std::numeric_limits<double>::infinity();
+}
+
+WorldLines Simulation::lines(const FluidDrawing& drawing) {
+  LineKeeper keeper;
+  fluid_.drawing = drawing;
+  bullet_.world->setDebugDrawer(&keeper);
+  bullet_.world->debugDrawWorld();
+  bullet_.world->setDebugDrawer(nullptr);
+  fluid_.drawing = {};
+  return std::move(keeper.lines);
 }
 
 btCollisionObject* Simulation::objectOf(std::size_t body) const {

@@ -118,14 +118,20 @@ void BatchWorld::placeBody(std::size_t body) {
   if (twist) robot.setTwist(faster(plan_.scene.robots[link->robot].fixed_base ? Twist{} : base));
 }
 
-void BatchWorld::setFlowAndThrusters() {
+void BatchWorld::setHardware(Simulation& simulation) const {
   const double* thrusts = find(VariationKind::kThrust);
   const double* lag = find(VariationKind::kLag);
+  for (std::size_t i = 0; i < simulation.thrusters().size(); ++i)
+    simulation.thrusters().setFactors(i, thrusts ? thrusts[i] : 1, lag ? *lag : 1);
+  for (const VariationField& v : plan_.variations)
+    if (v.kind == VariationKind::kCentreOfMass)
+      simulation.setCentre(v.body, plan_.bodies[v.body],
+                           vectorAt(rows_.parameters + v.field.offset));
+}
+
+void BatchWorld::setFlowAndThrusters() {
   Thrusters& thrusters = simulation_->thrusters();
-  for (std::size_t i = 0; i < thrusters.size(); ++i) {
-    thrusters.setFactors(i, thrusts ? thrusts[i] : 1, lag ? *lag : 1);
-    thrusters.command(i, thrusters.def(i).command);
-  }
+  for (std::size_t i = 0; i < thrusters.size(); ++i) thrusters.command(i, thrusters.def(i).command);
   SceneFoils& foils = simulation_->foils();
   for (std::size_t i = 0; i < foils.size(); ++i) foils.command(i, foils.def(i).command);
   const double* target = find(VariationKind::kTarget);
@@ -137,6 +143,7 @@ void BatchWorld::setFlowAndThrusters() {
 }
 
 void BatchWorld::apply() {
+  setHardware(*simulation_);
   setFlowAndThrusters();
   drawGust();
   if (flow_) flow_->at(0, plan_.envStep());
@@ -353,8 +360,28 @@ struct BatchWorld::Head {
   double gust[6] = {};
 };
 
-std::string BatchWorld::saveState() const {
+FlowField BatchWorld::flowNow() const {
+  if (!flow_) return nullptr;
+  const FlowSample now{flow_->now.velocity, Vector3::Zero()};
+  return [now](const Vector3&, double) { return now; };
+}
+
+void BatchWorld::copyTo(Simulation& other) const {
+  other.restoreState(saveSimulation());
+  setHardware(other);
+  for (std::size_t i = 0; i < other.thrusters().size(); ++i)
+    other.thrusters().command(i, simulation_->thrusters().command(i));
+  for (std::size_t i = 0; i < other.foils().size(); ++i)
+    other.foils().command(i, simulation_->foils().command(i));
+}
+
+std::string BatchWorld::saveSimulation() const {
   if (!fault_.empty()) throw std::runtime_error("a world that has failed has no state: " + fault_);
+  return simulation_->saveState();
+}
+
+std::string BatchWorld::saveState() const {
+  const std::string simulation = saveSimulation();
   Head head;
   head.seed = seed_;
   head.episodes = episodes_;
@@ -367,7 +394,7 @@ std::string BatchWorld::saveState() const {
   bytes.append(reinterpret_cast<const char*>(rows_.parameters),
                static_cast<std::size_t>(plan_.parameter_size) * sizeof(double));
   bytes.append(reinterpret_cast<const char*>(before_.data()), before_.size() * sizeof(Twist));
-  return bytes + simulation_->saveState();
+  return bytes + simulation;
 }
 
 void BatchWorld::restoreState(std::string_view bytes) {
@@ -393,11 +420,8 @@ void BatchWorld::restoreState(std::string_view bytes) {
   episodes_ = head.episodes;
   steps_ = head.steps;
   fault_.clear();
+  setHardware(*simulation_);
   setFlowAndThrusters();
-  for (const VariationField& v : plan_.variations)
-    if (v.kind == VariationKind::kCentreOfMass)
-      simulation_->setCentre(v.body, plan_.bodies[v.body],
-                             vectorAt(rows_.parameters + v.field.offset));
   if (flow_) {
     flow_->gust_before = vectorAt(head.gust);
     flow_->gust = vectorAt(head.gust + 3);

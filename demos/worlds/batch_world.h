@@ -40,14 +40,18 @@ class BatchWorld {
   /// Ends the env step, and sets the sensors.
   void end();
 
-  /// Fluids of its Bullet world.
-  Fluid& fluid() { return simulation_->fluid(); }
-
   bool isTruncated() const;
   const std::string& fault() const { return fault_; }  ///< empty: the world has not failed
   /// Episodes begun since the seed was set.
   std::uint64_t episode() const { return episodes_; }
   long long steps() const { return steps_; }  ///< env steps of this episode
+
+  Simulation& simulation() { return *simulation_; }
+  /// Present current and gust, as a flow that stays.
+  FlowField flowNow() const;
+  /// Puts a simulation of the same scene into the state of this world.
+  /// @throws std::runtime_error if this one has failed
+  void copyTo(Simulation& other) const;
 
   std::string saveState() const;
   /// @throws std::runtime_error if the bytes are damaged or of another batch.
@@ -72,6 +76,9 @@ class BatchWorld {
   void moveCentre(std::size_t body);
   void placeBody(std::size_t body);
   void setFlowAndThrusters();
+  /// Sets what a state of a simulation has not: factors of thrusters, centres of mass.
+  void setHardware(Simulation& simulation) const;
+  std::string saveSimulation() const;
   void drawGust();
   bool isActionFinite();
   void command(const ActionField& field);

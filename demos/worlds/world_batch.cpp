@@ -57,7 +57,7 @@ void WorldBatch::stepGroup(std::size_t first, std::size_t end, const std::uint8_
       world.reset(start_, true);
     } else if (world.begin()) {
       moving[sized(count)] = &world;
-      fluids[sized(count++)] = &world.fluid();
+      fluids[sized(count++)] = &world.simulation().fluid();
     }
   }
   for (int k = 0; k < plan_.settings.substeps && count > 0; ++k) {

@@ -53,6 +53,8 @@ class WorldBatch {
   /// @throws std::runtime_error or std::invalid_argument if the bytes are damaged or of another
   /// batch
   void restore(int world, std::string_view bytes);
+  /// A world, numbered from 0.
+  BatchWorld& world(int number) { return at(number); }
   /// Why a world has failed; empty: it has not.
   const std::string& fault(int world) const { return at(world).fault(); }
 
