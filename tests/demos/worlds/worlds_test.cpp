@@ -93,13 +93,16 @@ TEST(WorldBatch, HasTheSameBitsInLanesAndAlone) {
     Scene scene;
     BatchSettings settings;
   };
+  const TemporaryFolder folder;
   std::vector<Case> cases{{sceneFrom(vehicle()), wildSettings(203, 1)}};
   BatchSettings plain = wildSettings(9, 1);
   plain.actions.clear();
+  plain.observations = {{"position"}, {"twist"}, {"imu"}, {"flow"}};
   plain.variations = {{"position", "", {-0.1}, {0.1}}, {"current", "", {-0.2}, {0.2}}};
   for (const char* name : {"rov_station", "ball_on_bottom", "boat_in_waves", "glider"})
     cases.push_back({readNamedScene(name), plain});
   for (Case& of : cases) {
+    of.settings.fluid_bodies = folder / "bodies";
     of.settings.together = 1;
     WorldBatch alone(of.scene, of.settings);
     const auto expected = play(alone, 10);
