@@ -143,6 +143,7 @@ void Simulation::scaleMass(std::size_t body, double mass, double moments) {
     btVector3 inertia = toBullet(toVector3(scaled.getInvInertiaDiagLocal()).cwiseInverse());
     scale(own, inertia, mass, moments);
     scaled.setMassProps(own, inertia);
+    scaled.setGravity(scaled.getGravity());  // as a restored state has it, to the last bit
     scaled.updateInertiaTensor();
     return;
   }
