@@ -64,6 +64,9 @@ void keepAwake(AmbientBody& ambient, Outcome kind) noexcept;
 void beginFlights(AmbientBody* const* bodies, const StartStates& starts, int count,
                   double time_step, Twist* changes_W) noexcept;
 
+/// Reports a flight that is not finite, or whose step is too long.
+void reportFlight(const AmbientBody& ambient, Complaints& complaints) noexcept;
+
 /// After Bullet has moved the body: gives it the velocity and the attitude of the end of its
 /// flight; where continuous collision detection has stopped it, the attitude there.
 void endFlight(AmbientBody& ambient, double time_step) noexcept;
