@@ -335,11 +335,6 @@ void beginFlights(AmbientBody* const* bodies, const StartStates& starts, int cou
   }
 }
 
-void reportFlight(const AmbientBody& ambient, Complaints& complaints) noexcept {
-  if (ambient.outcome.kind != Outcome::kFlown) complaints.say(Complaint::kNotFinite);
-  if (ambient.outcome.is_too_long) complaints.sayTooLong(*ambient.def);
-}
-
 void endFlight(AmbientBody& ambient, double time_step) noexcept {
   btRigidBody& body = *ambient.body;
   const LastFlight& flight = std::as_const(ambient.outcome).flight();

@@ -65,7 +65,10 @@ void beginFlights(AmbientBody* const* bodies, const StartStates& starts, int cou
                   double time_step, Twist* changes_W) noexcept;
 
 /// Reports a flight that is not finite, or whose step is too long.
-void reportFlight(const AmbientBody& ambient, Complaints& complaints) noexcept;
+inline void reportFlight(const AmbientBody& ambient, Complaints& complaints) noexcept {
+  if (ambient.outcome.kind != Outcome::kFlown) complaints.say(Complaint::kNotFinite);
+  if (ambient.outcome.is_too_long) complaints.sayTooLong(*ambient.def);
+}
 
 /// After Bullet has moved the body: gives it the velocity and the attitude of the end of its
 /// flight; where continuous collision detection has stopped it, the attitude there.

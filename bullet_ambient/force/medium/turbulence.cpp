@@ -81,8 +81,8 @@ void DrydenSum::setMode(int base, int octave, double wave_number, const DrydenSc
                         std::uint64_t seed) {
   const double half = std::sqrt(std::sqrt(2.0));  // of a band
   const bool is_first = base == 0 && octave == 0;
-  const RandomBlock numbers =
-      gustNumbers(seed, kDrydenPhases, static_cast<std::size_t>(kPerOctave * octave + base));
+  const int index = kPerOctave * octave + base;
+  const RandomBlock numbers = gustNumbers(seed, kDrydenPhases, static_cast<std::size_t>(index));
   Mode& mode = modes_[static_cast<std::size_t>(base)][static_cast<std::size_t>(octave)];
   for (int i = 0; i < 3; ++i) {
     const double x = scales.lengths[i] * wave_number;
@@ -186,7 +186,8 @@ void KarmanWaves::turnCube(int cube, double first, std::uint64_t seed) {
   const Quaternion attitude(q * b.cosine, p * a.sine, p * a.cosine, q * b.sine);
   for (int i = 0; i < 4; ++i) {
     const Vector3 diagonal(1, i & 1 ? -1 : 1, i & 2 ? -1 : 1);
-    Way& way = ways_[static_cast<std::size_t>(4 * cube + i)];
+    const int index = 4 * cube + i;
+    Way& way = ways_[static_cast<std::size_t>(index)];
     way.along = attitude * (diagonal / std::sqrt(3.0));
     way.e = attitude * Vector3(0, 1, -diagonal.y() * diagonal.z()) / std::sqrt(2.0);
     way.f = (turn[3] >> i & 1 ? 1 : -1) * way.along.cross(way.e);

@@ -54,7 +54,7 @@ class Station(VectorEnv):
 
     def ended(self, batch: WorldBatch) -> npt.ArrayLike:
         """Ends a world whose vehicle is 5 m away (N,)."""
-        return np.linalg.norm(batch["target"], axis=1) > 5
+        return np.asarray(np.linalg.norm(batch["target"], axis=1) > 5)
 
 
 try:

@@ -79,13 +79,15 @@ PanelSurface inOrder(const PanelSurface& surface, const std::vector<int>& order)
   const PanelArrays& from = surface.arrays;
   PanelArrays& to = result.arrays;
   const auto arrays = [](auto& a) {
-    return std::array{&a.x,  &a.y,  &a.z,  &a.normal_x, &a.normal_y, &a.normal_z, &a.area,
-                      &a.xx, &a.yy, &a.zz, &a.xy,       &a.xz,       &a.yz};
+    return std::array{&a.x,      &a.y,  &a.z,  &a.normal_x, &a.normal_y, &a.normal_z, &a.area,
+                      &a.radius, &a.xx, &a.yy, &a.zz,       &a.xy,       &a.xz,       &a.yz};
   };
   for (std::size_t t = 0; t < order.size(); ++t) {
     const auto place = static_cast<Index>(t);
     result.triangles.col(place) = surface.triangles.col(order[t]);
     result.panels[t] = surface.panels[order[t]];
+    result.numbers[t] = surface.numbers[order[t]];
+    result.nodes[t] = surface.nodes[order[t]];
     for (std::size_t k = 0; k < arrays(to).size(); ++k)
       (*arrays(to)[k])[place] = (*arrays(from)[k])[order[t]];
   }

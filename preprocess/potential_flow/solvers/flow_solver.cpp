@@ -404,7 +404,8 @@ constexpr int kLeafSize = 64;
 constexpr int kDegree = 5;
 constexpr int kDoubleLayerDegree = 8;
 constexpr double kOpening = 0.7;
-constexpr double kBytesPerPanel = 2000;  // of geometry, tree, fields and moments; measured
+// Of geometry, tree, fields and moments, measured; of what kernels read of both orders of panels.
+constexpr double kBytesPerPanel = 2000 + 2 * (sizeof(PanelNumbers) + sizeof(PanelNodes));
 
 }  // namespace
 

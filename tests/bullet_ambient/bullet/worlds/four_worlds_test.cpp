@@ -155,6 +155,19 @@ TEST_P(FourWorlds, StepTogetherWithTheBitsOfEach) {
   }
 }
 
+TEST(StepTogether, TellsEachFluidOfItsOwnBodies) {
+  FluidWorld calm, torn;
+  for (FluidWorld* each : {&calm, &torn})
+    each->add(BodyDef{}, *unitBallIn(water()).fluid_body, idealFluid(0.1));
+  torn.contents.bodies()[0]->setLinearVelocity({bt(1e38), 0, 0});
+  torn.contents.bodies()[0]->setAngularVelocity({bt(1e38), bt(1e38), 0});
+  FluidWorld* const worlds[] = {&calm, &torn};
+  Fluid* const fluids[] = {&calm.fluid, &torn.fluid};
+  stepTogether(fluids, 2, [&](int i) { worlds[i]->step(kWorldStep); });
+  EXPECT_EQ(calm.said, std::vector<std::string>{});
+  EXPECT_NE(torn.said, std::vector<std::string>{});
+}
+
 class RestingContacts : public FourWorlds {};
 INSTANTIATE_TEST_SUITE_P(Of, RestingContacts, testing::ValuesIn(worldsWithRestingContacts()),
                          nameOf);
