@@ -49,20 +49,20 @@ void setFlown(TreeStep& step) {
 
 // Moves a tree to the end of its link's flight. Returns false if the flight has failed or
 // Bullet cannot move the tree to its end.
-bool takeFlight(AmbientTree& tree, const TreeTask& task) {
+bool takeFlight(AmbientTree& tree, Complaints& complaints, double duration) {
   TreeStep& step = tree.step;
   AmbientBody& ambient = baseOf(tree).ambient;
   if (std::exchange(ambient.outcome.kind, Outcome::kNotSolved) != Outcome::kFlown) return false;
   const LastFlight& end = std::as_const(ambient.outcome).flight();
   step.moved << end.effective_W.angular, end.effective_W.linear;
-  if (turnsTooFastForBullet(tree.tree, step.moved, task.duration)) return false;
+  if (turnsTooFastForBullet(tree.tree, step.moved, duration)) return false;
   step.end << end.left_W.angular, end.left_W.linear;
   TreePose& reached = step.surface.middle;  // scratch memory: bodies have no middle
   reached.orientation = end.orientation;
   reached.position = end.position;
   tree.flight.stay(reached, step.end);
   setFlown(step);
-  if (ambient.outcome.is_too_long) task.bodies.complaints.sayTooLong(*ambient.def);
+  if (ambient.outcome.is_too_long) complaints.sayTooLong(*ambient.def);
   return true;
 }
 
@@ -73,7 +73,8 @@ bool fliesAsBody(const AmbientTree& tree) noexcept {
          tree.tree.has_gyroscopic_term && tree.step.was_awake && !tree.step.turns_rows;
 }
 
-void flyAsBodies(AmbientTree* const* trees, int count, const TreeTask& task) noexcept {
+void flyAsBodies(AmbientTree* const* trees, AmbientBodies* const* of, int count,
+                 double duration) noexcept {
   AMBIENT_ASSERT(count > 0 && count <= kFlightsTogether);
   AmbientBody* bodies[kFlightsTogether] = {};
   LastFlight before[kFlightsTogether];
@@ -86,9 +87,9 @@ void flyAsBodies(AmbientTree* const* trees, int count, const TreeTask& task) noe
   }
   StartStates starts;
   readStartStates(trees, count, starts);
-  beginFlights(bodies, starts, count, task.duration, changes_W);
+  beginFlights(bodies, starts, count, duration, changes_W);
   for (int i = 0; i < count; ++i) {
-    if (takeFlight(*trees[i], task)) continue;
+    if (takeFlight(*trees[i], of[i]->complaints, duration)) continue;
     bodies[i]->outcome.motion = before[i];  // in the place where the tree knows its memory
     if (bodies[i]->surface()) *bodies[i]->floating = baseOf(*trees[i]).start;
   }

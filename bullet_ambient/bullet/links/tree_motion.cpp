@@ -267,13 +267,14 @@ bool prepareTree(AmbientTree& tree, const TreeTask& task) noexcept {
   return true;
 }
 
-void flySingleLinks(AmbientTree* const* trees, int count, const TreeTask& task) noexcept {
-  flyAsBodies(trees, count, task);
+void flySingleLinks(AmbientTree* const* trees, AmbientBodies* const* of, int count,
+                    double duration) noexcept {
+  flyAsBodies(trees, of, count, duration);
   for (int i = 0; i < count; ++i) {
     if (isSolved(*trees[i])) {
       writeVelocity(*trees[i]->multi_body, trees[i]->step.end);
     } else {
-      beginAlone(*trees[i], task);
+      beginAlone(*trees[i], taskOf(*of[i], static_cast<btScalar>(duration)));
     }
   }
 }

@@ -155,8 +155,9 @@ bool fliesAsBody(const AmbientTree& tree) noexcept;
 /// Flies up to kFlightsTogether trees for which fliesAsBody() is true, side by side. Calls
 /// beginFlights() for their links, so that they have the bits of rigid bodies. Writes what
 /// flyTree() does. A flight that is not finite, or turns faster than Bullet can move a multibody,
-/// leaves its tree and the outcome unchanged. @pre prepareLinks()
-void flyAsBodies(AmbientTree* const* trees, int count, const TreeTask& task) noexcept;
+/// leaves its tree and the outcome unchanged. `of`: the fluid of each tree. @pre prepareLinks()
+void flyAsBodies(AmbientTree* const* trees, AmbientBodies* const* of, int count,
+                 double duration) noexcept;
 
 // Motion of a tree in a substep, docs/theory.md section 14, "Rows".
 //
@@ -189,8 +190,9 @@ void flyAsBodies(AmbientTree* const* trees, int count, const TreeTask& task) noe
 bool prepareTree(AmbientTree& tree, const TreeTask& task) noexcept;
 
 /// Flies up to kFlightsTogether trees for which prepareTree() was false, side by side, and sets
-/// their velocities to those at the end of the flights.
-void flySingleLinks(AmbientTree* const* trees, int count, const TreeTask& task) noexcept;
+/// their velocities to those at the end of the flights. `of`: the fluid of each tree.
+void flySingleLinks(AmbientTree* const* trees, AmbientBodies* const* of, int count,
+                    double duration) noexcept;
 
 /// Call after the rows are solved. Sets the velocity that Bullet moves the tree by.
 void finishTree(AmbientTree& tree, const TreeTask& task) noexcept;

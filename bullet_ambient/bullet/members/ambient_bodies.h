@@ -28,6 +28,8 @@ class btMultiBodyDynamicsWorld;
 
 AMBIENT_BEGIN
 
+class FlightQueue;
+
 /// One link of a multibody in a fluid. Regions, water surfaces, drawing and saved states treat it
 /// like a body.
 struct AmbientLink {
@@ -255,8 +257,9 @@ class AmbientBodies : public std::enable_shared_from_this<AmbientBodies> {
   AmbientTrees trees;
   Complaints complaints;
   FluidRegions regions;
-  ModelTables load_tables;  ///< data that several bodies share
-  TaskRunner task_runner;   ///< null: flights run on the thread of the solver
+  ModelTables load_tables;              ///< data that several bodies share
+  TaskRunner task_runner;               ///< null: flights run on the thread of the solver
+  FlightQueue* flight_queue = nullptr;  ///< of worlds that step together; null: it steps alone
   std::function<std::string(const btCollisionObject&)> naming;  ///< Fluid::setNaming()
   std::atomic<unsigned> solved{0};  ///< number of groups solved so far by all solvers of this fluid
   bool has_vessels = false;         ///< true: a body with holds was added

@@ -64,6 +64,12 @@ void keepAwake(AmbientBody& ambient, Outcome kind) noexcept;
 void beginFlights(AmbientBody* const* bodies, const StartStates& starts, int count,
                   double time_step, Twist* changes_W) noexcept;
 
+/// Reports a flight that is not finite, or whose step is too long.
+inline void reportFlight(const AmbientBody& ambient, Complaints& complaints) noexcept {
+  if (ambient.outcome.kind != Outcome::kFlown) complaints.say(Complaint::kNotFinite);
+  if (ambient.outcome.is_too_long) complaints.sayTooLong(*ambient.def);
+}
+
 /// After Bullet has moved the body: gives it the velocity and the attitude of the end of its
 /// flight; where continuous collision detection has stopped it, the attitude there.
 void endFlight(AmbientBody& ambient, double time_step) noexcept;

@@ -65,6 +65,7 @@ class FluidSolver : public Base {
 
   void allSolved(const btContactSolverInfo& info, btIDebugDraw* debug_drawer) override {
     Base::allSolved(info, debug_drawer);
+    group_.passOn();
     if constexpr (kHasMultiBodies) trees_.finish(info);
   }
 

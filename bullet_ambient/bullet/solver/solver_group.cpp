@@ -27,6 +27,7 @@
 #include "bullet_ambient/bullet/rows/row_motion.h"
 #include "bullet_ambient/bullet/rows/row_rewriting.h"
 #include "bullet_ambient/bullet/solver/bounces.h"
+#include "bullet_ambient/bullet/solver/flight_queue.h"
 #include "bullet_ambient/immersed/fluid_reading.h"
 #include "bullet_ambient/motion/flight/flight.h"
 #include "bullet_ambient/motion/rows/row_velocity.h"
@@ -153,7 +154,10 @@ void SolverGroup::findMembers(const GroupBodies& bodies, bool all_stay) noexcept
       members_.push_back({ambient, &object, is_locked, marks.has_rows, marks.is_anchored});
     } else {
       object.setCompanionId(kAlone);
-      flyLater({ambient, kAlone}, nullptr);
+      if (FlightQueue* queue = bodies_.flight_queue)
+        queue->add(*ambient, bodies_, time_step_);
+      else
+        flyLater({ambient, kAlone}, nullptr);
     }
   }
   flyFreely(nullptr);
@@ -198,12 +202,12 @@ void SolverGroup::flyFreely(SolverBodies* solver_bodies) noexcept {
   } else {
     for (int i = 0; i < groups; ++i) fly(i);
   }
-  for (const FreeBody& body : free_) {
-    const SubstepOutcome& outcome = body.ambient->outcome;
-    if (outcome.kind != Outcome::kFlown) bodies_.complaints.say(Complaint::kNotFinite);
-    if (outcome.is_too_long) bodies_.complaints.sayTooLong(*body.ambient->def);
-  }
+  for (const FreeBody& body : free_) reportFlight(*body.ambient, bodies_.complaints);
   free_.clear();
+}
+
+void SolverGroup::passOn() noexcept {
+  if (bodies_.flight_queue) bodies_.flight_queue->goOn();
 }
 
 void SolverGroup::flyTogether(int first, int count, SolverBodies* solver_bodies) const noexcept {
@@ -435,14 +439,12 @@ void TreeGroup::prepare(const btContactSolverInfo& info) noexcept {
   bodies_.solved.fetch_add(1, std::memory_order_relaxed);
   markTurningRows();
   const TreeTask task = taskOf(bodies_, info.m_timeStep);
-  AmbientTree* lone[kFlightsTogether];
-  int count = 0;
+  FlightQueue own;
+  FlightQueue& queue = bodies_.flight_queue ? *bodies_.flight_queue : own;
   forEachTree(*bodies_.trees.world(), bodies_.trees, [&](AmbientTree& tree) {
-    if (prepareTree(tree, task)) return;
-    lone[count++] = &tree;
-    if (count == kFlightsTogether) flySingleLinks(lone, std::exchange(count, 0), task);
+    if (!prepareTree(tree, task)) queue.add(tree, bodies_, task.duration);
   });
-  if (count > 0) flySingleLinks(lone, count, task);
+  own.fly();
 }
 
 const AmbientTrees* TreeGroup::solvedTrees() const noexcept {

@@ -114,6 +114,10 @@ class SolverGroup {
   void finish(SolverBodies& solver_bodies, btConstraintArray& joints,
               const btContactSolverInfo& info) noexcept;
 
+  /// Call when all groups of the world are solved. If it steps together with others: makes their
+  /// steps, and flies the bodies of all.
+  void passOn() noexcept;
+
  private:
   static constexpr int kAlone = -1;  // solver body of a body that Bullet does not convert
 

@@ -1,5 +1,6 @@
 #include "bullet_ambient/fluid.h"
 
+#include <BulletDynamics/Dynamics/btDiscreteDynamicsWorldMt.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 
 #include <cstdio>
@@ -9,6 +10,7 @@
 #include "bullet_ambient/bullet/connection/world_connection.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/bullet/members/attach.h"
+#include "bullet_ambient/bullet/solver/flight_queue.h"
 #include "bullet_ambient/bullet/world/bodies_in_holds.h"
 #include "bullet_ambient/bullet/world/fluid_action.h"
 #include "bullet_ambient/immersed/region_following.h"
@@ -176,5 +178,16 @@ void Fluid::setNaming(std::function<std::string(const btCollisionObject&)> namin
 }
 
 void Fluid::setTaskRunner(TaskRunner runner) { members_->task_runner = std::move(runner); }
+
+void stepTogether(Fluid* const* fluids, int count, const std::function<void(int)>& step) {
+  for (int i = 0; i < count; ++i)
+    if (dynamic_cast<btDiscreteDynamicsWorldMt*>(&fluids[i]->connection_->world()))
+      throw std::invalid_argument("stepTogether: world " + std::to_string(i) +
+                                  " solves on several threads; must be on one");
+  FlightQueue queue(count, &step);
+  for (int i = 0; i < count; ++i) fluids[i]->members_->flight_queue = &queue;
+  queue.goOn();
+  for (int i = 0; i < count; ++i) fluids[i]->members_->flight_queue = nullptr;
+}
 
 AMBIENT_END

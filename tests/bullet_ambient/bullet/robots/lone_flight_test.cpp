@@ -97,6 +97,26 @@ TEST(MultibodiesWithoutJoints, HaveTheSameBitsInAnyCompany) {
   EXPECT_EQ(velocityOf(*all.boxes[9]), velocityOf(*alone.boxes[0]));
 }
 
+TEST(MultibodiesWithoutJoints, StepTogetherWithThoseOfOtherWorlds) {
+  LoneBoxes all({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10});
+  std::vector<std::unique_ptr<LoneBoxes>> worlds;
+  std::vector<Fluid*> fluids;
+  for (const std::vector<int>& numbers : {std::vector<int>{0, 1, 2}, {3}, {4, 5, 6, 7, 8, 9, 10}}) {
+    worlds.push_back(std::make_unique<LoneBoxes>(numbers));
+    fluids.push_back(&worlds.back()->world.fluid);
+  }
+  all.world.step(1 / kLoneHertz, 100);
+  for (int n = 0; n < 100; ++n)
+    stepTogether(fluids.data(), 3, [&](int i) { worlds[i]->world.step(1 / kLoneHertz); });
+  std::size_t number = 0;
+  for (const auto& world : worlds)
+    for (const auto& box : world->boxes) {
+      const btMultiBody& expected = *all.boxes[number++];
+      EXPECT_EQ(box->getBasePos(), expected.getBasePos()) << number;
+      EXPECT_EQ(velocityOf(*box), velocityOf(expected)) << number;
+    }
+}
+
 // In an ideal fluid, turning by more in a step than Bullet turns a multibody.
 TEST(MultibodiesWithoutJoints, KeepTheirEnergyThroughFastTurns) {
   LoneBoxes lone({1});

@@ -29,14 +29,17 @@ const Twist kSpin{Vector3(0.3, 0.2, 1), Vector3::Zero()};
 // Boxes around an ellipsoid of water.
 class Tank {
  public:
-  explicit Tank(std::unique_ptr<WorldHost> host) : host_(std::move(host)) {
+  explicit Tank(std::unique_ptr<WorldHost> host, int number = 0) : host_(std::move(host)) {
     host_->world().setGravity({0, 0, static_cast<btScalar>(-9.81)});
     contents_.add(0, floor_, btTransform(btQuaternion::getIdentity(), btVector3(0, 0, -1)));
     flying_ = &add(1.5, {Quaternion::Identity(), {0, 0, 50}, kSpin});
     sinking_ = &add(2, {Quaternion::Identity(), {6, 0, 0.4}, kSpin});
     addTethered();
+    flying_->setLinearVelocity(bt(0.2 * number) * btVector3(1, 2, 3));
+    sinking_->setLinearVelocity({bt(0.1 * number), 0, 0});
   }
-  void step(int count) { host_->step(kWorldStep, count); }
+  Fluid& fluid() { return host_->fluid(); }
+  void step(int count, double duration = kWorldStep) { host_->step(duration, count); }
   // Without this flag only solvers with pools of their own have one friction row per contact.
   void useTwoFrictionDirections() {
     host_->world().getSolverInfo().m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
@@ -116,6 +119,53 @@ TEST_P(FourWorlds, HoldABuoyantBodyOnItsTether) {
   // The joint yields by its position error of one step.
   EXPECT_LT(tank.tetherStretch(), byPrecision(1e-9, 1e-5));
   EXPECT_LT(angleBetween(readState(tank.tethered()).orientation, start), byPrecision(1e-8, 1e-3));
+}
+
+TEST_P(FourWorlds, StepTogetherWithTheBitsOfEach) {
+  constexpr int kTanks = 9;
+  std::vector<std::unique_ptr<Tank>> together, alone;
+  std::vector<Fluid*> fluids;
+  for (int i = 0; i < kTanks; ++i) {
+    for (auto* tanks : {&together, &alone})
+      tanks->push_back(std::make_unique<Tank>(GetParam().make(true), i));
+    fluids.push_back(&together.back()->fluid());
+  }
+  const auto heightOf = [&](int i) {
+    return together[i]->flying().getWorldTransform().getOrigin();
+  };
+  const auto durationOf = [](int i) { return i < 6 ? kWorldStep : kWorldStep / 2; };
+  for (int n = 0; n < 60; ++n) {
+    const btVector3 before = heightOf(0);
+    const auto step = [&](int i) {
+      EXPECT_EQ(heightOf(0), before) << i;  // Bullet moves the first world last
+      if (n % 7 != i) together[i]->step(1, durationOf(i));
+    };
+    if (usesSolver(GetParam(), "Mt")) {
+      EXPECT_THROW(stepTogether(fluids.data(), kTanks, step), std::invalid_argument);
+      return;
+    }
+    stepTogether(fluids.data(), kTanks, step);
+    for (int i = 0; i < kTanks; ++i) {
+      if (n % 7 != i) alone[i]->step(1, durationOf(i));
+      EXPECT_TRUE(moveAlike(together[i]->flying(), alone[i]->flying())) << i;
+      EXPECT_TRUE(moveAlike(together[i]->sinking(), alone[i]->sinking())) << i;
+      EXPECT_TRUE(moveAlike(together[i]->tethered(), alone[i]->tethered())) << i;
+    }
+    ASSERT_FALSE(HasFailure()) << n;
+  }
+}
+
+TEST(StepTogether, TellsEachFluidOfItsOwnBodies) {
+  FluidWorld calm, torn;
+  for (FluidWorld* each : {&calm, &torn})
+    each->add(BodyDef{}, *unitBallIn(water()).fluid_body, idealFluid(0.1));
+  torn.contents.bodies()[0]->setLinearVelocity({bt(1e38), 0, 0});
+  torn.contents.bodies()[0]->setAngularVelocity({bt(1e38), bt(1e38), 0});
+  FluidWorld* const worlds[] = {&calm, &torn};
+  Fluid* const fluids[] = {&calm.fluid, &torn.fluid};
+  stepTogether(fluids, 2, [&](int i) { worlds[i]->step(kWorldStep); });
+  EXPECT_EQ(calm.said, std::vector<std::string>{});
+  EXPECT_NE(torn.said, std::vector<std::string>{});
 }
 
 class RestingContacts : public FourWorlds {};
