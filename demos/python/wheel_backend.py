@@ -1,8 +1,8 @@
 """Builds the wheel of `pip install ./demos/python`: CMake compiles and installs the component `python`, and this packs it.
 
 A build backend by PEP 517 that takes no more than Python's own library. It builds in build/wheel-*, so that a second
-wheel takes seconds; no option of an earlier call is kept. CMAKE_ARGS in the environment: further options of CMake's, such
-as the place of another Bullet.
+wheel takes seconds; no option of an earlier call is kept. Further options of CMake's, such as the place of another Bullet:
+CMAKE_ARGS in the environment, or `pip install --config-settings NAME=VALUE`, which become -DNAME=VALUE.
 """
 
 import base64
@@ -58,6 +58,7 @@ def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     build = str(ROOT / "build" / f"wheel-{sys.implementation.cache_tag}")
     options = [f"-D{name}={value}" for name, value in OPTIONS.items()] + shlex.split(os.environ.get("CMAKE_ARGS", ""))
+    options += [f"-D{name}={value}" for name, value in (config_settings or {}).items()]
     run("cmake", "--fresh", "-G", "Ninja", "-S", str(ROOT), "-B", build, *options)
     run("cmake", "--build", build, "--target", *TARGETS)
     with tempfile.TemporaryDirectory() as stage:

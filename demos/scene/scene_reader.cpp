@@ -44,7 +44,7 @@ std::vector<fs::path> sceneFolders() {
   const fs::path program = programFolder();
   std::vector<fs::path> folders;
   for (const fs::path& folder :
-       {fs::path("data/scenes"), libraryFolder() / "data/scenes", program / "../../../data/scenes",
+       {libraryFolder() / "data/scenes", fs::path("data/scenes"), program / "../../../data/scenes",
         program / "../share/bullet_ambient/scenes", fs::path(AMBIENT_SOURCE_SCENES)}) {
     std::error_code error;
     const fs::path real = fs::canonical(folder, error);

@@ -8,8 +8,8 @@
 
 namespace ambient {
 
-/// Existing folders of named scenes, in order of priority: ./data/scenes; data/scenes beside the
-/// Python module; the source or install tree of the running program; the source tree that the
+/// Existing folders of named scenes, in order of priority: data/scenes beside the Python module;
+/// ./data/scenes; the source or install tree of the running program; the source tree that the
 /// program was built from.
 std::vector<std::filesystem::path> sceneFolders();
 

@@ -1,6 +1,8 @@
 #include "preprocess/mesh/import/scene_triangles.h"
 
+#include <dlfcn.h>
 #include <fcntl.h>
+#include <link.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -13,6 +15,7 @@
 #include <filesystem>
 #include <sstream>
 #include <stdexcept>
+#include <vector>
 
 #include "preprocess/mesh/input_error.h"
 
@@ -49,11 +52,22 @@ std::string readAll(int descriptor) {
   }
 }
 
-/// The program beside the running one, if there is; else the name, which the PATH is searched for.
+/// The program in `bin` beside the module that has this code, if it is one; beside the running
+/// program; else the name, which the PATH is searched for.
 std::string findProgram(const std::string& name) {
+  static const char here = 0;
+  Dl_info found;
+  void* file = nullptr;
+  std::vector<std::filesystem::path> folders;
+  // The main program has no name here.
+  if (::dladdr1(&here, &found, &file, RTLD_DL_LINKMAP) != 0)
+    if (const std::string module = static_cast<link_map*>(file)->l_name; !module.empty())
+      folders.push_back(std::filesystem::path(module).parent_path() / "bin");
   std::error_code error;
-  const auto beside = std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / name;
-  return std::filesystem::exists(beside, error) ? beside.string() : name;
+  folders.push_back(std::filesystem::read_symlink("/proc/self/exe", error).parent_path());
+  for (const std::filesystem::path& folder : folders)
+    if (std::filesystem::exists(folder / name, error)) return (folder / name).string();
+  return name;
 }
 
 /// Starts a program that writes to `output`; returns the error, 0 if it runs.
