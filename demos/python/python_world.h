@@ -1,12 +1,15 @@
 #pragma once
 
+#include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "demos/simulation/body_preparation.h"
@@ -20,11 +23,13 @@ namespace ambient {
 /// close(). What the library reports is a warning of Python.
 class PythonWorld {
  public:
-  PythonWorld(const Scene& scene, const BodyFolder& cache, bool takes_robots)
+  /// `flow`: as that of Simulation.
+  PythonWorld(const Scene& scene, const BodyFolder& cache, bool takes_robots,
+              const FlowField& flow = nullptr)
       : scene_(scene), fluid_bodies_(cache, scene.threads) {
     {
       const pybind11::gil_scoped_release others_run;
-      simulation_ = std::make_unique<Simulation>(scene, prepare(scene), takes_robots);
+      simulation_ = std::make_unique<Simulation>(scene, prepare(scene), takes_robots, flow);
     }
     warn();
   }
@@ -115,6 +120,41 @@ class PythonWorld {
   std::size_t told_ = 0;      // characters of its warning() that warn() has told
   bool is_stepping_ = false;  // true: a thread steps the world; guarded by the interpreter's lock
 };
+
+constexpr char kLinesText[] =
+    R"(Returns the lines of Bullet's debug drawing: points (L, 2, 3) [m] and colours (L, 3), float32.
+
+drawing : what is drawn of the fluid besides the bodies, after the first step: "separation", "slip_velocity", "pressure",
+    "friction", "buoyancy", "total_wrench", "centre_of_volume", "water_surface", "holds")";
+
+/// Draws a world, see kLinesText. @throws ValueError, one line, if there is no such drawing
+inline pybind11::tuple linesOf(Simulation& simulation, const std::vector<std::string>& drawing) {
+  constexpr std::array<std::pair<bool FluidDrawing::*, const char*>, 9> kDrawings{
+      {{&FluidDrawing::separation, "separation"},
+       {&FluidDrawing::slip_velocity, "slip_velocity"},
+       {&FluidDrawing::pressure, "pressure"},
+       {&FluidDrawing::friction, "friction"},
+       {&FluidDrawing::buoyancy, "buoyancy"},
+       {&FluidDrawing::total_wrench, "total_wrench"},
+       {&FluidDrawing::centre_of_volume, "centre_of_volume"},
+       {&FluidDrawing::water_surface, "water_surface"},
+       {&FluidDrawing::holds, "holds"}}};
+  FluidDrawing what;
+  for (const std::string& word : drawing) {
+    const auto found = valueOf(kDrawings, word);
+    if (!found)
+      throw pybind11::value_error("drawing has \"" + word +
+                                  "\", which help(World.lines) does not list");
+    what.*(*found) = true;
+  }
+  const WorldLines lines = simulation.lines(what);
+  const auto count = static_cast<pybind11::ssize_t>(lines.colours.size() / 3);
+  pybind11::array_t<float> points({count, pybind11::ssize_t{2}, pybind11::ssize_t{3}});
+  pybind11::array_t<float> colours({count, pybind11::ssize_t{3}});
+  std::copy(lines.points.begin(), lines.points.end(), points.mutable_data());
+  std::copy(lines.colours.begin(), lines.colours.end(), colours.mutable_data());
+  return pybind11::make_tuple(points, colours);
+}
 
 /// One robot of a world; keeps the world alive.
 struct PythonRobot {

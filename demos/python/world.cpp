@@ -415,7 +415,13 @@ void bindStates(py::class_<PythonWorld, std::shared_ptr<PythonWorld>>& type) {
           py::arg("state"),
           "Restores a state of this world or of another one of the same scene. The motion then "
           "goes on bit for bit, except where bodies touch each other with several parts of robots' "
-          "links.");
+          "links.")
+      .def(
+          "lines",
+          [](const PythonWorld& w, const std::vector<std::string>& drawing) {
+            return linesOf(w.simulation(), drawing);
+          },
+          py::arg("drawing") = py::tuple(), kLinesText);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "demos/python/arrays.h"
 #include "demos/python/bindings.h"
+#include "demos/python/python_world.h"
 
 namespace ambient {
 namespace {
@@ -173,6 +174,18 @@ void requireWorld(const WorldBatch& batch, int world) {
                           std::to_string(batch.worlds() - 1));
 }
 
+std::shared_ptr<PythonWorld> worldOf(const PythonBatch& batch, int number) {
+  requireWorld(batch.get(), number);
+  const BatchPlan& plan = batch.get().plan();
+  const BatchWorld& from = batch.get().world(number);
+  if (!from.fault().empty())
+    throw py::value_error("world " + std::to_string(number) + " has failed: " + from.fault());
+  auto made =
+      std::make_shared<PythonWorld>(plan.scene, plan.settings.fluid_bodies, false, from.flowNow());
+  from.copyTo(made->simulation());
+  return made;
+}
+
 void bindMemory(py::class_<PythonBatch, std::shared_ptr<PythonBatch>>& type) {
   const auto rows = [&](const char* name, double* (WorldBatch::*data)(), int BatchPlan::*size,
                         const char* text) {
@@ -248,6 +261,17 @@ void bindWorldBatch(py::module_& module) {
           py::arg("world"), py::arg("state"),
           "Puts a world into a state of a world of this batch, or of another one of the same "
           "scene and settings.")
+      .def("world", &worldOf, py::arg("number"),
+           "Returns a World in the state of a world, with its masses, commands and drawn factors; "
+           "its "
+           "current stays as it is now.")
+      .def(
+          "lines",
+          [](const PythonBatch& b, int world, const std::vector<std::string>& drawing) {
+            requireWorld(b.get(), world);
+            return linesOf(b.get().world(world).simulation(), drawing);
+          },
+          py::arg("world"), py::arg("drawing") = py::tuple(), kLinesText)
       .def(
           "fault",
           [](const PythonBatch& b, int world) {

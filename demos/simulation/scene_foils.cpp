@@ -14,8 +14,7 @@ SceneFoils::SceneFoils(const Scene& scene, const std::vector<PreparedBody>& bodi
     placed.def = def;
     placed.command = def.command;
     placed.index = on_bodies[def.body].size();
-    placed.arm = def.foil.position - body.centre_of_mass;
-    placed.origin = body.fluid_origin - body.centre_of_mass;
+    placed.origin_S = body.fluid_origin;
     Foil foil = def.foil;
     foil.position -= body.fluid_origin;
     on_bodies[def.body].push_back(foil);
@@ -23,12 +22,21 @@ SceneFoils::SceneFoils(const Scene& scene, const std::vector<PreparedBody>& bodi
       if (scene.thrusters[i].body == def.body && scene.thrusters[i].propeller)
         placed.thrusters.push_back(i);
     placed_.push_back(std::move(placed));
+    setCentre(def.body, body.centre_of_mass);
   }
   std::vector<std::shared_ptr<Foils>> made(on_bodies.size());
   for (Placed& placed : placed_) {
     std::shared_ptr<Foils>& foils = made[placed.def.body];
     if (!foils) foils = std::make_shared<Foils>(on_bodies[placed.def.body]);
     placed.foils = foils;
+  }
+}
+
+void SceneFoils::setCentre(std::size_t body, const Vector3& centre_of_mass) {
+  for (Placed& placed : placed_) {
+    if (placed.def.body != body) continue;
+    placed.arm = placed.def.foil.position - centre_of_mass;
+    placed.origin = placed.origin_S - centre_of_mass;
   }
 }
 

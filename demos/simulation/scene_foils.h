@@ -34,6 +34,9 @@ class SceneFoils {
   /// @pre finite, one for each foil
   void setAngles(const std::vector<double>& angles);
 
+  /// As Thrusters::setCentre().
+  void setCentre(std::size_t body, const Vector3& centre_of_mass);
+
   /// Lets the angles follow the commands for a step, by implicit Euler as Thrusters do.
   void follow(double time_step);
   /// Gives what the propellers of a foil's own body add to its loads by their wash: wrenches about
@@ -60,7 +63,8 @@ class SceneFoils {
     std::shared_ptr<Foils> foils;        ///< of its body
     std::size_t index = 0;               ///< among these
     Vector3 arm{0, 0, 0};                ///< from the centre of mass, axes of the shape [m]
-    Vector3 origin{0, 0, 0};             ///< of F likewise
+    Vector3 origin_S{0, 0, 0};           ///< of F in the frame of the shape [m]
+    Vector3 origin{0, 0, 0};             ///< of F, from the centre of mass [m]
     std::vector<std::size_t> thrusters;  ///< propellers of its body
     double command = 0;
   };

@@ -33,6 +33,12 @@ constexpr std::array<std::pair<const char*, long long AmbientCounters::*>, 6> kW
      {"too_long", &AmbientCounters::too_long},
      {"halted", &AmbientCounters::halted}}};
 
+/// Lines of a drawn world.
+struct WorldLines {
+  std::vector<float> points;   ///< of both ends of each: x, y, z [m]
+  std::vector<float> colours;  ///< of each: red, green, blue, from 0 to 1
+};
+
 /// All that changes of a simulation from step to step, in memory.
 struct SimulationState {
   long long steps = 0;
@@ -53,6 +59,8 @@ class Simulation {
              const FlowField& flow = nullptr);
   ~Simulation();
 
+  /// Fluids of its Bullet world.
+  Fluid& fluid() { return fluid_; }
   /// Whether its Bullet world is one for robots.
   bool takesRobots() const;
   /// Adds the robots that `scene` has more than the simulation, with their links. `bodies`: results
@@ -128,6 +136,16 @@ class Simulation {
   /// Sets the factors of Immersed::setFactors(); without effect on a body without fluid.
   void setFactors(std::size_t body, double added_mass, double loads);
 
+  /// Multiplies the coefficient of friction of a body.
+  void scaleFriction(std::size_t body, double factor);
+  /// Moves the centre of mass within the body, from where it is after restore() of the start, by an
+  /// offset in axes of the shape [m]; the body stays where it is, and the moments of inertia about
+  /// the centre. Its pose is that of the new centre.
+  /// @pre a rigid body that moves and has no joints; `prepared`: its own
+  void moveCentre(std::size_t body, const PreparedBody& prepared, const Vector3& offset);
+  /// Sets what a saved state has not of that: places of shapes, thrusters and foils.
+  void setCentre(std::size_t body, const PreparedBody& prepared, const Vector3& offset);
+
   /// Medium of the fluid at the centre of mass of a body, as if the body were not there; of a body
   /// without fluid: a vacuum.
   Medium mediumAround(std::size_t body) const;
@@ -135,6 +153,9 @@ class Simulation {
   double surfaceOver(const Vector3& point) const;
   /// Sum of the normal impulses of contacts on a body in the last step [N s].
   double contactImpulse(std::size_t body) const;
+
+  /// Draws bodies, joints and what `drawing` selects, through Bullet's debug drawer.
+  WorldLines lines(const FluidDrawing& drawing);
 
   /// Replaces water and regions by those of another scene, from the next step on.
   /// @throws std::invalid_argument or std::runtime_error, one sentence, if it has another number of
@@ -170,6 +191,8 @@ class Simulation {
   /// Fluids at a point: of its region; without one the medium of a body, or a vacuum.
   RegionSample fluidAround(std::size_t body, const Vector3& point) const;
   btRigidBody& rigidBody(std::size_t body);
+  /// Null: a link without a collider.
+  btCollisionObject* objectOf(std::size_t body) const;
   std::shared_ptr<const FluidBody> findFluidBody(const std::string& name) const;
   MotionSample sample(const WorldBody& of) const;
   /// Applies a wrench during the next step: about the centre of mass, axes of W.

@@ -2,6 +2,7 @@
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
 #include <limits>
+#include <utility>
 
 #include "bullet_ambient/bullet/core/conversions.h"
 #include "demos/scene/scene_water.h"
@@ -27,6 +28,24 @@ FlowField sumOf(const FlowField& a, const FlowField& b) {
     return FlowSample{x.velocity + y.velocity, x.acceleration + y.acceleration};
   };
 }
+
+/// Keeps the lines that Bullet asks it to draw.
+class LineKeeper : public btIDebugDraw {
+ public:
+  WorldLines lines;
+
+  void drawLine(const btVector3& from, const btVector3& to, const btVector3& colour) override {
+    for (const btVector3& end : {from, to})
+      for (int k = 0; k < 3; ++k) lines.points.push_back(static_cast<float>(end[k]));
+    for (int k = 0; k < 3; ++k) lines.colours.push_back(static_cast<float>(colour[k]));
+  }
+  void drawContactPoint(const btVector3&, const btVector3&, btScalar, int,
+                        const btVector3&) override {}
+  void reportErrorWarning(const char*) override {}
+  void draw3dText(const btVector3&, const char*) override {}
+  void setDebugMode(int) override {}
+  int getDebugMode() const override { return DBG_DrawWireframe | DBG_DrawConstraints; }
+};
 
 void scale(btScalar& mass, btVector3& inertia, double by_mass, double by_moments) {
   mass *= static_cast<btScalar>(by_mass);
@@ -84,14 +103,26 @@ double Simulation::surfaceOver(const Vector3& point) const {
   return std::numeric_limits<double>::infinity();
 }
 
-double Simulation::contactImpulse(std::size_t body) const {
+WorldLines Simulation::lines(const FluidDrawing& drawing) {
+  LineKeeper keeper;
+  fluid_.drawing = drawing;
+  bullet_.world->setDebugDrawer(&keeper);
+  bullet_.world->debugDrawWorld();
+  bullet_.world->setDebugDrawer(nullptr);
+  fluid_.drawing = {};
+  return std::move(keeper.lines);
+}
+
+btCollisionObject* Simulation::objectOf(std::size_t body) const {
   const WorldBody& of = bodies_.at(body);
-  const btCollisionObject* object = of.body.get();
-  if (of.link) {
-    const btMultiBody& multi_body = multiBodyOf(of);
-    const int number = of.linkNumber();
-    object = number < 0 ? multi_body.getBaseCollider() : multi_body.getLinkCollider(number);
-  }
+  if (!of.link) return of.body.get();
+  btMultiBody& multi_body = multiBodyOf(of);
+  const int number = of.linkNumber();
+  return number < 0 ? multi_body.getBaseCollider() : multi_body.getLinkCollider(number);
+}
+
+double Simulation::contactImpulse(std::size_t body) const {
+  const btCollisionObject* object = objectOf(body);
   btDispatcher& contacts = *bullet_.world->getDispatcher();
   double sum = 0;
   for (int i = 0; i < contacts.getNumManifolds(); ++i) {
@@ -112,6 +143,7 @@ void Simulation::scaleMass(std::size_t body, double mass, double moments) {
     btVector3 inertia = toBullet(toVector3(scaled.getInvInertiaDiagLocal()).cwiseInverse());
     scale(own, inertia, mass, moments);
     scaled.setMassProps(own, inertia);
+    scaled.setGravity(scaled.getGravity());  // as a restored state has it, to the last bit
     scaled.updateInertiaTensor();
     return;
   }
@@ -126,6 +158,47 @@ void Simulation::scaleMass(std::size_t body, double mass, double moments) {
   scale(own, inertia, mass, moments);
   scaled.setBaseMass(own);
   scaled.setBaseInertia(inertia);
+}
+
+void Simulation::scaleFriction(std::size_t body, double factor) {
+  if (btCollisionObject* object = objectOf(body))
+    object->setFriction(object->getFriction() * static_cast<btScalar>(factor));
+}
+
+void Simulation::moveCentre(std::size_t body, const PreparedBody& prepared, const Vector3& offset) {
+  const MotionSample start = sample(body);
+  const Vector3 way = start.orientation * offset;
+  setCentre(body, prepared, offset);
+  btRigidBody& moved = rigidBody(body);
+  btTransform pose = moved.getWorldTransform();
+  pose.setOrigin(toBullet(Vector3(start.position + way)));
+  moved.setCenterOfMassTransform(pose);
+  moved.setLinearVelocity(toBullet(start.twist.at(way)));
+  const WorldBody& of = bodies_[body];
+  if (!of.immersed) return;
+  FrameOffset frame;
+  frame.rotation = of.R_SB.transpose();
+  frame.translation =
+      of.R_SB.transpose() * (prepared.fluid_origin - (prepared.centre_of_mass + offset));
+  of.immersed->setFluidBody(prepared.fluid_body, frame);
+}
+
+void Simulation::setCentre(std::size_t body, const PreparedBody& prepared, const Vector3& offset) {
+  thrusters_.setCentre(body, prepared.centre_of_mass + offset);
+  foils_.setCentre(body, prepared.centre_of_mass + offset);
+  WorldBody& of = bodies_.at(body);
+  // Shapes of bodies that move are compounds.
+  auto& shape = static_cast<btCompoundShape&>(*of.shape.root());
+  if (of.children.empty())
+    for (int i = 0; i < shape.getNumChildShapes(); ++i)
+      of.children.push_back(shape.getChildTransform(i));
+  const btVector3 way = toBullet(Vector3(of.R_SB.transpose() * offset));
+  for (int i = 0; i < shape.getNumChildShapes(); ++i) {
+    btTransform place = of.children[static_cast<std::size_t>(i)];
+    place.setOrigin(place.getOrigin() - way);
+    shape.updateChildTransform(i, place, false);
+  }
+  shape.recalculateLocalAabb();
 }
 
 void Simulation::setFactors(std::size_t body, double added_mass, double loads) {

@@ -7,12 +7,23 @@
 namespace ambient {
 
 Thrusters::Thrusters(const Scene& scene, const std::vector<PreparedBody>& bodies)
-    : defs_(scene.thrusters), factors_(defs_.size()), states_(defs_.size()) {
+    : defs_(scene.thrusters),
+      arms_(defs_.size()),
+      per_thrust_(defs_.size()),
+      factors_(defs_.size()),
+      states_(defs_.size()) {
   for (const ThrusterDef& def : defs_) {
     commands_.push_back(def.command);
-    arms_.push_back(def.position - bodies[def.body].centre_of_mass);
-    per_thrust_.push_back(
-        {arms_.back().cross(def.axis) + def.torque_per_thrust * def.axis, def.axis});
+    setCentre(def.body, bodies[def.body].centre_of_mass);
+  }
+}
+
+void Thrusters::setCentre(std::size_t body, const Vector3& centre_of_mass) {
+  for (std::size_t i = 0; i < defs_.size(); ++i) {
+    const ThrusterDef& def = defs_[i];
+    if (def.body != body) continue;
+    arms_[i] = def.position - centre_of_mass;
+    per_thrust_[i] = {arms_[i].cross(def.axis) + def.torque_per_thrust * def.axis, def.axis};
   }
 }
 

@@ -48,6 +48,10 @@ class Thrusters {
   /// Multiplies the thrusts of a thruster, and its lag; both 1 at first.
   void setFactors(std::size_t index, double thrust, double lag);
 
+  /// Sets the places of the thrusters of a body for another centre of mass, in axes of the shape
+  /// [m].
+  void setCentre(std::size_t body, const Vector3& centre_of_mass);
+
   /// Lets the drives follow the commands for a step h, by implicit Euler: T += (F - T) h / (lag +
   /// h), F the drive of the command.
   void follow(double time_step);

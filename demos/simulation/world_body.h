@@ -38,6 +38,7 @@ struct WorldBody {
   bool is_at_start = true;             ///< false: it was put elsewhere before the first step
   Matrix3 R_SB = Matrix3::Identity();  ///< rotation from B's axes to S's
   CollisionShape shape;
+  std::vector<btTransform> children;  ///< parts of the shape as made; empty: they have not moved
   std::unique_ptr<btRigidBody> body;  ///< null: the body is a link of a robot
   std::optional<SceneLink> link;      ///< none: the body is a rigid body
   std::shared_ptr<const FluidBody> fluid_body;

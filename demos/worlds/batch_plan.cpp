@@ -38,8 +38,12 @@ void requireFinite(const std::string& key, double value, bool is_fine, const cha
 
 /// Whether it varies one body; else all of the world.
 bool isOfBody(VariationKind kind) {
-  return kind <= VariationKind::kLoads ||
+  return kind <= VariationKind::kCentreOfMass ||
          (kind >= VariationKind::kPosition && kind <= VariationKind::kTwist);
+}
+
+bool isFactorFromZero(VariationKind kind) {
+  return kind == VariationKind::kLag || kind == VariationKind::kFriction;
 }
 
 /// Repeats a single number for all of a field.
@@ -56,6 +60,7 @@ std::vector<double> boundsOf(const std::string& key, std::vector<double> bounds,
 BatchPlan::BatchPlan(const Scene& from, const BatchSettings& with) : scene(from), settings(with) {
   requireFinite("worlds", settings.worlds, settings.worlds >= 1, ">= 1");
   requireFinite("substeps", settings.substeps, settings.substeps >= 1, ">= 1");
+  requireFinite("together", settings.together, settings.together >= 1, ">= 1");
   requireFinite("most_steps", static_cast<double>(settings.most_steps), settings.most_steps >= 0,
                 ">= 0");
   if (const auto& gust = settings.gust) {
@@ -108,6 +113,7 @@ int BatchPlan::sizeOf(VariationKind kind) const {
     case VariationKind::kTwist:
       return 6;
     case VariationKind::kCurrent:
+    case VariationKind::kCentreOfMass:
     case VariationKind::kPosition:
     case VariationKind::kAttitude:
     case VariationKind::kTarget:
@@ -145,6 +151,16 @@ void BatchPlan::requireMoving(const std::string& key, std::size_t body) const {
     raiseInputError(key, "names the body \"", scene.bodies[body].name, "\", which is static");
 }
 
+void BatchPlan::requireMovableCentre(const std::string& key, std::size_t body) const {
+  requireMoving(key, body);
+  const std::string& name = scene.bodies[body].name;
+  if (scene.bodies[body].link)
+    raiseInputError(key, "names \"", name, "\", a link of a robot; must be a rigid body");
+  for (const JointDef& joint : scene.joints)
+    if (std::count(joint.bodies.begin(), joint.bodies.end(), name) > 0)
+      raiseInputError(key, "names the body \"", name, "\"; must have no joints");
+}
+
 void BatchPlan::addAction(const ActionDef& def) {
   const std::string key = "actions[" + std::to_string(actions.size()) + "]";
   const ActionKind kind = kindOf(key, kActionNames, def.kind);
@@ -168,6 +184,7 @@ void BatchPlan::addVariation(const VariationDef& def) {
     raiseInputError(key, "is a factor on gusts, and there are none");
   const std::size_t body = bodyOf(key, def.body);
   if (kind <= VariationKind::kInertia) requireMoving(key, body);
+  if (kind == VariationKind::kCentreOfMass) requireMovableCentre(key, body);
   for (const VariationField& other : variations)
     if (other.kind == kind && (other.body == body || !isOfBody(kind)))
       raiseInputError(key, "is given twice");
@@ -182,7 +199,7 @@ void BatchPlan::addVariation(const VariationDef& def) {
     if (!(v.lowest[i] <= v.highest[i]))
       raiseInputError(key, "is from ", v.lowest[i], " to ", v.highest[i], "; must not fall");
     requireFinite(key, v.lowest[i], v.lowest[i] > 0 || !(is_factor || v.is_logarithmic), "> 0");
-    requireFinite(key, v.lowest[i], v.lowest[i] >= 0 || kind != VariationKind::kLag, ">= 0");
+    requireFinite(key, v.lowest[i], v.lowest[i] >= 0 || !isFactorFromZero(kind), ">= 0");
     if (!v.is_logarithmic) continue;
     v.lowest[i] = portable::log(v.lowest[i]);
     v.highest[i] = portable::log(v.highest[i]);

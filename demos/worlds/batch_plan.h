@@ -90,6 +90,7 @@ struct BatchPlan {
   std::vector<int> rowsOf(const std::string& key, std::vector<int> rows, int size);
   void requireMotors(const std::string& key, const std::vector<int>& rows) const;
   void requireMoving(const std::string& key, std::size_t body) const;
+  void requireMovableCentre(const std::string& key, std::size_t body) const;
   void addAction(const ActionDef& def);
   void addVariation(const VariationDef& def);
   void addObservation(const ObservationDef& def);

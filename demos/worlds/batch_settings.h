@@ -37,6 +37,8 @@ enum class VariationKind {
   kInertia,        ///< factor on moments of inertia
   kAddedMass,      ///< AttachDef::added_mass_factor
   kLoads,          ///< AttachDef::load_factor
+  kFriction,       ///< factor on the coefficient of friction
+  kCentreOfMass,   ///< offset of the centre of mass in axes of the body's shape [m], 3
   kThrust,         ///< factors on the T thrusts
   kLag,            ///< factor on the lags of all thrusters
   kCurrent,        ///< velocity of all fluids besides that of the scene [m/s], 3
@@ -48,11 +50,13 @@ enum class VariationKind {
   kJointPosition,  ///< added to the J positions at the start [rad] or [m]
   kTarget          ///< the world's target, a point [m], 3
 };
-constexpr std::array<std::pair<VariationKind, const char*>, 14> kVariationNames{
+constexpr std::array<std::pair<VariationKind, const char*>, 16> kVariationNames{
     {{VariationKind::kMass, "mass"},
      {VariationKind::kInertia, "inertia"},
      {VariationKind::kAddedMass, "added_mass"},
      {VariationKind::kLoads, "loads"},
+     {VariationKind::kFriction, "friction"},
+     {VariationKind::kCentreOfMass, "centre_of_mass"},
      {VariationKind::kThrust, "thrust"},
      {VariationKind::kLag, "lag"},
      {VariationKind::kCurrent, "current"},
@@ -105,6 +109,7 @@ struct BatchSettings {
   int worlds = 1;
   int substeps = 1;          ///< steps of the scene in an env step
   int threads = 0;           ///< 0: all cores
+  int together = 8;          ///< worlds whose flights are computed side by side; 1: each alone
   std::uint64_t seed = 0;    ///< world i has seed + i
   long long most_steps = 0;  ///< env steps after which a world is truncated; 0: never
   std::vector<ActionDef> actions = {};

@@ -72,9 +72,16 @@ void BatchWorld::applyMass(std::size_t body) {
   };
   const double mass = factor(VariationKind::kMass), moments = factor(VariationKind::kInertia);
   if (mass != 1 || moments != 1) simulation_->scaleMass(body, mass, mass * moments);
+  const double friction = factor(VariationKind::kFriction);
+  if (friction != 1) simulation_->scaleFriction(body, friction);
   const BodyDef& def = plan_.scene.bodies[body];
   simulation_->setFactors(body, def.attach.added_mass_factor * factor(VariationKind::kAddedMass),
                           def.attach.load_factor * factor(VariationKind::kLoads));
+}
+
+void BatchWorld::moveCentre(std::size_t body) {
+  if (const double* offset = find(VariationKind::kCentreOfMass, body))
+    simulation_->moveCentre(body, plan_.bodies[body], vectorAt(offset));
 }
 
 void BatchWorld::placeBody(std::size_t body) {
@@ -111,14 +118,20 @@ void BatchWorld::placeBody(std::size_t body) {
   if (twist) robot.setTwist(faster(plan_.scene.robots[link->robot].fixed_base ? Twist{} : base));
 }
 
-void BatchWorld::setFlowAndThrusters() {
+void BatchWorld::setHardware(Simulation& simulation) const {
   const double* thrusts = find(VariationKind::kThrust);
   const double* lag = find(VariationKind::kLag);
+  for (std::size_t i = 0; i < simulation.thrusters().size(); ++i)
+    simulation.thrusters().setFactors(i, thrusts ? thrusts[i] : 1, lag ? *lag : 1);
+  for (const VariationField& v : plan_.variations)
+    if (v.kind == VariationKind::kCentreOfMass)
+      simulation.setCentre(v.body, plan_.bodies[v.body],
+                           vectorAt(rows_.parameters + v.field.offset));
+}
+
+void BatchWorld::setFlowAndThrusters() {
   Thrusters& thrusters = simulation_->thrusters();
-  for (std::size_t i = 0; i < thrusters.size(); ++i) {
-    thrusters.setFactors(i, thrusts ? thrusts[i] : 1, lag ? *lag : 1);
-    thrusters.command(i, thrusters.def(i).command);
-  }
+  for (std::size_t i = 0; i < thrusters.size(); ++i) thrusters.command(i, thrusters.def(i).command);
   SceneFoils& foils = simulation_->foils();
   for (std::size_t i = 0; i < foils.size(); ++i) foils.command(i, foils.def(i).command);
   const double* target = find(VariationKind::kTarget);
@@ -130,6 +143,7 @@ void BatchWorld::setFlowAndThrusters() {
 }
 
 void BatchWorld::apply() {
+  setHardware(*simulation_);
   setFlowAndThrusters();
   drawGust();
   if (flow_) flow_->at(0, plan_.envStep());
@@ -142,6 +156,7 @@ void BatchWorld::apply() {
   for (std::size_t body = 0; body < plan_.bodies.size(); ++body) {
     const auto varies = [body](const VariationField& v) { return v.body == body; };
     if (std::none_of(plan_.variations.begin(), plan_.variations.end(), varies)) continue;
+    moveCentre(body);
     placeBody(body);
     applyMass(body);
   }
@@ -253,25 +268,35 @@ void BatchWorld::act(bool is_first) {
   }
 }
 
-void BatchWorld::step() {
-  if (!fault_.empty()) return;
-  if (!isActionFinite()) return observe();
+bool BatchWorld::begin() {
+  if (!fault_.empty()) return false;
+  if (!isActionFinite()) {
+    observe();
+    return false;
+  }
   ++steps_;
   drawGust();
+  return true;
+}
+
+void BatchWorld::substep(int k) noexcept {
+  if (!fault_.empty()) return;
+  const int substeps = plan_.settings.substeps;
   try {
-    for (int k = 0; k < plan_.settings.substeps && fault_.empty(); ++k) {
-      if (flow_) flow_->at(static_cast<double>(k) / plan_.settings.substeps, plan_.envStep());
-      act(k == 0);
-      if (k == plan_.settings.substeps - 1)
-        for (std::size_t i = 0; i < before_.size(); ++i)
-          before_[i] = simulation_->sample(plan_.accelerated[i]).twist;
-      simulation_->stepUnchecked();
-      if (auto sentence = simulation_->fault()) fail(std::move(*sentence));
-    }
-    if (flow_) flow_->at(1, plan_.envStep());
+    if (flow_) flow_->at(static_cast<double>(k) / substeps, plan_.envStep());
+    act(k == 0);
+    if (k == substeps - 1)
+      for (std::size_t i = 0; i < before_.size(); ++i)
+        before_[i] = simulation_->sample(plan_.accelerated[i]).twist;
+    simulation_->stepUnchecked();
+    if (auto sentence = simulation_->fault()) fail(std::move(*sentence));
   } catch (const std::exception& error) {
     fail(error.what());
   }
+}
+
+void BatchWorld::end() {
+  if (flow_) flow_->at(1, plan_.envStep());
   observe();
 }
 
@@ -301,6 +326,9 @@ void BatchWorld::observe() {
       view.to_W = view.now.orientation.toRotationMatrix();
     }
     view.field = &observation;
+    view.place = observation.place;
+    if (const double* offset = find(VariationKind::kCentreOfMass, observation.body))
+      view.place -= vectorAt(offset);
     if (steps_ > 0 && observation.accelerated >= 0)
       view.before = before_[static_cast<std::size_t>(observation.accelerated)];
     observation.read(view, numbers_.data());
@@ -332,8 +360,28 @@ struct BatchWorld::Head {
   double gust[6] = {};
 };
 
-std::string BatchWorld::saveState() const {
+FlowField BatchWorld::flowNow() const {
+  if (!flow_) return nullptr;
+  const FlowSample now{flow_->now.velocity, Vector3::Zero()};
+  return [now](const Vector3&, double) { return now; };
+}
+
+void BatchWorld::copyTo(Simulation& other) const {
+  other.restoreState(saveSimulation());
+  setHardware(other);
+  for (std::size_t i = 0; i < other.thrusters().size(); ++i)
+    other.thrusters().command(i, simulation_->thrusters().command(i));
+  for (std::size_t i = 0; i < other.foils().size(); ++i)
+    other.foils().command(i, simulation_->foils().command(i));
+}
+
+std::string BatchWorld::saveSimulation() const {
   if (!fault_.empty()) throw std::runtime_error("a world that has failed has no state: " + fault_);
+  return simulation_->saveState();
+}
+
+std::string BatchWorld::saveState() const {
+  const std::string simulation = saveSimulation();
   Head head;
   head.seed = seed_;
   head.episodes = episodes_;
@@ -346,7 +394,7 @@ std::string BatchWorld::saveState() const {
   bytes.append(reinterpret_cast<const char*>(rows_.parameters),
                static_cast<std::size_t>(plan_.parameter_size) * sizeof(double));
   bytes.append(reinterpret_cast<const char*>(before_.data()), before_.size() * sizeof(Twist));
-  return bytes + simulation_->saveState();
+  return bytes + simulation;
 }
 
 void BatchWorld::restoreState(std::string_view bytes) {
@@ -372,6 +420,7 @@ void BatchWorld::restoreState(std::string_view bytes) {
   episodes_ = head.episodes;
   steps_ = head.steps;
   fault_.clear();
+  setHardware(*simulation_);
   setFlowAndThrusters();
   if (flow_) {
     flow_->gust_before = vectorAt(head.gust);

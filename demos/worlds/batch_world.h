@@ -33,14 +33,25 @@ class BatchWorld {
   void reset(const SimulationState& start, bool draws);
   /// Begins again with another seed, before reset().
   void setSeed(std::uint64_t seed);
-  /// Makes one env step, or nothing if the world has failed. Sets the sensors.
-  void step();
+  /// Begins an env step, or sets the sensors if the world has failed. Returns whether it has begun.
+  bool begin();
+  /// Makes the k-th substep, or nothing if the world has failed since. Between begin() and end().
+  void substep(int k) noexcept;
+  /// Ends the env step, and sets the sensors.
+  void end();
 
   bool isTruncated() const;
   const std::string& fault() const { return fault_; }  ///< empty: the world has not failed
   /// Episodes begun since the seed was set.
   std::uint64_t episode() const { return episodes_; }
   long long steps() const { return steps_; }  ///< env steps of this episode
+
+  Simulation& simulation() { return *simulation_; }
+  /// Present current and gust, as a flow that stays.
+  FlowField flowNow() const;
+  /// Puts a simulation of the same scene into the state of this world.
+  /// @throws std::runtime_error if this one has failed
+  void copyTo(Simulation& other) const;
 
   std::string saveState() const;
   /// @throws std::runtime_error if the bytes are damaged or of another batch.
@@ -62,8 +73,12 @@ class BatchWorld {
   const double* find(VariationKind kind, std::size_t body = kAny) const;
   void apply();
   void applyMass(std::size_t body);
+  void moveCentre(std::size_t body);
   void placeBody(std::size_t body);
   void setFlowAndThrusters();
+  /// Sets what a state of a simulation has not: factors of thrusters, centres of mass.
+  void setHardware(Simulation& simulation) const;
+  std::string saveSimulation() const;
   void drawGust();
   bool isActionFinite();
   void command(const ActionField& field);

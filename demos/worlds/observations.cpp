@@ -17,7 +17,7 @@ void put(const Vector& v, double* to) {
 }
 
 Vector3 inBody(View v, const Vector3& x_W) { return v.to_W.transpose() * x_W; }
-Vector3 placeOf(View v) { return v.now.position + v.to_W * v.field->place; }
+Vector3 placeOf(View v) { return v.now.position + v.to_W * v.place; }
 
 void readRotation(View v, double* to) {
   for (Eigen::Index i = 0; i < 9; ++i) to[i] = v.to_W(i / 3, i % 3);
@@ -31,7 +31,7 @@ void readHeading(View v, double* to) {
 
 void readImu(View v, double* to) {
   const Twist& now = v.now.twist;
-  const Vector3 arm = v.to_W * v.field->place;
+  const Vector3 arm = v.to_W * v.place;
   Vector3 specific = -v.plan.scene.gravity + now.angular.cross(now.angular.cross(arm));
   if (v.before) {
     const double step = v.plan.scene.time_step;
@@ -78,7 +78,7 @@ const ObservationKind kKinds[] = {
     {"imu", 6, readImu},
     {"velocity_log", 3,
      [](View v, double* to) {
-       const Vector3 arm = v.to_W * v.field->place;
+       const Vector3 arm = v.to_W * v.place;
        put(inBody(v, v.now.twist.linear + v.now.twist.angular.cross(arm)), to);
      }},
     {"depth", 1, readDepth},

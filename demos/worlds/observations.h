@@ -13,7 +13,8 @@ struct ObservationView {
   const double* parameters;
   const ObservationField* field = nullptr;
   Vector3 target{0, 0, 0};
-  double time_share = 0;  ///< env steps made, over BatchSettings::most_steps; 0: no limit
+  Vector3 place{0, 0, 0};  ///< of a sensor, from the centre of mass, axes of the shape [m]
+  double time_share = 0;   ///< env steps made, over BatchSettings::most_steps; 0: no limit
   std::optional<Twist> before = {};  ///< for an imu: before the last substep, in W; none: a reset
   MotionSample now = {};
   Matrix3 to_W = Matrix3::Identity();  ///< axes of the body's shape to W

@@ -38,6 +38,8 @@ class ThreadPool {
   ThreadPool(const ThreadPool&) = delete;
   ThreadPool& operator=(const ThreadPool&) = delete;
 
+  std::size_t threads() const { return shares_.size(); }
+
   /// Calls body(i) once for every i in [0, count), in any order; `body` must not throw. Returns
   /// when all calls have returned.
   template <class Body>

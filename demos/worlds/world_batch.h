@@ -53,12 +53,19 @@ class WorldBatch {
   /// @throws std::runtime_error or std::invalid_argument if the bytes are damaged or of another
   /// batch
   void restore(int world, std::string_view bytes);
+  /// A world, numbered from 0.
+  BatchWorld& world(int number) { return at(number); }
   /// Why a world has failed; empty: it has not.
   const std::string& fault(int world) const { return at(world).fault(); }
 
  private:
   BatchWorld& at(int world) const { return *worlds_.at(static_cast<std::size_t>(world)); }
   void tell(std::size_t world);
+  /// Calls work(first, end) for groups of worlds that step together, on all threads.
+  template <class Work>
+  void forGroups(const Work& work);
+  /// Makes one env step of the worlds of a group; those with reset[i] != 0 are reset in its place.
+  void stepGroup(std::size_t first, std::size_t end, const std::uint8_t* reset);
 
   const BatchPlan plan_;
   std::vector<double> actions_, parameters_, observations_;

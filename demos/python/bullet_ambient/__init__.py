@@ -4,12 +4,6 @@ SI units throughout; 6-vectors hold rotation first; quaternions are w, x, y, z. 
 ValueError, files that cannot be used OSError, in one line that says what is wrong.
 """
 
-import os as _os
-from pathlib import Path as _Path
-
-# ambient_mesh_reader, the program that reads mesh files, is in bin beside the module: before one of another version.
-_os.environ["PATH"] = _os.pathsep.join([str(_Path(__file__).parent / "bin"), _os.environ.get("PATH", _os.defpath)])
-
 from ._core import (
     Body,
     FluidBody,
@@ -26,6 +20,7 @@ from ._core import (
 from .cases import CaseCounts, collect, run_cases, write_cases
 from .settings import FlowSettings, Medium
 from .sweeps import Rollout, rollout
+from .tasks import Station
 from .vector_env import VectorEnv
 from .worlds import Gust, WorldBatch, act, observe
 
@@ -43,6 +38,7 @@ __all__ = [
     "Robot",
     "Rollout",
     "Scene",
+    "Station",
     "VectorEnv",
     "World",
     "WorldBatch",

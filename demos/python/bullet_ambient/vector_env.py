@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import importlib
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from .line_picture import camera_for, picture
 from .worlds import WorldBatch
 
 
@@ -46,6 +48,7 @@ try:
 except ImportError:
     pass
 
+_RENDERED = ["rgb_array", "lines"]
 _MODES = {"next_step": "NextStep", "same_step": "SameStep", "disabled": "Disabled"}
 
 
@@ -62,6 +65,9 @@ class VectorEnv(_Base):  # type: ignore[misc]
         the call that ends an episode resets, with the last observations in infos["final_obs"]; "disabled": reset() alone does
     copy : False: observations are overwritten by the next call
     dtype : of the observations
+    render_mode : what render() returns of each world: "rgb_array", a picture; "lines", those of WorldBatch.lines(); None: nothing
+    drawing : what they show of the fluid, as in WorldBatch.lines()
+    camera : (eye, at), places of the camera and of what it looks at, (3,) each [m]; None: all lines of the first picture
 
     >>> class Fall(VectorEnv):
     ...     def reward(self, batch):
@@ -74,14 +80,26 @@ class VectorEnv(_Base):  # type: ignore[misc]
     """
 
     def __init__(
-        self, batch: Any, worlds: int = 1, *, autoreset: str = "next_step", copy: bool = True, dtype: Any = np.float32, **settings: Any
+        self,
+        batch: Any,
+        worlds: int = 1,
+        *,
+        autoreset: str = "next_step",
+        copy: bool = True,
+        dtype: Any = np.float32,
+        render_mode: str | None = None,
+        drawing: Sequence[str] = (),
+        camera: Any = None,
+        **settings: Any,
     ) -> None:
+        if render_mode not in (None, *_RENDERED):
+            raise ValueError(f"render_mode is {render_mode!r}; must be None or one of {_RENDERED}")
         if autoreset not in _MODES:
             raise ValueError(f"autoreset is {autoreset!r}; must be one of {sorted(_MODES)}")
         self.batch = batch if isinstance(batch, WorldBatch) else WorldBatch(batch, worlds, **settings)
-        self.num_envs, self.closed, self.spec, self.render_mode = self.batch.worlds, False, None, None
-        self.metadata = {"autoreset_mode": _Mode(_MODES[autoreset]), "render_modes": []}
-        self._mode, self._copy = autoreset, copy
+        self.num_envs, self.closed, self.spec, self.render_mode = self.batch.worlds, False, None, render_mode
+        self.metadata = {"autoreset_mode": _Mode(_MODES[autoreset]), "render_modes": _RENDERED}
+        self._mode, self._copy, self._drawing, self._camera = autoreset, copy, list(drawing), camera
         self._done = np.zeros(self.num_envs, bool)
         bound = np.full(self.batch.actions.shape[1], np.inf)
         for name, at, size in self.batch.action_fields:
@@ -168,6 +186,17 @@ class VectorEnv(_Base):  # type: ignore[misc]
         if self.batch.failed.any():
             self._observations[self.batch.failed] = 0
         return self._observations.copy() if self._copy else self._observations
+
+    def render(self) -> tuple[Any, ...] | None:
+        """Returns what `render_mode` says, one for each world: pictures (360, 480, 3) uint8, or points and colours of lines."""
+        if self.render_mode is None:
+            return None
+        drawn = [self.batch.lines(i, self._drawing) for i in range(self.num_envs)]
+        if self.render_mode == "lines":
+            return tuple(drawn)
+        if self._camera is None:
+            self._camera = camera_for(np.concatenate([points for points, _ in drawn]))
+        return tuple(picture(points, colours, *self._camera) for points, colours in drawn)
 
     def close(self, **_: Any) -> None:
         """Ends the use of the environment; the batch stays."""

@@ -7,17 +7,13 @@ import numpy as np
 from cma import Cma
 
 import bullet_ambient as ba
+from bullet_ambient.tasks import STATION, station_cost
 
-STEPS = 200  # env steps of 0.05 s
-# Published drags of nearly this vehicle differ by 5 to 10 times, and added masses by 2 to 3 times: docs/worlds.md.
-VARY = {"loads": (0.5, 1.5), "added_mass": (0.5, 1.3), "mass": (0.98, 1.02), "position": (-1, 1), "attitude": (-0.3, 0.3),
-        "current": ((-0.4, -0.4, -0.1), (0.4, 0.4, 0.1))}
+STEPS = STATION["most_steps"]
 
 
 def make(worlds, seed, cache=None):
-    observations = ["target", ba.observe("rotation", rows=[3, 6, 7]), "twist"]
-    return ba.WorldBatch("rov_station", worlds, substeps=10, most_steps=STEPS, seed=seed, actions=["thrusters"],
-                         observations=observations, vary=VARY, gust=ba.Gust(0.05, 3.0), cache=cache)
+    return ba.WorldBatch("rov_station", worlds, seed=seed, cache=cache, **STATION)
 
 
 def features(batch):
@@ -30,10 +26,9 @@ def play(batch, weights):
     for n in range(STEPS):
         batch.actions[:] = np.tanh(np.einsum("nf,nfa->na", features(batch), weights))
         batch.step()
-        away = np.linalg.norm(batch["target"], axis=1)
-        cost += away + 0.5 * np.abs(batch["rotation"][:, 0]) + 0.02 * (batch.actions**2).mean(1)
+        cost += station_cost(batch)
         if n >= STEPS // 2:
-            distance += away
+            distance += np.linalg.norm(batch["target"], axis=1)
     return np.where(batch.failed, 100, cost / STEPS), distance / (STEPS - STEPS // 2)
 
 

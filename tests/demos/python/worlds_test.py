@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Worlds at once from Python, and VectorEnv against Gymnasium's rules, by a plain loop over single worlds."""
 
+import subprocess
 import sys
 import threading
 import unittest
@@ -126,6 +127,55 @@ class VectorEnvTest(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "autoreset"):
             Drift(SCENE, WORLDS, autoreset="never", **MORE)
 
+    def test_pictures(self):
+        env = Drift(SCENE, 2, render_mode="rgb_array", drawing=["buoyancy"], **MORE)
+        self.assertEqual(env.metadata["render_modes"], ["rgb_array", "lines"])
+        env.reset(seed=1)
+        env.step(np.ones((2, 2)))
+        first, second = env.render()
+        self.assertEqual((first.shape, first.dtype), ((360, 480, 3), np.uint8))
+        self.assertTrue(100 < (first < 255).any(2).sum() < 20000)
+        self.assertTrue((first != second).any())  # at other places
+        for _ in range(5):
+            env.step(np.ones((2, 2)))
+        self.assertTrue((env.render()[0] != first).any())  # the camera stays
+        env.render_mode = "lines"
+        np.testing.assert_array_equal(env.render()[1][0], env.batch.lines(1, ["buoyancy"])[0])
+        self.assertIsNone(Drift(SCENE, 1, **MORE).render())
+        with self.assertRaisesRegex(ValueError, "render_mode is 'human'"):
+            Drift(SCENE, 1, render_mode="human", **MORE)
+
+    # Gymnasium itself is not needed: a double of the parts that the package asks for.
+    def test_gymnasium_finds_the_station(self):
+        program = """
+import sys, types, importlib
+import numpy as np
+
+known = {}
+gymnasium, vector, spaces = (types.ModuleType(name) for name in ("gymnasium", "gymnasium.vector", "gymnasium.spaces"))
+class Box:
+    def __init__(self, low, high, shape=None, dtype=np.float32):
+        self.shape = np.shape(low) if shape is None else shape
+vector.VectorEnv, vector.AutoresetMode, spaces.Box = type("VectorEnv", (), {}), (lambda word: "mode " + word), Box
+gymnasium.register = lambda id, entry_point=None, vector_entry_point=None: known.__setitem__(id, vector_entry_point)
+def make_vec(id, num_envs=1, **settings):
+    module, _, name = known[id].partition(":")
+    return getattr(importlib.import_module(module), name)(num_envs=num_envs, **settings)
+sys.modules.update({"gymnasium": gymnasium, "gymnasium.vector": vector, "gymnasium.spaces": spaces})
+import bullet_ambient
+env = make_vec("bullet_ambient/Station-v0", num_envs=3, most_steps=5, seed=4)
+assert isinstance(env, vector.VectorEnv) and isinstance(env.single_action_space, Box)
+assert env.metadata["autoreset_mode"] == "mode NextStep"
+observations, infos = env.reset(seed=1)
+assert observations.shape == (3, 12), observations.shape
+for n in range(5):
+    observations, rewards, terminated, truncated, infos = env.step(np.zeros((3, 6)))
+assert truncated.all() and (rewards < 1).all()
+assert env.step(np.zeros((3, 6)))[1].tolist() == [0, 0, 0]
+"""
+        ran = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+        self.assertEqual(ran.returncode, 0, ran.stderr)
+
     def test_a_world_that_fails_is_terminated(self):
         env = Drift(SCENE, 3, actions=["wrench_world"], observations=["position", "twist"])
         env.reset(seed=1)
@@ -175,6 +225,35 @@ class WorldBatchTest(unittest.TestCase):
         batch.restore(1, state)
         batch.step()
         np.testing.assert_array_equal(batch.observations[1], expected)
+
+    def test_a_world_of_its_own(self):
+        vary = {"mass": (0.8, 1.2), "centre_of_mass": (-0.02, 0.02), "thrust": (0.5, 2), "lag": (0.5, 2), "current": (-0.3, 0.3)}
+        batch = ba.WorldBatch(SCENE, 2, actions=["thrusters"], observations=["position", "twist_world"], vary=vary)
+        batch.actions[:] = [[1, -0.5], [0.5, 1]]
+        for _ in range(10):
+            batch.step()
+        with batch.world(1) as world:
+            np.testing.assert_array_equal(world.commands, [0.5, 1])
+            world.step(20)
+            for _ in range(20):
+                batch.step()
+            np.testing.assert_array_equal(world.position[0], batch["position"][1])
+            np.testing.assert_array_equal(world.twist[0], batch["twist_world"][1])
+            points, colours = world.lines()
+            np.testing.assert_array_equal(points, batch.lines(1)[0])
+            self.assertEqual((points.shape[1:], colours.shape[1:], len(points)), ((2, 3), (3,), len(colours)))
+            more, paint = world.lines(["buoyancy", "total_wrench"])
+            self.assertGreater(len(more), len(points))
+            self.assertIn([0, 1, 1], paint.tolist())
+            self.assertEqual(len(world.lines()[0]), len(points))
+        with self.assertRaisesRegex(ValueError, "drawing has \"smoke\""):
+            batch.lines(0, ["smoke"])
+        with self.assertRaisesRegex(IndexError, "no world 2"):
+            batch.world(2)
+        batch.actions[0] = np.nan
+        batch.step()
+        with self.assertRaisesRegex(ValueError, "world 0 has failed: the action thrusters"):
+            batch.world(0)
 
     def test_seeds_of_numpy(self):
         batch, other = ba.WorldBatch(SCENE, 2, **MORE), ba.WorldBatch(SCENE, 2, seed=np.int64(3), **MORE)

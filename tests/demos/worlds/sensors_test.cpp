@@ -5,9 +5,11 @@
 #include <vector>
 
 #include "bullet_ambient/force/medium/waves.h"
+#include "bullet_ambient/spatial/rotation.h"
 #include "demos/worlds/world_batch.h"
 #include "tests/demos/scene/scene_text.h"
 #include "tests/demos/simulation/scenes/run_scene.h"
+#include "tests/demos/worlds/vehicle_scene.h"
 #include "tests/support/refusal_of.h"
 
 // Readings of the sensors of worlds, and what varies.
@@ -147,6 +149,79 @@ TEST(Variations, OfMassAndPlaceAreThoseOfTheScene) {
     EXPECT_NEAR(seen[k], expected[k], 1e-11 * (1 + std::abs(expected[k]))) << k;
 }
 
+// A box slides on a floor: Coulomb friction with the product of both coefficients slows it.
+TEST(Variations, OfFrictionSlowASlidingBody) {
+  json scene = boxOnFloor();
+  scene["bodies"][0]["friction"] = 0.5;
+  scene["bodies"][1]["friction"] = 0.4;
+  scene["bodies"][1]["linear_velocity"] = {1, 0, 0};
+  BatchSettings settings = reading({{"twist_world"}});
+  const auto speedWith = [&](const char* body, double factor) {
+    settings.variations = {{"friction", body, {factor}, {factor}}};
+    return read(scene, settings, 20)[3];
+  };
+  const double slowed = kGravity * 0.2;
+  EXPECT_NEAR(speedWith("", 0), 1, 1e-3);
+  EXPECT_NEAR(speedWith("", 1), 1 - 0.2 * slowed, 0.01);
+  EXPECT_NEAR(speedWith("floor", 2), 1 - 0.4 * slowed, 0.01);
+}
+
+/// Compares a centre of mass that varies with one that the scene has.
+void expectTheCentreOfTheScene(const json& scene, std::size_t body, int steps, double tolerance) {
+  const Vector3 offset(0.05, -0.03, 0.02);
+  json drawn = scene, placed = scene;
+  for (json* each : {&drawn, &placed})
+    (*each)["bodies"][body]["inertia"] = {0.4, 0.7, 0.9, 0.02, 0, 0.01};
+  json& there = placed["bodies"][body];
+  const Quaternion turned = rotationFromVector({0.3, -0.2, 0.4});
+  for (json* each : {&drawn, &placed})
+    (*each)["bodies"][body]["orientation"] = {turned.w(), turned.x(), turned.y(), turned.z()};
+  drawn["bodies"][body]["centre_of_mass"] = {0, 0, 0};
+  there["centre_of_mass"] = {offset.x(), offset.y(), offset.z()};
+  const Vector3 place = turned * offset;
+  for (std::size_t k = 0; k < 3; ++k)
+    there["position"][k] = there["position"][k].get<double>() + place[static_cast<Eigen::Index>(k)];
+  ObservationDef log{"velocity_log"};
+  log.place = Vector3(0.3, 0.1, 0);
+  BatchSettings settings = reading({{"position"}, {"rotation"}, {"twist_world"}, log, {"contact"}});
+  settings.observations[3].place -= offset;
+  const auto expected = read(placed, settings, steps);
+  settings.observations[3].place = log.place;
+  settings.variations = {{"centre_of_mass", "", {0.05, -0.03, 0.02}, {0.05, -0.03, 0.02}}};
+  const auto seen = read(drawn, settings, steps);
+  for (std::size_t k = 0; k < seen.size(); ++k) EXPECT_NEAR(seen[k], expected[k], tolerance) << k;
+  settings.variations.clear();
+  EXPECT_GT(std::abs(read(drawn, settings, steps)[0] - expected[0]), 1e-3);
+}
+
+TEST(Variations, OfTheCentreOfMassIsThatOfTheScene) {
+  json pushed = vehicle();
+  for (json& thruster : pushed["thrusters"]) thruster["command"] = 0.7;
+  expectTheCentreOfTheScene(pushed, 0, 100, 1e-9);
+  json falling = boxOnFloor();
+  falling["bodies"][1]["position"] = {0, 0, 0.6};
+  expectTheCentreOfTheScene(falling, 1, 60, 1e-6);
+}
+
+TEST(Variations, OfTheCentreOfMassForgetTheEpisodeBefore) {
+  BatchSettings settings = reading({{"position"}, {"twist_world"}, {"contact"}});
+  settings.variations = {{"centre_of_mass", "", {-0.1, -0.1, -0.05}, {0.1, 0.1, 0.05}}};
+  settings.threads = 1;
+  WorldBatch batch(sceneFrom(boxOnFloor()), settings), fresh(sceneFrom(boxOnFloor()), settings);
+  const auto seen = [](WorldBatch& of) {
+    for (int n = 0; n < 30; ++n) of.step();
+    return std::vector<double>(of.observations(), of.observations() + 10);
+  };
+  const std::vector<double> expected = seen(fresh);
+  batch.reset();
+  EXPECT_NE(seen(batch), expected);
+  const std::uint64_t seed = settings.seed;
+  batch.reset(nullptr, &seed);
+  EXPECT_EQ(seen(batch), expected);
+  fresh.restore(0, batch.state(0));
+  EXPECT_EQ(seen(fresh), seen(batch));
+}
+
 // Variance s^2 and correlation exp(-T / time) from one env step to the next, in 4 standard
 // deviations of their estimates.
 TEST(Gusts, HaveTheirVarianceAndMemory) {
@@ -236,7 +311,7 @@ TEST(WorldBatch, RefusesWhatASceneCannotDo) {
   const auto refusal = [&](const Scene& scene) {
     return test::refusalOf([&] { WorldBatch(scene, settings); });
   };
-  for (const char* kind : {"mass", "inertia"}) {
+  for (const char* kind : {"mass", "inertia", "centre_of_mass"}) {
     settings.variations = {{kind, "floor", {1}, {1}}};
     EXPECT_NE(refusal(sceneFrom(boxOnFloor())).find("\"floor\", which is static"),
               std::string::npos);
@@ -249,8 +324,15 @@ TEST(WorldBatch, RefusesWhatASceneCannotDo) {
   pushed["thrusters"] = json::array({{{"on", "box"}, {"curve", {{0, 0}, {1, 10}}}, {"lag", 0.1}}});
   settings.variations = {{"lag", "", {-1}, {1}}};
   EXPECT_EQ(refusal(sceneFrom(pushed)), "variation \"lag\": is -1; must be >= 0");
-  settings.variations = {};
+  settings.variations = {{"friction", "box", {-1}, {1}}};
+  EXPECT_EQ(refusal(sceneFrom(pushed)), "variation \"friction\": is -1; must be >= 0");
+  settings.variations = {{"centre_of_mass", "", {0}, {0.1}}};
+  pushed["joints"] = json::array({{{"bodies", {"box"}}, {"point", {0, 0, 0.2}}}});
+  EXPECT_EQ(refusal(sceneFrom(pushed)),
+            "variation \"centre_of_mass\": names the body \"box\"; must have no joints");
   Scene swimmer = readNamedScene("three_link_swimmer");
+  EXPECT_NE(refusal(swimmer).find("a link of a robot; must be a rigid body"), std::string::npos);
+  settings.variations = {};
   settings.actions = {{"motor_position"}};
   EXPECT_EQ(refusal(swimmer), "");
   const std::string joint = swimmer.robots[0].model->links[2].joint.name;

@@ -88,6 +88,39 @@ TEST(WorldBatch, HasTheSameBitsAtAnyNumberOfThreadsAndAsBatchesOfOne) {
   }
 }
 
+TEST(WorldBatch, HasTheSameBitsInLanesAndAlone) {
+  struct Case {
+    Scene scene;
+    BatchSettings settings;
+  };
+  const TemporaryFolder folder;
+  std::vector<Case> cases{{sceneFrom(vehicle()), wildSettings(203, 1)}};
+  BatchSettings plain = wildSettings(9, 1);
+  plain.actions.clear();
+  plain.observations = {{"position"}, {"twist"}, {"imu"}, {"flow"}};
+  plain.variations = {{"position", "", {-0.1}, {0.1}}, {"current", "", {-0.2}, {0.2}}};
+  for (const char* name : {"rov_station", "ball_on_bottom", "floating_cube", "glider"})
+    cases.push_back({readNamedScene(name), plain});
+  for (Case& of : cases) {
+    of.settings.fluid_bodies = folder / "bodies";
+    of.settings.together = 1;
+    WorldBatch alone(of.scene, of.settings);
+    const auto expected = play(alone, 10);
+    of.settings.together = 8;
+    for (const int worlds : {1, 7, 8, 9, 203}) {
+      if (worlds > alone.worlds()) continue;
+      for (const int threads : {1, 2, 3, 7}) {
+        of.settings.worlds = worlds;
+        of.settings.threads = threads;
+        WorldBatch batch(of.scene, of.settings);
+        const auto rows = play(batch, 10);
+        EXPECT_TRUE(std::equal(rows.begin(), rows.end(), expected.begin()))
+            << of.scene.name << worlds << threads;
+      }
+    }
+  }
+}
+
 BatchSettings plainSettings(const std::vector<ActionDef>& actions) {
   BatchSettings settings;
   settings.worlds = 2;
@@ -195,6 +228,8 @@ TEST(WorldBatch, GoesOnFromBytes) {
   settings.most_steps = 0;
   WorldBatch batch(scene, settings), other(scene, settings);
   play(batch, 4);
+  const std::uint64_t seeds[] = {3, 4};
+  other.reset(nullptr, seeds);
   play(other, 7, 5);
   for (int i = 0; i < 2; ++i) other.restore(i, batch.state(i));
   for (int k = 0; k < 2 * batch.plan().observation_size; ++k)
