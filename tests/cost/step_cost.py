@@ -29,6 +29,9 @@ SCENES = {
     "scaled_in_each_step": (4, 4, 12)}
 DIFFERENT = {f"different_{shapes}_300": (12, 4, 8) for shapes in ("boxes", "capsules", "cylinders", "cones", "balls")}
 
+# Batches of worlds, by batch_cost beside the program: scene, worlds, and env steps of four steps as above.
+BATCHES = {"batch_of_rovs": ("rov_station", 16, 2, 6), "batch_of_sheets": ("glider", 16, 2, 6)}
+
 KINDS = {"different": "fluid", "equal": "beside"}
 
 
@@ -38,6 +41,7 @@ class Counter:
     def __init__(self, program: str, shapes: str) -> None:
         self.command = ["valgrind", "--tool=callgrind", "--collect-atstart=no", "--callgrind-out-file=/dev/null", program,
                         shapes]
+        self.shapes, self.batches = shapes, str(Path(program).with_name("batch_cost"))
         subprocess.run([program, shapes, "shapes"], check=True)
 
     def counted(self, what: str, options: list[str], arguments: tuple) -> int:
@@ -60,6 +64,14 @@ class Counter:
         counted = self.counted("LLd misses", cache, (scene, world, bodies, before, steps - before))
         return round(counted / (bodies * (steps - before)))
 
+    def per_world_and_step(self, batch: str, kind: str) -> int:
+        scene, worlds, before, steps = BATCHES[batch]
+        bodies = f"{self.shapes}/{scene}"
+        subprocess.run([self.batches, bodies, scene, kind, "1", "0", "0"], check=True, stderr=subprocess.DEVNULL)
+        self.command[-2:] = [self.batches, bodies]
+        counted = self.counted("Collected", [], (scene, kind, worlds, before, steps - before))
+        return round(counted / (4 * worlds * (steps - before)))
+
 
 def count(program: str, part: str, recorded: dict) -> dict[str, dict[str, int]]:
     """Counts all scenes whose names have the part; in stock Bullet only what is not recorded."""
@@ -79,6 +91,11 @@ def count(program: str, part: str, recorded: dict) -> dict[str, dict[str, int]]:
             lines = {kind: counter.lines_per_body_and_step(scene, world) for kind, world in KINDS.items()}
             counts[scene] = lines
             print(f"{scene:24s} lines from memory: different {lines['different']}, equal {lines['equal']}", flush=True)
+        for batch in BATCHES:
+            if part not in batch:
+                continue
+            counts[batch] = {kind: counter.per_world_and_step(batch, kind) for kind in ("alone", "together")}
+            print(f"{batch:24s} a world alone {counts[batch]['alone']:6d}, eight together {counts[batch]['together']:6d}")
     return counts
 
 

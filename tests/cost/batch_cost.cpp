@@ -1,0 +1,60 @@
+// Cost of a step of a world in a batch, whose vehicles have six thrusters and sensors.
+//
+// batch_cost FOLDER SCENE together|alone WORLDS BEFORE STEPS: makes env steps of four steps each,
+// on one thread, for callgrind, which counts those after the first BEFORE. FOLDER keeps the fluid
+// bodies.
+
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <string>
+
+#include "demos/scene/scene_reader.h"
+#include "demos/worlds/world_batch.h"
+
+#if __has_include(<valgrind/callgrind.h>)
+#include <valgrind/callgrind.h>
+#else
+#define CALLGRIND_TOGGLE_COLLECT
+#endif
+
+namespace ambient::test {
+namespace {
+
+void makeSteps(char** arguments) {
+  const Scene scene = readScene(findScene(arguments[2], sceneFolders()));
+  BatchSettings settings;
+  settings.fluid_bodies = std::filesystem::path(arguments[1]);
+  settings.together = std::string(arguments[3]) == "alone" ? 1 : 8;
+  settings.worlds = std::atoi(arguments[4]);
+  settings.substeps = 4;
+  settings.threads = 1;
+  if (!scene.thrusters.empty()) settings.actions = {{"thrusters"}};
+  settings.observations = {{"position"}, {"rotation"}, {"twist"}};
+  settings.variations = {{"position", "", {-1}, {1}}};
+  WorldBatch batch(scene, settings);
+  for (int i = 0; i < batch.worlds() * batch.plan().action_size; ++i)
+    batch.actions()[i] = 0.1 * (i % 7 - 3);
+  for (int n = std::atoi(arguments[5]); n > 0; --n) batch.step();
+  CALLGRIND_TOGGLE_COLLECT;
+  for (int n = std::atoi(arguments[6]); n > 0; --n) batch.step();
+  CALLGRIND_TOGGLE_COLLECT;
+}
+
+}  // namespace
+}  // namespace ambient::test
+
+int main(int count, char** arguments) {
+  if (count != 7) {
+    std::fprintf(stderr, "batch_cost FOLDER SCENE together|alone WORLDS BEFORE STEPS\n");
+    return 2;
+  }
+  try {
+    ambient::test::makeSteps(arguments);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "batch_cost: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}
