@@ -206,7 +206,7 @@ TEST(HierarchicalSolver, SaysHowMuchMemoryItNeedsBeforeItTakesIt) {
   settings.solver = FlowSolverKind::Hierarchical;
   const TriangleMesh mesh = makeEllipsoidMesh({1, 1, 1}, 980);
   EXPECT_EQ(messageOf([&] { solvePotentialFlow(mesh, settings); }),
-            "potential flow: 980 panels need 0.0042 GB of memory, more than the 0.001 GB that may "
+            "potential flow: 980 panels need 0.0052 GB of memory, more than the 0.001 GB that may "
             "be used: use fewer panels or allow more memory");
   settings.solver = FlowSolverKind::Dense;
   EXPECT_EQ(messageOf([&] {
