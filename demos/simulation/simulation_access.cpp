@@ -40,24 +40,6 @@ class LineKeeper : public btIDebugDraw {
   int getDebugMode() const override { return DBG_DrawWireframe | DBG_DrawConstraints; }
 };
 
-/// Keeps the lines that Bullet asks it to draw.
-class LineKeeper : public btIDebugDraw {
- public:
-  WorldLines lines;
-
-  void drawLine(const btVector3& from, const btVector3& to, const btVector3& colour) override {
-    for (const btVector3& end : {from, to})
-      for (int k = 0; k < 3; ++k) lines.points.push_back(static_cast<float>(end[k]));
-    for (int k = 0; k < 3; ++k) lines.colours.push_back(static_cast<float>(colour[k]));
-  }
-  void drawContactPoint(const btVector3&, const btVector3&, btScalar, int,
-                        const btVector3&) override {}
-  void reportErrorWarning(const char*) override {}
-  void draw3dText(const btVector3&, const char*) override {}
-  void setDebugMode(int) override {}
-  int getDebugMode() const override { return DBG_DrawWireframe | DBG_DrawConstraints; }
-};
-
 void scale(btScalar& mass, btVector3& inertia, double by_mass, double by_moments) {
   mass *= static_cast<btScalar>(by_mass);
   inertia *= static_cast<btScalar>(by_moments);
