@@ -2,10 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
+#include <utility>
 #include <vector>
 
-#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "preprocess/base/fluid_body_writer.h"
@@ -73,6 +74,24 @@ Wrench loadOn(const std::shared_ptr<const FluidBody>& body, const Vector3& signs
   return makeSurfaceLoads(body, {900, 0.1, {}, {}}, FlowSettings())->load(motion);
 }
 
+/// Layers leave an image that moves one way as they leave the shape that moves the image of that.
+void expectImage(const Separation& image, const Separation& separation, const Vector3& signs) {
+  EXPECT_NEAR(image.axes.determinant(), 1, 1e-12);
+  for (int way = 0; way < 6; ++way) {
+    const int axis = way / 2;
+    const double along =
+        (way % 2 == 0 ? 1 : -1) *
+        signs.cwiseProduct(image.axes.col(axis)).dot(Vector3(separation.axes.col(axis)));
+    EXPECT_NEAR(std::abs(along), 1, 1e-12);
+    const SeparationWay &found = image.ways[static_cast<std::size_t>(way)],
+                        &way_of_shape =
+                            separation
+                                .ways[static_cast<std::size_t>(2 * axis + (along > 0 ? 0 : 1))];
+    EXPECT_EQ(found.wake_turbulent, way_of_shape.wake_turbulent);
+    EXPECT_EQ(found.thickness, way_of_shape.thickness);
+  }
+}
+
 void expectImage(FluidBodyCache& cache, const btCollisionShape& shape,
                  const btCollisionShape& image, const Vector3& signs) {
   const auto body = cache.fluidBody(shape), turned = cache.fluidBody(image);
@@ -84,7 +103,7 @@ void expectImage(FluidBodyCache& cache, const btCollisionShape& shape,
   EXPECT_EQ(turned->centre_of_volume, body->centre_of_volume.cwiseProduct(signs));
   EXPECT_EQ(turned->uniform_mass.inertia,
             Matrix3(signs.asDiagonal() * body->uniform_mass.inertia * signs.asDiagonal()));
-  EXPECT_NEAR(turned->viscous.separation.axes.determinant(), 1, 1e-12);
+  expectImage(turned->viscous.separation, body->viscous.separation, signs);
   const double volume = computeMassProperties(meshOf(turned->surface)).volume;
   EXPECT_NEAR(volume, turned->volume, 1e-6 * volume);  // its triangles are not inside out
   EXPECT_LT(
