@@ -77,6 +77,20 @@ class DoorsTest(unittest.TestCase):
                         self.assertEqual(hold["volume"], 0)
 
 
+    def test_a_cup_of_staves_of_many_heights_holds_water_up_to_the_lowest(self):
+        """As convex hulls that came out of a decomposition: a lid along the rim would cut the staves."""
+        heights, half, wall = [0.1349, 0.1305, 0.1386, 0.1305, 0.1369, 0.1358, 0.1317, 0.1359], 0.108, 0.008
+        side, parts = half * np.tan(np.pi / 8), []
+        for k, height in enumerate(heights):
+            turn, lie = [np.cos(np.pi * k / 8), 0, 0, np.sin(np.pi * k / 8)], np.array([np.cos(np.pi * k / 4), np.sin(np.pi * k / 4)])
+            parts.append({**vessels.box([wall, 2 * side, height], [*(half - wall / 2) * lie, height / 2]), "orientation": turn})
+            if k < 4:
+                parts.append({**vessels.box([2 * half, 2 * side, wall], [0, 0, wall / 2]), "orientation": turn})
+        (hold,) = ba.FluidBody.from_shape({"type": "compound", "parts": parts}, panels=0).holds
+        inside = 8 * np.tan(np.pi / 8) * (half - wall) ** 2
+        self.assertAlmostEqual(hold["volume"], inside * (min(heights) - wall), delta=0.01 * hold["volume"])
+
+
 class ClosedFormsTest(unittest.TestCase):
     def test_a_barge_with_a_hole_dips_its_rim_in_torricellis_time(self):
         inner, outer, hole, depth = 1.96 * 0.96, 2.0, 0.01, 0.08
