@@ -179,6 +179,13 @@ bool holdsWanted(const std::string& word) {
   return word == "auto";
 }
 
+Vector3 directionFrom(const InputArray& array, const std::string& what) {
+  const Vector3 direction = vectorFrom(array, what);
+  if (!direction.allFinite() || direction.isZero(0))
+    throw py::value_error(what + " must be a direction: finite, and not zero");
+  return direction.stableNormalized();
+}
+
 SourceSettings settingsFrom(const std::string& name, const py::kwargs& given) {
   SourceSettings settings;
   settings.name = name;
@@ -196,7 +203,7 @@ SourceSettings settingsFrom(const std::string& name, const py::kwargs& given) {
     else if (word == "holds")
       settings.holds.is_wanted = holdsWanted(value.cast<std::string>());
     else if (word == "up")
-      settings.holds.up = vectorFrom(py::cast<InputArray>(value), word).normalized();
+      settings.holds.up = directionFrom(py::cast<InputArray>(value), word);
     else if (word == "strict")
       settings.strict = value.cast<bool>();
     else if (word == "cache")

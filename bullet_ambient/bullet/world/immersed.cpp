@@ -127,6 +127,9 @@ void checkHole(const AttachDef& def, const Vector3& place, const Vector3& normal
   if (!(area > 0) || !std::isfinite(area))
     throw std::invalid_argument(who + "of " + std::to_string(area) +
                                 " m^2, which must be positive and finite");
+  if (area > def.fluid_body->area)
+    throw std::invalid_argument(who + "of " + std::to_string(area) +
+                                " m^2, more than the area of its fluid body");
   if (!normal.allFinite() || normal.isZero(0))
     throw std::invalid_argument(who + "without a direction out of the hold");
   if (!place.allFinite() || !isAtBody(*def.fluid_body, place))

@@ -13,6 +13,7 @@
 #include "preprocess/mesh/defects/surface_crossing.h"
 #include "preprocess/mesh/geometry.h"
 #include "preprocess/mesh/holds/hold_labels.h"
+#include "preprocess/mesh/holds/level_rims.h"
 #include "preprocess/mesh/holds/pools.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mass_properties.h"
@@ -24,6 +25,7 @@ using Eigen::Vector3d;
 using Triangles = std::vector<Eigen::Vector3i>;
 
 constexpr double kLidRounding = 1e-9;
+constexpr double kLeastLid = 1e-14;  // of a triangle, over the square of the size
 
 Eigen::Vector3i turned(const Eigen::Vector3i& t) { return {t[0], t[2], t[1]}; }
 
@@ -57,6 +59,15 @@ class LidSpanner {
       }
     }
     return loops;
+  }
+
+  /// Whether a lid has a triangle without area, between places of its outline on one line.
+  bool isFlat(const Loop& loop) const {
+    return std::any_of(loop.lid.begin(), loop.lid.end(), [&](const Eigen::Vector3i& t) {
+      const Vector3d a = mesh_.vertices.col(t[0]), b = mesh_.vertices.col(t[1]),
+                     c = mesh_.vertices.col(t[2]);
+      return (b - a).cross(c - a).norm() <= kLeastLid * size_ * size_;
+    });
   }
 
   /// Whether the mesh passes through a lid, away from its outline.
@@ -209,6 +220,7 @@ Drafts draftsOf(const TriangleMesh& mesh, const TriangleNeighbours& neighbours,
     for (const Loop& loop : spanner.loopsOf(k)) {
       if (loop.lid.empty() || (loop.beyond > 0 && loop.beyond < k)) continue;  // that hold's door
       if (spanner.isCrossed(loop)) draft.fault = "the mesh passes through its lid";
+      if (spanner.isFlat(loop)) draft.fault = "its lid has a face without area";
       draft.triangles.insert(draft.triangles.end(), loop.lid.begin(), loop.lid.end());
       draft.openings.push_back(openingOf(mesh, loop));
       draft.openings.back().to = loop.beyond - 1;
@@ -348,6 +360,13 @@ Vessel findHolds(const TriangleMesh& mesh, const HoldSearch& search, const std::
   Vessel vessel = spanLids(mesh, neighbours,
                            labelTriangles(mesh, neighbours, found.up, found.pools, found.is_tilted),
                            search.unit, name);
+  if (vessel.holds.size() < found.pools.size() && !found.is_tilted) {
+    // A rim as uneven as that of a cup of convex hulls has no lid that cuts nothing.
+    const LevelRims rims = levelRims(mesh, found.up, found.pools);
+    Vessel level =
+        spanLids(rims.mesh, TriangleNeighbours(rims.mesh), rims.labels, search.unit, name);
+    if (level.holds.size() > vessel.holds.size()) vessel = std::move(level);
+  }
   // A corner of three walls has pools when it is tilted, and no hole that would leak as it stands.
   const auto leaks = [](const Hold& hold) { return hold.openings.size() > 1; };
   if (found.is_tilted && !std::all_of(vessel.holds.begin(), vessel.holds.end(), leaks)) return {};

@@ -19,8 +19,10 @@ struct HoldSearch {
 /// outside, faces are taken over edges in the order of height; a hold does not grow over convex
 /// edges of more than 40 degrees, nor does the outside before the holds have grown, so that both
 /// meet at the rim. Lids of triangles span the rims. The closed mesh has the volume of the walls
-/// and the holds, to rounding. A hold whose lid the mesh crosses is left out, which a line says;
-/// each of the others has one line too.
+/// and the holds, to rounding. Where the mesh crosses a lid, all holds end level instead, where
+/// their pools would spill, if more are found so: triangles are divided there. A hold whose lid the
+/// mesh still crosses, for something stands in it, is left out, which a line says; each of the
+/// others has one line too.
 ///
 /// Without a direction up, that one of the six along the axes counts whose holds are largest, +z if
 /// they are as large within 1 %. If no pool is found, the mesh is tilted by 30 degrees to eight

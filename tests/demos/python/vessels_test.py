@@ -77,6 +77,21 @@ class DoorsTest(unittest.TestCase):
                         self.assertEqual(hold["volume"], 0)
 
 
+    def test_a_cup_of_staves_of_many_heights_holds_water_up_to_the_lowest(self):
+        """As convex hulls that came out of a decomposition: a lid along the rim would cut the staves, or have faces without area."""
+        half, wall = 0.108, 0.008
+        side, inside = half * np.tan(np.pi / 8), 8 * np.tan(np.pi / 8) * (half - wall) ** 2
+        for heights in ([0.13488, 0.1305, 0.13856, 0.13051, 0.13688, 0.13577, 0.13172, 0.13591], [0.1349, 0.1305, 0.1386, 0.1305, 0.1369, 0.1358, 0.1317, 0.1359]):
+            parts = []
+            for k, height in enumerate(heights):
+                turn, lie = [np.cos(np.pi * k / 8), 0, 0, np.sin(np.pi * k / 8)], np.array([np.cos(np.pi * k / 4), np.sin(np.pi * k / 4)])
+                parts.append({**vessels.box([wall, 2 * side, height], [*(half - wall / 2) * lie, height / 2]), "orientation": turn})
+                if k < 4:
+                    parts.append({**vessels.box([2 * half, 2 * side, wall], [0, 0, wall / 2]), "orientation": turn})
+            (hold,) = ba.FluidBody.from_shape({"type": "compound", "parts": parts}, panels=0).holds
+            self.assertAlmostEqual(hold["volume"], inside * (min(heights) - wall), delta=0.01 * hold["volume"])
+
+
 class ClosedFormsTest(unittest.TestCase):
     def test_a_barge_with_a_hole_dips_its_rim_in_torricellis_time(self):
         inner, outer, hole, depth = 1.96 * 0.96, 2.0, 0.01, 0.08
@@ -159,8 +174,13 @@ class RefusalTest(unittest.TestCase):
                 with self.assertRaises(ValueError) as caught:
                     call()
                 self.assertNotIn("\n", str(caught.exception))
+            with self.assertRaisesRegex(ValueError, "more than the area of its fluid body"):
+                body.add_opening(0, floor, down, 1e9)
             world.run(1)
             self.assertEqual(body.holds[0]["volume"], 0)
+        for up in ([0, 0, 0], [nan, 0, 1]):
+            with self.assertRaisesRegex(ValueError, "up must be a direction"):
+                ba.FluidBody.from_shape(TRAY, up=up, panels=0)
 
 
 if __name__ == "__main__":

@@ -398,6 +398,26 @@ TEST(VesselSloshing, BargeSleepsWithStillWater) {
   }
 }
 
+// Each two minutes of ten are calmer than those before, whatever the precision.
+TEST(VesselSloshing, DiesOutWithinTenMinutes) {
+  Sea sea;
+  btRigidBody& body = addAfloat(sea, {{0.3, 0.2, 0.1}, {0.3, 0.2, 0.1}});
+  std::vector<double> largest;
+  for (int i = 0; i < 5; ++i) {
+    largest.push_back(0);
+    for (int k = 0; k < 120 * 60; ++k) {
+      sea.scene.step(1 / 60.0);
+      const double speed = static_cast<double>(body.getAngularVelocity().length() +
+                                               body.getLinearVelocity().length());
+      largest.back() = std::max(largest.back(), speed);
+    }
+    if (i > 0) {
+      EXPECT_LT(largest[i], largest[i - 1]) << i;
+    }
+  }
+  EXPECT_LT(largest.back(), 0.1 * largest.front());
+}
+
 // Saved states hold more than poses and velocities: water and pumps, air that is shut off, holes
 // that were shot and doors that were shut, bodies in a hold, water that sloshes.
 TEST(Vessel, StatesGoOnBitForBit) {
