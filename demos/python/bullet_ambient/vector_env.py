@@ -38,6 +38,9 @@ class _OwnBox:
         x = np.asarray(x)
         return x.shape == self.shape and bool(np.all((x >= self.low) & (x <= self.high)))
 
+    def __repr__(self) -> str:
+        return f"Box({self.low.min(initial=np.inf)}, {self.high.max(initial=-np.inf)}, {self.shape}, {self.dtype})"
+
 
 _Base: Any = object
 _Box: Any = _OwnBox
@@ -56,7 +59,8 @@ class VectorEnv(_Base):  # type: ignore[misc]
     """A task on the worlds of a batch, by the rules of gymnasium.vector.VectorEnv; derives from it where Gymnasium is installed.
 
     A task is a class with reward(batch) -> (N,), and if need be ended(batch) -> (N,) bool and info(batch) -> {name: (N, ...)}.
-    A world that fails is terminated, with reward 0, observations of 0 and infos["failed"].
+    A world that fails is terminated, with reward 0, observations of 0, infos["failed"], and infos["fault"], which says why. Until
+    then reward(), ended() and info() see NaN in its observations.
 
     Parameters
     ----------
@@ -100,10 +104,12 @@ class VectorEnv(_Base):  # type: ignore[misc]
         self.num_envs, self.closed, self.spec, self.render_mode = self.batch.worlds, False, None, render_mode
         self.metadata = {"autoreset_mode": _Mode(_MODES[autoreset]), "render_modes": _RENDERED}
         self._mode, self._copy, self._drawing, self._camera = autoreset, copy, list(drawing), camera
+        if render_mode is not None:
+            self.batch.lines(0, self._drawing)  # refuses what it does not know
         self._done = np.zeros(self.num_envs, bool)
         bound = np.full(self.batch.actions.shape[1], np.inf)
         for name, at, size in self.batch.action_fields:
-            if name.startswith("thrusters"):
+            if name.startswith(("thrusters", "foils")):
                 bound[at : at + size] = 1
         width = self.batch.observations.shape[1]
         self.single_action_space = _Box(-bound.astype(np.float32), bound.astype(np.float32), dtype=np.float32)
@@ -151,8 +157,8 @@ class VectorEnv(_Base):  # type: ignore[misc]
         is_reset = before if self._mode == "next_step" else np.zeros_like(before)
         batch.step(is_reset if is_reset.any() else None)
         failed = batch.failed.copy()
-        rewards = np.where(failed | is_reset, 0.0, np.asarray(self.reward(batch), np.float64))
-        terminated = (np.asarray(self.ended(batch), bool) | failed) & ~is_reset
+        rewards = np.where(failed | is_reset, 0.0, self._each("reward", self.reward(batch), np.float64))
+        terminated = (self._each("ended", self.ended(batch), np.bool_) | failed) & ~is_reset
         truncated = batch.truncated & ~is_reset & ~failed
         done = terminated | truncated
         infos = self._infos(np.ones(self.num_envs, bool))
@@ -160,6 +166,13 @@ class VectorEnv(_Base):  # type: ignore[misc]
             infos = self._begin_ended(done, infos)
         self._done = np.zeros_like(done) if self._mode == "same_step" else done
         return self._observe(), rewards, terminated, truncated, infos  # type: ignore[return-value]
+
+    def _each(self, name: str, value: npt.ArrayLike, dtype: Any) -> npt.NDArray[Any]:
+        """Returns what a function of the task has said of each world."""
+        of_each = np.asarray(value, dtype)
+        if of_each.shape != (self.num_envs,):
+            raise ValueError(f"{name}(batch) has shape {of_each.shape}; must be ({self.num_envs},)")
+        return of_each
 
     def _begin_ended(self, done: npt.NDArray[np.bool_], last: dict[str, Any]) -> dict[str, Any]:
         """Resets the worlds that have ended. Returns infos with those of their last env step."""
@@ -176,6 +189,7 @@ class VectorEnv(_Base):  # type: ignore[misc]
         facts = dict(self.info(self.batch))
         if self.batch.failed.any():
             facts["failed"] = self.batch.failed.copy()
+            facts["fault"] = np.array([self.batch.fault(i) for i in range(self.num_envs)], object)
         infos: dict[str, Any] = {}
         for name, value in facts.items():
             infos[name], infos["_" + name] = np.array(value), mask.copy()

@@ -55,7 +55,7 @@ def observe(
 
 
 def act(kind: str, body: str = "", *, rows: Sequence[int] = (), scale: float = 1) -> dict[str, Any]:
-    """Describes an action of a WorldBatch: "thrusters", "wrench", "wrench_world", "joint_torque", "motor_position" or "motor_velocity".
+    """Describes an action of a WorldBatch: "thrusters", "foils", "wrench", "wrench_world", "joint_torque", "motor_position" or "motor_velocity".
 
     body : its name; default: the first that moves
     rows : numbers of it that are actions, all others are 0; default: all
@@ -73,11 +73,18 @@ def _seed(value: SupportsIndex) -> int:
 
 def _variation(name: str, bounds: Sequence[Any]) -> dict[str, Any]:
     kind, _, body = name.partition(":")
-    is_logarithmic = len(bounds) == 3 and bounds[2] == "log"
-    if len(bounds) != 2 and not is_logarithmic:
+    count = len(bounds) if hasattr(bounds, "__len__") else 0
+    is_logarithmic = count == 3 and bounds[2] == "log"
+    if count != 2 and not is_logarithmic:
         raise ValueError(f"vary[{name!r}] is {bounds!r}; must be (lowest, highest) or (lowest, highest, \"log\")")
     low, high = (np.atleast_1d(np.asarray(bound, dtype=np.float64)) for bound in bounds[:2])
     return {"kind": kind, "body": body, "lowest": low, "highest": high, "is_logarithmic": is_logarithmic}
+
+
+def _columns(what: str, name: str, known: dict[str, slice]) -> slice:
+    if name not in known:
+        raise KeyError(f"{name} is not {what} here; there are {sorted(known)}")
+    return known[name]
 
 
 class WorldBatch(_core._WorldBatch):
@@ -130,6 +137,8 @@ class WorldBatch(_core._WorldBatch):
         settings["observations"] = [observe(of) if isinstance(of, str) else of for of in observations]
         settings["variations"] = [_variation(name, bounds) for name, bounds in (vary or {}).items()]
         if gust is not None:
+            if not isinstance(gust, Gust):
+                raise TypeError(f"gust is {gust!r}; must be a Gust, as Gust(0.1, time=3.0)")
             sigma = np.broadcast_to(np.asarray(gust.intensity, dtype=np.float64), 3)
             settings["gust"] = {"intensity": sigma, "time": gust.time}
         self.scene = scene if isinstance(scene, _core.Scene) else _core.Scene(scene)
@@ -146,15 +155,15 @@ class WorldBatch(_core._WorldBatch):
 
     def __getitem__(self, name: str) -> _Floats:
         """View (N, size) of an observation, by its kind, or kind:body if a body was named."""
-        return self.observations[:, self._observed[name]]
+        return self.observations[:, _columns("observed", name, self._observed)]
 
     def parameter(self, name: str) -> _Floats:
         """Returns the view (N, size) of what the episodes have drawn, by the key of `vary`."""
-        return self.parameters[:, self._varied[name]]
+        return self.parameters[:, _columns("varied", name, self._varied)]
 
     def action(self, name: str) -> _Floats:
         """Returns the view (N, size) of an action, by its kind, or kind:body if a body was named."""
-        return self.actions[:, self._acted[name]]
+        return self.actions[:, _columns("an action", name, self._acted)]
 
     def reset(self, mask: _Mask | None = None, seed: int | Sequence[int] | None = None, draws: bool = True) -> None:
         """Begins new episodes.

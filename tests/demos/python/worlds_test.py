@@ -126,6 +126,22 @@ class VectorEnvTest(unittest.TestCase):
                 env.reset(options={"reset_mask": mask})
         with self.assertRaisesRegex(ValueError, "autoreset"):
             Drift(SCENE, WORLDS, autoreset="never", **MORE)
+        with self.assertRaisesRegex(ValueError, "waves"):
+            Drift(SCENE, WORLDS, render_mode="lines", drawing=["waves"], **MORE)
+
+    def test_a_task_says_one_number_of_each_world(self):
+        for name in ("reward", "ended"):
+            env = Drift(SCENE, WORLDS, **MORE)
+            env.reset(seed=1)
+            setattr(env, name, lambda batch: np.zeros((WORLDS, 2)))
+            with self.assertRaisesRegex(ValueError, rf"^{name}\(batch\) has shape \(5, 2\); must be \(5,\)$"):
+                env.step(np.zeros((WORLDS, 2)))
+
+    def test_commands_of_foils_are_bounded(self):
+        env = Drift("rudder_and_screw", 1, actions=["foils", "wrench"], observations=["position", "twist"])
+        space = env.single_action_space
+        self.assertEqual((space.low[0], space.high[0], space.high[1]), (-1, 1, np.inf))
+        self.assertIn("(7,)", repr(space))
 
     def test_pictures(self):
         env = Drift(SCENE, 2, render_mode="rgb_array", drawing=["buoyancy"], **MORE)
@@ -184,6 +200,8 @@ assert env.step(np.zeros((3, 6)))[1].tolist() == [0, 0, 0]
         observations, rewards, terminated, _, infos = env.step(actions)
         self.assertEqual(terminated.tolist(), [False, True, False])
         self.assertEqual(infos["failed"].tolist(), [False, True, False])
+        self.assertIn("is not finite", infos["fault"][1])
+        self.assertEqual(infos["fault"][0], "")
         self.assertEqual((rewards[1], *observations[1]), (0,) * 10)
         self.assertFalse(env.step(0 * np.nan_to_num(actions))[2].any())
         self.assertFalse(env.batch.failed.any())
@@ -274,7 +292,9 @@ class WorldBatchTest(unittest.TestCase):
             (lambda: batch.state(2), IndexError, "no world 2; there are 0 to 1"),
             (lambda: batch.restore(0, b""), ValueError, "is not one of a world of this batch"),
             (lambda: ba.WorldBatch(SCENE, 0), ValueError, "worlds: is 0; must be >= 1"),
-            (lambda: ba.WorldBatch(SCENE, vary={"mass": 3}), (TypeError, ValueError), ""),
+            (lambda: ba.WorldBatch(SCENE, vary={"mass": 3}), ValueError, r"^vary\['mass'\] is 3; must be \(lowest, highest\)"),
+            (lambda: ba.WorldBatch(SCENE, gust=0.3), TypeError, r"^gust is 0.3; must be a Gust"),
+            (lambda: batch["target"], KeyError, "target is not observed here; there are"),
             (lambda: ba.WorldBatch(SCENE, observations=["smell"]), ValueError, "must be one of position"),
         ):
             with self.assertRaisesRegex(error, words):
