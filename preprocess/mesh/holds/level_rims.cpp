@@ -1,6 +1,7 @@
 #include "preprocess/mesh/holds/level_rims.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -11,7 +12,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kBelowSpill = 1e-6;  // of the depth: the vertex at which a pool spills is above
+constexpr double kSearched = 0.005;  // of the depth, below where a pool spills
+constexpr double kSameLevel = 1e-9;  // of the depth
 
 /// Divides the triangles that cross a height into three each. Both triangles of an edge get the
 /// same new vertex, so that the mesh stays closed.
@@ -71,17 +73,42 @@ class Divider {
   std::vector<Eigen::Vector3i> triangles_;
 };
 
+/// Returns where holds end, one level for each pool: a little below where it spills, in the middle
+/// of the widest gap between the heights of vertices there, so that no triangle is cut at a corner.
+std::vector<double> levelsOf(const TriangleMesh& mesh, const Vector3d& up,
+                             const std::vector<Pool>& pools) {
+  const Eigen::VectorXd heights = mesh.vertices.transpose() * up;
+  std::vector<double> levels;
+  for (const Pool& pool : pools) {
+    const double spill = heights[pool.lowest] + pool.depth;
+    std::vector<double> marks{spill - kSearched * pool.depth, spill};
+    for (const double height : heights)
+      if (height > marks[0] && height < spill) marks.push_back(height);
+    std::sort(marks.begin(), marks.end());
+    double level = spill, widest = 0;
+    for (std::size_t i = 1; i < marks.size(); ++i) {
+      if (!(marks[i] - marks[i - 1] > widest)) continue;
+      widest = marks[i] - marks[i - 1];
+      level = (marks[i] + marks[i - 1]) / 2;
+    }
+    const auto same = std::find_if(levels.begin(), levels.end(), [&](double other) {
+      return std::abs(level - other) <= kSameLevel * pool.depth;
+    });
+    levels.push_back(same == levels.end() ? level : *same);
+  }
+  return levels;
+}
+
 }  // namespace
 
 LevelRims levelRims(TriangleMesh mesh, const Vector3d& up, const std::vector<Pool>& pools) {
-  const auto levelOf = [&](const Pool& pool) {
-    return Vector3d(mesh.vertices.col(pool.lowest)).dot(up) + (1 - kBelowSpill) * pool.depth;
-  };
-  for (const Pool& pool : pools) mesh = Divider(mesh, up, levelOf(pool)).mesh();
+  const std::vector<double> levels = levelsOf(mesh, up, pools);
+  for (auto level = levels.begin(); level != levels.end(); ++level)
+    if (std::find(levels.begin(), level, *level) == level) mesh = Divider(mesh, up, *level).mesh();
   const TriangleNeighbours neighbours(mesh);
   std::vector<int> labels(static_cast<std::size_t>(mesh.triangleCount()), 0);
   for (std::size_t k = 0; k < pools.size(); ++k) {
-    const double level = levelOf(pools[k]);
+    const double level = levels[k];
     std::vector<int> open;
     const auto reach = [&](int t) {
       if (labels[t] != 0 || mesh.barycentre(t).dot(up) >= level) return;
