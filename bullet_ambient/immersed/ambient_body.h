@@ -170,6 +170,8 @@ struct AmbientBody {
   bool may_rest = true;         ///< true: nothing around the body changes with time
   bool has_own_models = false;  ///< true: `models` are of this body alone, as its mass has changed;
                                 ///< false: equal bodies share them
+  /// Steps in a row in which a joint of the body was open by much of its size, at most 1000.
+  std::int16_t open_joint_steps = 0;
   int in_hold = -1;  ///< index into FluidRegions::in_holds; -1: the body is in no hold of another
   SubstepOutcome outcome;  ///< in most steps the action needs only what precedes
                            ///< LastFlight::memory
@@ -193,8 +195,6 @@ struct AmbientBody {
   std::unique_ptr<VesselState> vessel;   ///< null: the body has no holds
   btMultiBody* multi_body = nullptr;     ///< that of a link; null: a rigid body
   std::shared_ptr<AmbientBody*> handle;  ///< where it is kept, for its Immersed: ends with it
-  int open_joint_steps =
-      0;  ///< number of steps in a row in which a joint of the body was open by much of its size
 
   bool isInFluid() const { return medium.density > 0; }
   /// Model in the medium around the body.

@@ -5,6 +5,8 @@
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
 #include <BulletDynamics/ConstraintSolver/btContactSolverInfo.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -407,7 +409,9 @@ void SolverGroup::finishBatch(RowBatch& batch, double turn_share,
 void SolverGroup::noteJointError(AmbientBody& ambient, const RowBody& row_body) noexcept {
   const double size = ambient.metric().reference_length;
   const bool is_open = size > 0 && row_body.joint_error > kLargeJointError * size;
-  ambient.open_joint_steps = is_open ? ambient.open_joint_steps + 1 : 0;
+  constexpr int kMostSteps = 1000;
+  ambient.open_joint_steps =
+      static_cast<std::int16_t>(is_open ? std::min(ambient.open_joint_steps + 1, kMostSteps) : 0);
   if (ambient.open_joint_steps != kStepsToReport) return;
   const Member* other = memberOf(row_body.joined_to);
   bodies_.complaints.sayOpenJoint(*ambient.def, other ? other->ambient->def.get() : nullptr);

@@ -67,7 +67,7 @@ MultiBodySleep sleepOf(btMultiBody& body) noexcept;
 // All stored fields, listed once for all operations: write, read, check, copy from Bullet and back
 // to Bullet. Their order is that of the bytes. To add a field, add it to the structure and here,
 // and raise the version.
-constexpr std::uint32_t kStateVersion = 20;
+constexpr std::uint32_t kStateVersion = 19;
 
 /// Condition that each number of a field must meet, and the words of the message if one does not.
 /// The message begins with the name of the object; the value follows if the words end with a blank.
@@ -227,11 +227,7 @@ void fields(V& v, AmbientState& s) {
   each(v, finiteNotNegative("growth of a resistance is negative or not finite: "),
        s.memory.growth.rotation, s.memory.growth.translation);
   v(s.memory.substep, finiteNotNegative("flight has a substep that is negative or not finite: "));
-  each(v, kAny, s.wake.velocity_W.angular, s.wake.velocity_W.linear, s.wake.motion_W.angular,
-       s.wake.motion_W.linear);
-  each(v, finiteNotNegative("wake has a duration or share that is negative or not finite: "),
-       s.wake.duration, s.wake.developed);
-  v(s.wake.has_begun, kAny);
+  each(v, kAny, s.wake.velocity_W.angular, s.wake.velocity_W.linear, s.wake.has_begun);
   each(v, kAny, s.has_met_water, s.has_sunk);
   v.list(s.holds, kNoName);
   v.list(s.sloshing, kNoName);
@@ -242,7 +238,6 @@ void fields(V& v, AmbientState& s) {
   v.check("flight has a load or velocity that is not finite, or its square is not", [&s] {
     return std::isfinite(s.memory.load_W.vector().squaredNorm()) &&
            std::isfinite(s.wake.velocity_W.vector().squaredNorm()) &&
-           std::isfinite(s.wake.motion_W.vector().squaredNorm()) &&
            std::isfinite(s.left_W.vector().squaredNorm());
   });
   fields(v, s.counters);

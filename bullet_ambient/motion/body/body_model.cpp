@@ -270,27 +270,16 @@ double product(const Twist& a, const Twist& b, double area) {
 double developWake(const Twist& x, double area, double volume, double duration,
                    Wake& wake) noexcept {
   AMBIENT_ASSERT(duration >= 0 && area >= 0 && volume >= 0);
-  if (!wake.has_begun) wake = {x, x, 0, 1, true};
-  const double way = area > 0 ? kWay * 6 * volume / area : 0;
-  const Twist mean = Twist::fromVector(0.5 * (wake.motion_W.vector() + x.vector()));
-  const double past = way > 0 ? std::sqrt(product(mean, mean, area)) * wake.duration / way : 0;
-  Twist& w = wake.velocity_W;
-  if (past > 0) {
-    const double kept = portable::exp(-past);
-    w = {mean.angular + kept * (w.angular - mean.angular),
-         mean.linear + kept * (w.linear - mean.linear)};
-  }
+  if (!wake.has_begun) wake = {x, true};
   const double square = product(x, x, area);
-  double developed = 1;
-  if (square > 0 && way > 0) {
-    const double share = std::clamp(product(w, x, area) / (kDeveloped * square), 0.0, 1.0);
-    developed = share * share;
-  }
-  const double change = wake.duration > 0 ? (developed - wake.developed) / wake.duration : 0;
-  wake.motion_W = x;
-  wake.duration = duration;
-  wake.developed = developed;
-  return std::clamp(developed + 0.5 * duration * change, 0.0, 1.0);
+  const double way = area > 0 ? kWay * 6 * volume / area : 0;
+  if (!(square > 0) || !(way > 0)) return 1;
+  const double share =
+      std::clamp(product(wake.velocity_W, x, area) / (kDeveloped * square), 0.0, 1.0);
+  const double kept = portable::exp(-std::sqrt(square) * duration / way);
+  Twist& w = wake.velocity_W;
+  w = {x.angular + kept * (w.angular - x.angular), x.linear + kept * (w.linear - x.linear)};
+  return share * share;
 }
 
 }  // namespace ambient

@@ -232,24 +232,20 @@ WorldMomentum worldMomentum(const BodyModel& model, const RigidState& state);
 Twist twistOf(const BodyModel& model, const WorldMomentum& momentum, const Quaternion& orientation,
               const Vector3& position);
 
-/// Motion that the wake of a smooth body has taken up, w of docs/theory.md eq. (51b), and what the
-/// next step needs of the last one. Motions are in world axes, relative to the ambient flow.
+/// Motion that the wake of a smooth body has taken up, w of docs/theory.md eq. (51b): in world
+/// axes, relative to the ambient flow.
 struct Wake {
-  Twist velocity_W;        ///< w at the start of the last step
-  Twist motion_W;          ///< of the body at the start of the last step
-  double duration = 0;     ///< of the last step [s]
-  double developed = 1;    ///< chi of eq. (51c) at the start of the last step
-  bool has_begun = false;  ///< false: w is the motion itself when the body is first met
+  Twist velocity_W;
+  bool has_begun = false;  ///< false: it is the motion itself when the body is first met
 };
 
-/// Returns the share in [0, 1] of a developed wake that a motion has in the middle of a step, eq.
-/// (51c), to second order in the step: the wake has followed the mean motion of the last step, and
-/// its share goes on as it changed there. 1 in steady motion; 0 at a reversal.
-/// @param velocity_W of the body at the start of the step, relative to the ambient flow
+/// Returns the share in [0, 1] of a developed wake that a motion has at the start of a step, eq.
+/// (51c), and lets the wake follow it over the step. 1 in steady motion; 0 at a reversal.
+/// @param velocity_W of the body, relative to the ambient flow
 /// @param area of its surface [m^2]
 /// @param volume [m^3]
 /// @param duration of the step [s]
-/// @param wake that of the last step; becomes that of this step
+/// @param wake changes
 double developWake(const Twist& velocity_W, double area, double volume, double duration,
                    Wake& wake) noexcept;
 

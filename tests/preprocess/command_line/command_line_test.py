@@ -430,7 +430,9 @@ class FactsTest(CommandTest):
         for line in ("vertices          162", "faces             320", "volume            0.523598776 m^3", "\nadded mass "):
             self.assertIn(line, built.output)
         inspected = self.run_well("inspect", self.path("out.ambient")).output.splitlines()
-        self.assertEqual([line for line in inspected if "leaves at" not in line], built.output.splitlines())
+        while (rows := [i for i, line in enumerate(inspected) if "leaves at" in line]):
+            del inspected[rows[0] : rows[0] + 3]
+        self.assertEqual(inspected, built.output.splitlines())
 
     def test_inspect_says_where_layers_leave_smooth_sides(self):
         ball = self.build({"type": "sphere", "radius": 0.1, "faces": 1280})[1]
