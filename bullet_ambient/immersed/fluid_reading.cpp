@@ -2,6 +2,7 @@
 
 #include "bullet_ambient/force/surface/hydrostatics.h"
 #include "bullet_ambient/immersed/floating_state.h"
+#include "bullet_ambient/immersed/vessel_step.h"
 #include "bullet_ambient/motion/surface/stand_lanes.h"
 #include "bullet_ambient/motion/surface/surface_stand.h"
 #include "bullet_ambient/spatial/rotation.h"
