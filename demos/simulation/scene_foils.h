@@ -34,7 +34,8 @@ class SceneFoils {
   /// @pre finite, one for each foil
   void setAngles(const std::vector<double>& angles);
 
-  /// As Thrusters::setCentre().
+  /// Moves the foils of a body to its new centre of mass, so that they stay in place on the shape
+  /// [m].
   void setCentre(std::size_t body, const Vector3& centre_of_mass);
 
   /// Lets the angles follow the commands for a step, by implicit Euler as Thrusters do.

@@ -117,7 +117,8 @@ void turn(FormShape& shape, const Vector3& signs) {
     *v = v->cwiseProduct(signs);
 }
 
-/// Of axes that a mirror makes left-handed, the last one points the other way.
+/// Turns the axes of separation to an image; where a mirror makes them left-handed, the last one
+/// points the other way.
 void turn(Separation& separation, const Vector3& signs) {
   separation.axes = signs.asDiagonal() * separation.axes;
   if (signs.prod() > 0) return;

@@ -27,7 +27,7 @@ void checkRegionMedium(const Medium& medium, const std::string& which) {
 // Bits of BareVelocity::parts.
 constexpr unsigned kMedium = 1, kWaves = 2, kFlow = 4;
 
-// What is there already carries the flow along, docs/theory.md eq. (172).
+// Adds a flow to a medium, whose velocity carries the flow along, docs/theory.md eq. (172).
 void add(unsigned part, const FlowSample& flow, Medium& medium, BareVelocity& bare) {
   Vector3 acceleration = flow.acceleration;
   if (!flow.gradient.isZero(0)) acceleration += flow.gradient * medium.velocity;

@@ -24,7 +24,7 @@ class DensityLayers;
 /// Velocity [m/s] and acceleration [m/s^2] of the fluid at a point, world axes.
 struct FlowSample {
   Vector3 velocity{0, 0, 0};
-  /// Of a particle of the fluid that this flow alone carries, docs/theory.md eq. (172).
+  /// Acceleration of a particle that this flow alone carries, docs/theory.md eq. (172) [m/s^2].
   Vector3 acceleration{0, 0, 0};
   /// Rows: gradients of the components of the velocity [1/s]. Read where other flows carry this one
   /// along; where it is left out, that part of the acceleration is missing.

@@ -204,7 +204,7 @@ FlowSample KarmanWaves::sample(const Vector3& point_W, double time) const noexce
     sine[i] = at.sine;
     cosine[i] = at.cosine;
   }
-  // Of the waves along each way: velocity along e and f, and its change over the number.
+  // Sums over the waves along each way: velocity along e and f, and its change over the number.
   std::array<double, kWays> by_e{}, by_f{}, change_e{}, change_f{};
   for (std::size_t shell = 0; shell < kShellsOfCube; ++shell) {
     for (std::size_t i = 0; i < kWays; ++i) {
