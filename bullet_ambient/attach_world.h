@@ -46,6 +46,16 @@ class FluidBodySource {
     static_cast<void>(whose);
     return fluidBody(shape);
   }
+
+  /// A shape of a body that is about to be added, and its name for such lines.
+  struct Expected {
+    std::function<std::string()> whose;
+    const btCollisionShape* shape = nullptr;
+  };
+
+  /// Is told of the shapes that fluidBodyOf() will be asked for next, so that their fluid bodies
+  /// may be made side by side. A shape that has none is no failure here: fluidBodyOf() says why.
+  virtual void expect(const std::vector<Expected>& shapes) { static_cast<void>(shapes); }
 };
 
 /// Settings of addAll(): how the bodies of a world meet the fluid.
@@ -115,10 +125,21 @@ class WorldAttachment {
   bool hasMetAll(const btCollisionWorld& world) const noexcept;
   // Returns the objects that were not seen before; null in place of all others.
   std::vector<btCollisionObject*> seeAll(const btCollisionWorld& world);
-  const AmbientBody* attach(btCollisionObject& object, AttachReport& report);
-  const AmbientBody* attachBody(btRigidBody& body, AttachReport& report);
-  const AmbientBody* attachLink(btMultiBody& multi_body, int link, AttachReport& report);
-  AttachDef makeDef(const btCollisionObject& object) const;
+  // A new object that is to be added.
+  struct Candidate {
+    int index = 0;  // in the world
+    btCollisionObject* object = nullptr;
+    std::shared_ptr<const btCollisionShape> shape;
+  };
+
+  bool isToAdd(const btCollisionObject& object, AttachReport& report) const;
+  bool isToAdd(const btRigidBody& body, AttachReport& report) const;
+  bool isToAdd(const btMultiBody& multi_body, int link, AttachReport& report) const;
+  const AmbientBody* attach(const Candidate& candidate, const std::function<std::string()>& whose);
+  // Calls add(); what it throws becomes a refusal of the object.
+  template <class Add>
+  void addOr(const btCollisionObject& object, int index, AttachReport& report,
+             const Add& add) const;
   // Returns the collision shape of an object; that of a link includes those of the links without
   // mass that it carries.
   std::shared_ptr<const btCollisionShape> shapeOf(const btCollisionObject& object) const;
@@ -128,10 +149,8 @@ class WorldAttachment {
   FluidBodySource& source_;
   Medium medium_;
   AttachSettings settings_;
-  std::vector<Seen> seen_;  // in the order of the world
-  // State of attachNew() while it runs.
-  btMultiBodyDynamicsWorld* multibody_world_ = nullptr;
-  int index_ = 0, number_ = 0, count_ = 0;  // of the object, in the world and among the new ones
+  std::vector<Seen> seen_;                               // in the order of the world
+  btMultiBodyDynamicsWorld* multibody_world_ = nullptr;  // of attachNew() while it runs
 };
 
 AMBIENT_END

@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <cstdint>
 #include <deque>
+#include <exception>
 #include <mutex>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
+#include <vector>
 
 #include "bullet_ambient/base/fnv1a.h"
+#include "preprocess/base/parallel_for.h"
 #include "preprocess/builder/body_maker.h"
 #include "preprocess/collision_shape/collision_shape_body.h"
 #include "preprocess/collision_shape/form_body.h"
@@ -22,6 +26,14 @@ using SharedBody = SharedBodies::Body;
 std::string withSize(std::string content, double size) {
   return content.append(reinterpret_cast<const char*>(&size), sizeof size);
 }
+
+/// A form to be made beside others.
+struct Work {
+  std::string content;
+  ShapeForm form;
+  std::string whose;
+  SharedBody made;  ///< null: it was there, or there is none
+};
 
 }  // namespace
 
@@ -57,20 +69,26 @@ struct FluidBodyCache::Store {
   std::mutex mutex;                   // of this:
   std::deque<std::string> soon_made;  // what such forms were made of
   std::unordered_map<std::string, SharedBody> by_name;
+  std::unordered_map<std::string, std::exception_ptr> refused;  // not told yet
   LastLists<std::int32_t> triangles;
   LastLists<double> normals;
 
-  SharedBody get(const ShapeForm& form, const std::string& whose) {
+  /// Makes the body of a form, or reads it, and keeps it; on so many threads.
+  SharedBody get(const ShapeForm& form, const std::string& whose, int threads) {
     const std::string& name = settings.name.empty() ? form.kind : settings.name;
     const auto make = [&](const auto& begin) {
       CollisionShapeSettings shown = settings;
       shown.begin = begin;
+      shown.flow.threads = threads;
       return makeFormBody(form, shown);
     };
     const BodyMaker::Made made = maker.get(name, describeForm(form, settings), make, whose);
     maker.keep(made);
-    for (const std::string& line : made.body->provenance.said) maker.say(line);
     return made.body;
+  }
+
+  void say(const FluidBody& body) {
+    for (const std::string& line : body.provenance.said) maker.say(line);
   }
 
   // Scenes have few forms in many sizes, or a form for each shape, which then is kept but once.
@@ -80,8 +98,10 @@ struct FluidBodyCache::Store {
     bool is_new = false;
     const SharedBody unit = forms.get(content, [&] {
       is_new = true;
-      return get(form, whose());
+      throwIfRefused(content);
+      return get(form, whose(), settings.flow.threads);
     });
+    if (is_new) say(*unit);
     if (!is_new || !isSoonMade(form, settings)) return unit;
     const std::lock_guard<std::mutex> lock(mutex);
     soon_made.push_back(content);
@@ -91,12 +111,34 @@ struct FluidBodyCache::Store {
     return unit;
   }
 
+  void makeBeside(Work& work, int threads) {
+    try {
+      forms.get(work.content, [&] { return work.made = get(work.form, work.whose, threads); });
+    } catch (const std::exception&) {
+      const std::lock_guard<std::mutex> lock(mutex);
+      refused[work.content] = std::current_exception();
+    }
+  }
+
+  /// Throws, once, what makeBeside() found.
+  void throwIfRefused(const std::string& content) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    const auto found = refused.find(content);
+    if (found == refused.end()) return;
+    const std::exception_ptr reason = found->second;
+    refused.erase(found);
+    std::rethrow_exception(reason);
+  }
+
+  bool isSolvedAsImage(const ShapeForm& form) const {
+    return !isSoonMade(form, settings) && settings.waterline_subdivisions == 0;
+  }
+
   /// Forms that are images of each other are solved once. What is said of a body may tell places in
   /// it, and so is said of no image.
   SharedBody getImage(const std::string& content, const ShapeForm& form,
                       const std::function<std::string()>& whose) {
-    if (isSoonMade(form, settings) || settings.waterline_subdivisions > 0)
-      return getUnit(content, form, whose);
+    if (!isSolvedAsImage(form)) return getUnit(content, form, whose);
     const FormImage image = firstImage(form);
     SharedBody unit = getUnit(image.form.kind + contentOf(image.form.parts), image.form, whose);
     if (image.turned == 0) return unit;
@@ -147,6 +189,37 @@ SharedBody FluidBodyCache::fluidBodyOf(const std::function<std::string()>& whose
     if (isSoonMade(form, store.settings)) store.share(body);
     return store.remember(std::make_shared<const FluidBody>(std::move(body)));
   });
+}
+
+void FluidBodyCache::expect(const std::vector<Expected>& shapes) {
+  Store& store = *store_;
+  std::vector<Work> works;
+  std::unordered_set<const btCollisionShape*> seen;
+  std::unordered_set<std::string> contents;
+  for (const Expected& expected : shapes) {
+    if (!expected.shape || !seen.insert(expected.shape).second) continue;
+    try {
+      ShapeForm form = normalised(recognised(readForm(*expected.shape, store.settings)));
+      if (!store.isSolvedAsImage(form)) continue;
+      form = firstImage(form).form;
+      std::string content = form.kind + contentOf(form.parts);
+      if (contents.insert(content).second)
+        works.push_back({std::move(content), std::move(form), expected.whose(), nullptr});
+    } catch (const std::exception&) {  // fluidBodyOf() says why
+    }
+  }
+  const auto count = static_cast<int>(works.size());
+  if (count < 2) return;
+  // The largest first, so that none is waited for in the end.
+  std::stable_sort(works.begin(), works.end(), [](const Work& a, const Work& b) {
+    return a.content.size() > b.content.size();
+  });
+  const int threads = threadCount(store.settings.flow.threads), each = std::max(1, threads / count);
+  parallelFor(threads, count, [&](std::ptrdiff_t k) {
+    store.makeBeside(works[static_cast<std::size_t>(k)], each);
+  });
+  for (const Work& work : works)
+    if (work.made) store.say(*work.made);
 }
 
 SharedBody FluidBodyCache::find(const std::string& name) const {

@@ -335,6 +335,17 @@ bool meetsFluid(const Robot& robot, int number) {
   return moves && !robot.shape(number).isEmpty() && (!link.fluid || link.fluid->medium != "none");
 }
 
+std::vector<FluidBodySource::Expected> shapesToMake(const Robot& robot) {
+  std::vector<FluidBodySource::Expected> shapes;
+  for (int number = -1; number < robot.multiBody().getNumLinks(); ++number) {
+    const LinkModel& link = robot.link(number);
+    if (!meetsFluid(robot, number) || (link.fluid && !link.fluid->fluid_body.empty())) continue;
+    const auto whose = [&link] { return "link '" + link.name + "'"; };
+    shapes.push_back({whose, robot.shape(number).in_link.get()});
+  }
+  return shapes;
+}
+
 }  // namespace
 
 std::vector<std::string> attachRobot(Fluid& fluid, Robot& robot, FluidBodySource& source,
@@ -342,6 +353,7 @@ std::vector<std::string> attachRobot(Fluid& fluid, Robot& robot, FluidBodySource
   btMultiBody& body = robot.multiBody();
   std::vector<Immersed> links;
   std::vector<std::string> attached;
+  source.expect(shapesToMake(robot));
   for (int number = -1; number < body.getNumLinks(); ++number) {
     if (!meetsFluid(robot, number)) continue;
     try {

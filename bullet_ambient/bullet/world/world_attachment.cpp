@@ -142,62 +142,56 @@ std::shared_ptr<const btCollisionShape> WorldAttachment::shapeOf(
   return all;
 }
 
-AttachDef WorldAttachment::makeDef(const btCollisionObject& object) const {
+bool WorldAttachment::isToAdd(const btRigidBody& body, AttachReport& report) const {
+  if (!isDynamic(body)) return false;
+  if (settings_.filter && !callOf("filter", [&] { return settings_.filter(body); })) return false;
+  if (!bodies_.find(&body)) return true;
+  ++report.attached_before;
+  return false;
+}
+
+bool WorldAttachment::isToAdd(const btMultiBody& multi_body, int link, AttachReport& report) const {
+  if (!canMove(multi_body, link)) {
+    if (hasShape(*colliderOf(multi_body, link)) && !carrierOf(multi_body, link) &&
+        isWanted(multi_body, link))
+      throw std::invalid_argument(
+          "it has no mass, and no fixed joint holds it to a link that has one, so that no fluid "
+          "acts on it");
+    return false;
+  }
+  if (!isWanted(multi_body, link)) return false;
+  if (!bodies_.trees.find(&multi_body, link)) return true;
+  ++report.attached_before;
+  return false;
+}
+
+bool WorldAttachment::isToAdd(const btCollisionObject& object, AttachReport& report) const {
+  if (const btRigidBody* body = btRigidBody::upcast(&object)) return isToAdd(*body, report);
+  const btMultiBodyLinkCollider* collider = btMultiBodyLinkCollider::upcast(&object);
+  if (!collider || !collider->m_multiBody || !multibody_world_) return false;
+  return isToAdd(*collider->m_multiBody, collider->m_link, report);
+}
+
+const AmbientBody* WorldAttachment::attach(const Candidate& candidate,
+                                           const std::function<std::string()>& whose) {
+  if (!candidate.shape || isEmpty(*candidate.shape))
+    throw std::invalid_argument("it has no collision shape, so that no fluid acts on it");
   AttachDef def;
   def.medium = medium_;
   def.flow = settings_.flow;
   def.flight = settings_.flight;
-  const auto shape = shapeOf(object);
-  if (!shape || isEmpty(*shape))
-    throw std::invalid_argument("it has no collision shape, so that no fluid acts on it");
-  const auto whose = [&] {
-    return nameOf(index_, object, bodies_) + ", " + std::to_string(number_) + " of " +
-           std::to_string(count_);
-  };
-  def.fluid_body = source_.fluidBodyOf(whose, *shape);
-  return def;
-}
-
-const AmbientBody* WorldAttachment::attachBody(btRigidBody& body, AttachReport& report) {
-  if (!isDynamic(body)) return nullptr;
-  if (settings_.filter && !callOf("filter", [&] { return settings_.filter(body); })) return nullptr;
-  if (bodies_.find(&body)) {
-    ++report.attached_before;
-    return nullptr;
+  def.fluid_body = source_.fluidBodyOf(whose, *candidate.shape);
+  if (btRigidBody* body = btRigidBody::upcast(candidate.object)) {
+    if (settings_.adjust) callOf("adjust", [&] { settings_.adjust(*body, def); });
+    return def.fluid_body ? &attachBody(bodies_, *body, std::move(def)) : nullptr;
   }
-  AttachDef def = makeDef(body);
-  if (settings_.adjust) callOf("adjust", [&] { settings_.adjust(body, def); });
-  if (!def.fluid_body) return nullptr;
-  return &ambient::attachBody(bodies_, body, std::move(def));
-}
-
-const AmbientBody* WorldAttachment::attachLink(btMultiBody& multi_body, int link,
-                                               AttachReport& report) {
-  const btMultiBodyLinkCollider& collider = *colliderOf(multi_body, link);
-  if (!canMove(multi_body, link)) {
-    if (hasShape(collider) && !carrierOf(multi_body, link) && isWanted(multi_body, link))
-      throw std::invalid_argument(
-          "it has no mass, and no fixed joint holds it to a link that has one, so that no fluid "
-          "acts on it");
-    return nullptr;
-  }
-  if (!isWanted(multi_body, link)) return nullptr;
-  if (bodies_.trees.find(&multi_body, link)) {
-    ++report.attached_before;
-    return nullptr;
-  }
-  AttachDef def = makeDef(collider);
+  const auto& collider = *btMultiBodyLinkCollider::upcast(candidate.object);
+  btMultiBody& multi_body = *collider.m_multiBody;
+  const int link = collider.m_link;
   if (settings_.adjust_link)
     callOf("adjust_link", [&] { settings_.adjust_link(multi_body, link, def); });
   if (!def.fluid_body) return nullptr;
-  return &ambient::attachLink(bodies_, *multibody_world_, multi_body, link, std::move(def));
-}
-
-const AmbientBody* WorldAttachment::attach(btCollisionObject& object, AttachReport& report) {
-  if (btRigidBody* body = btRigidBody::upcast(&object)) return attachBody(*body, report);
-  const btMultiBodyLinkCollider* collider = btMultiBodyLinkCollider::upcast(&object);
-  if (!collider || !collider->m_multiBody || !multibody_world_) return nullptr;
-  return attachLink(*collider->m_multiBody, collider->m_link, report);
+  return &attachLink(bodies_, *multibody_world_, multi_body, link, std::move(def));
 }
 
 std::vector<btCollisionObject*> WorldAttachment::seeAll(const btCollisionWorld& world) {
@@ -218,29 +212,57 @@ std::vector<btCollisionObject*> WorldAttachment::seeAll(const btCollisionWorld& 
   return strangers;
 }
 
+template <class Add>
+void WorldAttachment::addOr(const btCollisionObject& object, int index, AttachReport& report,
+                            const Add& add) const {
+  try {
+    add();
+  } catch (const std::exception& error) {
+    report.refused.push_back({index, nameOf(index, object, bodies_) + ": " + error.what()});
+  } catch (...) {  // thrown by the program's source
+    report.refused.push_back(
+        {index, nameOf(index, object, bodies_) + ": something unknown was thrown"});
+  }
+}
+
 AttachReport WorldAttachment::attachNew(btCollisionWorld& world) {
   AttachReport report;
   Tally tally;
   multibody_world_ = dynamic_cast<btMultiBodyDynamicsWorld*>(&world);
   if (multibody_world_) tally.gravity = multibody_world_->getGravity();
   const std::vector<btCollisionObject*> strangers = seeAll(world);
-  count_ = static_cast<int>(std::count_if(strangers.begin(), strangers.end(), canJoin));
-  number_ = 0;
+  const auto count = std::count_if(strangers.begin(), strangers.end(), canJoin);
+  std::vector<Candidate> candidates;
+  std::vector<FluidBodySource::Expected> expected;
+  int number = 0;
   for (std::size_t i = 0; i < strangers.size(); ++i) {
     btCollisionObject* object = strangers[i];
     if (!object) continue;
-    const int index = index_ = static_cast<int>(i);
-    if (canJoin(object)) ++number_;
-    try {
-      if (const AmbientBody* ambient = attach(*object, report))
-        tally.add(index, *ambient, bodies_.trees, report);
-    } catch (const std::exception& error) {
-      report.refused.push_back({index, nameOf(index, *object, bodies_) + ": " + error.what()});
-    } catch (...) {  // thrown by the program's source
-      report.refused.push_back(
-          {index, nameOf(index, *object, bodies_) + ": something unknown was thrown"});
-    }
+    const int index = static_cast<int>(i);
+    if (canJoin(object)) ++number;
+    const auto whose = [this, object, index, number, count] {
+      return nameOf(index, *object, bodies_) + ", " + std::to_string(number) + " of " +
+             std::to_string(count);
+    };
+    addOr(*object, index, report, [&] {
+      if (!isToAdd(*object, report)) return;
+      candidates.push_back({index, object, shapeOf(*object)});
+      expected.push_back({whose, candidates.back().shape.get()});
+    });
   }
+  try {
+    source_.expect(expected);
+  } catch (...) {  // then one after another
+  }
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    const Candidate& candidate = candidates[k];
+    addOr(*candidate.object, candidate.index, report, [&] {
+      if (const AmbientBody* ambient = attach(candidate, expected[k].whose))
+        tally.add(candidate.index, *ambient, bodies_.trees, report);
+    });
+  }
+  std::stable_sort(report.refused.begin(), report.refused.end(),
+                   [](const auto& a, const auto& b) { return a.body < b.body; });
   multibody_world_ = nullptr;
   report.fluid_bodies = static_cast<int>(tally.shapes.size());
   if (tally.lightest) {

@@ -219,6 +219,42 @@ TEST(FluidBodyCache, ThreadsThatAskForOneShapeMakeItOnce) {
   EXPECT_EQ(cache.counts().made, 1);
 }
 
+TEST(FluidBodyCache, ExpectedShapesAreMadeSideBySideAsOneByOne) {
+  std::vector<std::string> said, said_alone;
+  const auto settings = [](std::vector<std::string>& lines) {
+    CollisionShapeSettings result = coarse();
+    result.strict = true;
+    result.flow.threads = 3;
+    result.report = [&lines](const std::string& line) {
+      if (line.rfind("making ", 0) != 0) lines.push_back(line);  // of work that takes long
+    };
+    return result;
+  };
+  FluidBodyCache cache(settings(said)), alone(settings(said_alone));
+  std::vector<std::unique_ptr<btCollisionShape>> hulls;
+  for (const double stretch : {1.0, 1.3, 1.7}) {
+    hulls.push_back(wedge());
+    hulls.back()->setLocalScaling(sizes(stretch, 1, 1));
+  }
+  test::GImpactMesh open(withoutTriangle(scaled(unitTetrahedron(), 10), 0));
+  const btBoxShape box(sizes(1, 2, 3));
+  const auto whose = [] { return std::string("body 'crane', 3 of 14"); };
+  std::vector<FluidBodySource::Expected> expected{
+      {whose, nullptr}, {whose, &box}, {whose, &open.shape}, {whose, hulls[0].get()}};
+  for (const auto& hull : hulls) expected.push_back({whose, hull.get()});
+  cache.expect(expected);
+  EXPECT_EQ(cache.counts().made, 4) << "three wedges and the mesh; the box is made in no time";
+  for (const auto& hull : hulls)
+    EXPECT_EQ(encodeFluidBody(*cache.fluidBody(*hull), ""),
+              encodeFluidBody(*alone.fluidBody(*hull), ""));
+  const std::string refusal = messageOf([&] { alone.fluidBody(open.shape); });
+  EXPECT_FALSE(refusal.empty());
+  EXPECT_EQ(messageOf([&] { cache.fluidBody(open.shape); }), refusal);
+  EXPECT_EQ(cache.counts().made, 4) << "what was refused is not tried again at once";
+  EXPECT_EQ(messageOf([&] { cache.fluidBody(open.shape); }), refusal);
+  EXPECT_EQ(said, said_alone);
+}
+
 TEST(FluidBodyCache, AnotherRunReadsWhatThisOneMade) {
   const TemporaryFolder folder;
   FluidBodyCache first(coarse(), folder / "kept"), second(coarse(), folder / "kept");
