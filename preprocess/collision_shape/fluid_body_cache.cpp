@@ -214,7 +214,9 @@ void FluidBodyCache::expect(const std::vector<Expected>& shapes) {
   std::stable_sort(works.begin(), works.end(), [](const Work& a, const Work& b) {
     return a.content.size() > b.content.size();
   });
-  const int threads = threadCount(store.settings.flow.threads), each = std::max(1, threads / count);
+  // Twice as many threads as cores: the last bodies have all cores.
+  const int threads = threadCount(store.settings.flow.threads);
+  const int each = std::max(1, 2 * threads / std::min(threads, count));
   parallelFor(threads, count, [&](std::ptrdiff_t k) {
     store.makeBeside(works[static_cast<std::size_t>(k)], each);
   });

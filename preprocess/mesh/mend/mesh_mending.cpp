@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <numeric>
 #include <set>
 #include <utility>
 #include <vector>
@@ -19,18 +20,31 @@ using Edge = std::pair<int, int>;
 
 /// Directed edges that no triangle runs along the other way round, as often as one is missing; each
 /// once, ascending.
-std::vector<Edge> openEdges(const std::vector<Eigen::Vector3i>& triangles) {
-  std::vector<Edge> edges;
-  edges.reserve(3 * triangles.size());
+std::vector<Edge> openEdges(const std::vector<Eigen::Vector3i>& triangles, std::size_t vertices) {
+  // Where the edges of each vertex begin, and their other ends.
+  std::vector<std::size_t> begin(vertices + 1, 0);
   for (const Eigen::Vector3i& t : triangles)
-    for (int k = 0; k < 3; ++k) edges.emplace_back(t[k], t[(k + 1) % 3]);
-  std::sort(edges.begin(), edges.end());
+    for (const int v : t) ++begin[static_cast<std::size_t>(v) + 1];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<int> ends(3 * triangles.size());
+  std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
+  for (const Eigen::Vector3i& t : triangles)
+    for (int k = 0; k < 3; ++k) ends[next[static_cast<std::size_t>(t[k])]++] = t[(k + 1) % 3];
+  const auto endsAt = [&](std::size_t v) {
+    const auto at = [&](std::size_t i) { return ends.begin() + static_cast<std::ptrdiff_t>(i); };
+    return std::pair(at(begin[v]), at(begin[v + 1]));
+  };
   std::vector<Edge> open;
-  for (auto edge = edges.begin(); edge != edges.end();) {
-    const auto end = std::upper_bound(edge, edges.end(), *edge);
-    const auto back = std::equal_range(edges.begin(), edges.end(), Edge(edge->second, edge->first));
-    if (back.second - back.first < end - edge) open.push_back(*edge);
-    edge = end;
+  for (std::size_t v = 0; v < vertices; ++v) {
+    const auto [first, last] = endsAt(v);
+    std::sort(first, last);
+    for (auto end = first; end != last;) {
+      const auto after = std::upper_bound(end, last, *end);
+      const auto [from, to] = endsAt(static_cast<std::size_t>(*end));
+      const int number = static_cast<int>(v);
+      if (std::count(from, to, number) < after - end) open.emplace_back(number, *end);
+      end = after;
+    }
   }
   return open;
 }
@@ -88,7 +102,7 @@ class CrackMender {
 
   /// False if there was nothing to divide.
   bool divideOnce() {
-    const std::vector<Edge> open = openEdges(triangles_);
+    const std::vector<Edge> open = openEdges(triangles_, points_.size());
     const SortedPlaces ends = endsOf(open);
     Insides inside;
     for (const Edge& edge : open) {
