@@ -112,8 +112,9 @@ class CrackMender {
     if (inside.empty()) return false;
     std::vector<Eigen::Vector3i> divided;
     for (const Eigen::Vector3i& triangle : triangles_) append(triangle, inside, divided);
+    const bool is_divided = divided.size() > triangles_.size();
     triangles_ = std::move(divided);
-    return true;
+    return is_divided;
   }
 
   TriangleMesh mesh() const { return makeTriangleMesh(points_, triangles_); }
