@@ -69,6 +69,7 @@ void takePlace(AmbientBody& ambient, const AmbientBody* before) {
 
 void forgetFlight(AmbientBody& ambient) noexcept {
   if (auto* last = std::get_if<LastFlight>(&ambient.outcome.motion)) last->memory = {};
+  if (auto* rows = std::get_if<RowMotion>(&ambient.outcome.motion)) rows->load_W = {};
 }
 
 void forgetWake(AmbientBody& ambient) noexcept {

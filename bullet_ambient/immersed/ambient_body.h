@@ -46,6 +46,7 @@ struct RowMotion {
   bool is_anchored =
       false;        ///< true: joints, or contacts with bodies that cannot move, hold the body
   double turn = 0;  ///< largest turn of the body during the step [rad]
+  Wrench load_W;    ///< mean surface load in the step, RowLoad
   /// Momentum relative to the flow, about the centre of mass at the start, which the turn keeps;
   /// none: a body with locked axes, or one that the fluid settles, eq. (124).
   std::optional<Momentum> momentum_W;
@@ -74,6 +75,11 @@ struct SubstepOutcome {
   /// memory of the last flight, which is of no use then.
   std::variant<LastFlight, RowMotion> motion;
 
+  /// The last surface load, world axes; 0: not known.
+  const Wrench& lastLoad() const {
+    const auto* flown = std::get_if<LastFlight>(&motion);
+    return flown ? flown->memory.load_W : std::get<RowMotion>(motion).load_W;
+  }
   RowMotion& rows() { return std::get<RowMotion>(motion); }
   const LastFlight& flight() const { return std::get<LastFlight>(motion); }
   /// The last flight; after a motion by rows, a new one without memory.

@@ -269,6 +269,7 @@ void beginRowMotions(RowBatch& batch, RowBodies& row_bodies,
     const RowBody& row_body = *row_bodies.find(batch.solver_bodies[i]);
     RowMotion& rows = batch.bodies[i]->outcome.rows();
     rows.is_anchored = row_body.is_anchored;
+    rows.load_W = batch.loads_W[i];
     rows.orientation = correctedAttitude(
         orientationOf(lanes.orientation, i),
         turn_share * time_step * toVector3(solver_body.internalGetTurnVelocity()), solver_body);

@@ -38,6 +38,7 @@ struct RowBatch {
   int solver_bodies[kFlightsTogether] = {};                  ///< indices in the solver's pool
   Vector3 positions[kFlightsTogether];                       ///< centres of mass at the start [m]
   std::optional<Matrix6> settled_inertia[kFlightsTogether];  ///< of RowVelocity
+  Wrench loads_W[kFlightsTogether];                          ///< RowLoad::mean_W
 };
 
 /// Stores momentum, energy bound and start of the active bodies in AmbientBody::outcome for

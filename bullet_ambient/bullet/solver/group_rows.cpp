@@ -240,8 +240,10 @@ void SolverGroup::prepareForRows(Member* const* members, int count,
   RowLoad loads[kFlightsTogether];
   bool is_any_free = false;
   for (int i = 0; i < count; ++i) {
+    batch.loads_W[i] = {};
     if (members[i]->is_locked) continue;
-    loads[i] = setStart(taskOf(i), starts.states[i], i, lanes);
+    loads[i] = setStart(taskOf(i), starts.states[i], batch.bodies[i]->outcome.lastLoad(), i, lanes);
+    batch.loads_W[i] = loads[i].mean_W;
     is_any_free = true;
   }
   if (is_any_free) kFlightKernels.fastest()->predictRowVelocity(lanes);

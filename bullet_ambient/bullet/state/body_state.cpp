@@ -254,7 +254,8 @@ std::unique_ptr<AmbientLink> makeLink(const LinkFluidState& saved, const MultiBo
 
 AmbientState saveAmbient(const AmbientBody& ambient, const InverseMass& mass) {
   const auto* last = std::get_if<LastFlight>(&ambient.outcome.motion);
-  const LastFlight flight = last ? *last : LastFlight{};
+  LastFlight flight = last ? *last : LastFlight{};
+  flight.memory.load_W = ambient.outcome.lastLoad();
   AmbientState state{*ambient.def,
                      ambient.medium,
                      ambient.place,

@@ -97,22 +97,29 @@ inline Real turnNumberOf(const PairsOf<Real>& change, const PairsOf<Real>& motio
 }
 
 /// Turning part t of eq. (28) over a step, in B, and its turn_number.
-struct Turnings {
-  Spatials change;
-  Lanes turn_number;
+template <class Real>
+struct TurningsOf {
+  SpatialsOf<Real> change;
+  Real turn_number;
+
+  /// The part of t that is X.
+  Real share() const {
+    const Real zero = Real{}, rest = all<Real>(1) - turn_number, half = all<Real>(0.5);
+    return rest < zero ? zero : (rest > half ? half : rest);
+  }
 };
 
 /// Computes the turnings of free bodies explicitly. `motion`: relative to the flow; duration [s].
-template <class Matrices>
-Turnings computeTurnings(const Matrices& inertia, const Matrices& inverse, const Pairs& motion,
-                         const Lanes& duration) {
-  const Spatials &x = motion.twist, &m = motion.momentum;
-  const Spatials wrench{cross(m.angular, x.angular) + cross(m.linear, x.linear),
-                        cross(m.linear, x.angular)};  // eq. (2)
-  Spatials change = duration * (inverse * wrench);
+template <class Real, class Matrices>
+TurningsOf<Real> computeTurnings(const Matrices& inertia, const Matrices& inverse,
+                                 const PairsOf<Real>& motion, const Real& duration) {
+  const SpatialsOf<Real>&x = motion.twist, &m = motion.momentum;
+  const SpatialsOf<Real> wrench{cross(m.angular, x.angular) + cross(m.linear, x.linear),
+                                cross(m.linear, x.angular)};  // eq. (2)
+  SpatialsOf<Real> change = duration * (inverse * wrench);
   change.linear = change.linear + duration * cross(x.angular, x.linear);
-  const Lanes turn_number =
-      turnNumberOf<Lanes>({change, inertia * change}, motion, 0.5 / duration, all(0.45));
+  const Real turn_number = turnNumberOf<Real>({change, inertia * change}, motion,
+                                              all<Real>(0.5) / duration, all<Real>(0.45));
   return {change, turn_number};
 }
 

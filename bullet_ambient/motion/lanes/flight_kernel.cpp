@@ -123,7 +123,7 @@ inline Spatials isotropicExcess(const RowLanes& push, int at, const Pairs& kick)
 // eq. (124), which have the turn in them.
 template <class Matrices>
 void settleInStep(RowLanes& bodies, int at, const Pairs& x, const Spatials& wrench, Spatials& kick,
-                  Spatials& push, Turnings& turning) {
+                  Spatials& push, TurningsOf<Lanes>& turning) {
   const Matrices inertia(bodies.inertia, at), inverse(bodies.inverse_inertia, at);
   const Spatials of_turn = turningWrench(inertia, x);
   const Mask settles = settledOf<Matrices>(bodies, at, x, of_turn);
@@ -164,13 +164,11 @@ void predictRowVelocity(RowLanes& bodies, int at, const Mask&) {
         });
     kick = kick + (moved.twist - x);
   }
-  Turnings turning = computeTurnings(inertia, inverse, motion, duration);
+  TurningsOf<Lanes> turning = computeTurnings<Lanes>(inertia, inverse, motion, duration);
   Spatials push = inertia * kick;
   if (anyOf(load(bodies.settling + at) > Lanes{}))
     settleInStep<Matrices>(bodies, at, motion, wrench, kick, push, turning);
-  const Lanes zero = Lanes{}, rest = 1 - turning.turn_number;
-  const Lanes share = rest < zero ? zero : (rest > all(0.5) ? all(0.5) : rest);
-  const Spatials turning_W = toWorld(q, share * turning.change);
+  const Spatials turning_W = toWorld(q, turning.share() * turning.change);
   Spatials change_W = turning_W + toWorld(q, kick);
   change_W.linear = change_W.linear + duration * load(bodies.acceleration_W, at);
   store6(bodies.change_W, at, change_W);
@@ -192,7 +190,7 @@ void conserve(RowLanes& bodies, int at, const Mask&) {
   store6(bodies.momentum_W, at, toWorld(q, kept_pair.momentum));
   const Lanes duration = load(bodies.kick_time + at);
   store(bodies.moved_turn_number + at,
-        computeTurnings(inertia, inverse, {x, inertia * x}, duration).turn_number);
+        computeTurnings<Lanes>(inertia, inverse, {x, inertia * x}, duration).turn_number);
   const Lanes on_share = 2 * dot(share, inertia * by_rows);
   const Lanes taken = on_share < Lanes{} ? on_share : Lanes{};
   store(bodies.twice_energy + at, inner(kept_pair, kept_pair) + taken);

@@ -60,7 +60,52 @@ std::optional<Matrix6> settledInertia(const BodyModel& model, const SurfaceLoad&
   return inertia;
 }
 
-RowLoad setStart(const FlightTask& task, const RigidState& start, int lane,
+namespace {
+
+Wrench turnedBy(const Quaternion& q, const Wrench& wrench) {
+  return {q * wrench.torque, q * wrench.force};
+}
+
+/// Sets the forces on a body with a mean wrench in B that acts over the step besides.
+void setForcesWith(const Wrench& mean_B, const FlightTask& task, const Quaternion& orientation,
+                   int lane, RowLanes& lanes) {
+  Surroundings with = task.surroundings;
+  with.applied += turnedBy(orientation, mean_B);
+  setForces(lanes, lane, {task.model, with, task.settings, task.duration});
+}
+
+/// Returns the mean wrench in B over the step of the load on a body whose motion rows may uphold,
+/// eq. (28f). `last_B`: that of the last step. None where eq. (23) has to hold: the load stops the
+/// body within a step, or what rows uphold has ended.
+std::optional<Wrench> upheldLoad(const FlightTask& task, const Twist& relative,
+                                 const Wrench& last_B, FlightCount& count) noexcept {
+  const BodyModel& model = task.model;
+  const Vector6 x = relative.vector();
+  const DualPair motion = pairOfTwist(model, x);
+  const double energy = inner(motion, motion);
+  if (!(energy > 0) || turnsWithFluid(task.surroundings)) return std::nullopt;
+  const TurningsOf<double> turning = computeTurnings<double>(
+      plain(model.inertia), plain(model.inverse_inertia), plain(motion), task.duration);
+  const Vector6 middle = x - turning.share() * asEigen(turning.change);
+  const Twist seen = Twist::fromVector(middle);
+  const SurfaceLoad load = computeSurfaceLoad(model, seen, task.surroundings);
+  count.load_evaluations += 1;
+  count.guarded = count.guarded || load.guarded;
+  const Wrench whole = wholeLoad(load, model.resistance.get(), seen);
+  const double seen_energy = inertiaNormSquared(model, middle);
+  const double drag = seen_energy > 0 ? std::max(0.0, -power(whole, seen) / seen_energy) : 0.0;
+  const double q = task.duration * drag;
+  if (!(q < 1) || settlingIn(model, load.growth, task.duration) > 0) return std::nullopt;
+  const Vector6 last = std::min(1.0, 2 - 2 * q) * last_B.vector();
+  const Vector6 mean = last + (whole.vector() - last) / (1 + q);
+  const Vector6 kicked = x + task.duration * (model.inverse_inertia * mean);
+  if (!(inertiaNormSquared(model, kicked) <= energy)) return std::nullopt;
+  return Wrench::fromVector(mean);
+}
+
+}  // namespace
+
+RowLoad setStart(const FlightTask& task, const RigidState& start, const Wrench& last_W, int lane,
                  RowLanes& lanes) noexcept {
   const Surroundings& s = task.surroundings;
   AMBIENT_ASSERT(task.duration > 0);
@@ -78,6 +123,12 @@ RowLoad setStart(const FlightTask& task, const RigidState& start, int lane,
   lanes.settling[lane] = 0;
   RowLoad row;
   if (!task.model.loads) return row;
+  const Wrench last_B = turnedBy(start.orientation.conjugate(), last_W);
+  if (const auto mean = upheldLoad(task, relative, last_B, row.count)) {
+    setForcesWith(*mean, task, start.orientation, lane, lanes);
+    row.mean_W = turnedBy(start.orientation, *mean);
+    return row;
+  }
   const SurfaceLoad load = computeSurfaceLoad(task.model, relative, s);
   setResistance(lanes, lane, task.model.resistance.get(), load.growth);
   const bool is_constant = turnsWithFluid(s);
@@ -87,16 +138,13 @@ RowLoad setStart(const FlightTask& task, const RigidState& start, int lane,
   if (row.settled_inertia)
     lanes.settling[lane] = settlingIn(task.model, load.growth, task.duration);
   if (is_constant) {
-    const Wrench mean = meanLoadInTurningFluid(task, task.model, relative, load.wrench);
-    Surroundings with = s;
-    const Quaternion& q = start.orientation;
-    with.applied += {q * mean.torque, q * mean.force};
-    setForces(lanes, lane, {task.model, with, task.settings, task.duration});
+    setForcesWith(meanLoadInTurningFluid(task, task.model, relative, load.wrench), task,
+                  start.orientation, lane, lanes);
   } else {
     setLane(lanes.load_B, lane, load.wrench);
   }
-  row.count.load_evaluations = 1;
-  row.count.guarded = load.guarded;
+  row.count.load_evaluations += 1;
+  row.count.guarded = row.count.guarded || load.guarded;
   return row;
 }
 
@@ -113,7 +161,7 @@ RowVelocity computeRowVelocity(const FlightTask& task, const RigidState& start) 
   RowLanes lanes;
   const BodyModel* const model = &task.model;
   setModels(&model, 1, lanes);
-  const RowLoad load = setStart(task, start, 0, lanes);
+  const RowLoad load = setStart(task, start, {}, 0, lanes);
   kFlightKernels.fastest()->predictRowVelocity(lanes);
   return rowVelocityOf(lanes, 0, load);
 }

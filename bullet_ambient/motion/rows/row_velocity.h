@@ -28,6 +28,7 @@ struct RowVelocity {
 /// The load on a body when rows move it: what it cost, and RowVelocity::settled_inertia.
 struct RowLoad {
   FlightCount count;
+  Wrench mean_W;  ///< over the step, eq. (28f), world axes; 0 by eq. (23)
   std::optional<Matrix6> settled_inertia;
 };
 
@@ -44,8 +45,8 @@ std::optional<Matrix6> settledInertia(const BodyModel& model, const SurfaceLoad&
 /// Writes models into the first lanes, and makes these active. Others become 0.
 void setModels(const BodyModel* const* models, int count, RowLanes& lanes) noexcept;
 /// Writes the state of a body at the start of a step, and the forces and the load on it there.
-/// @pre setModels()
-RowLoad setStart(const FlightTask& task, const RigidState& start, int lane,
+/// `last_W`: the load in the last step, world axes; 0: not known. @pre setModels()
+RowLoad setStart(const FlightTask& task, const RigidState& start, const Wrench& last_W, int lane,
                  RowLanes& lanes) noexcept;
 /// Reads the result of FlightKernel::predictRowVelocity().
 RowVelocity rowVelocityOf(const RowLanes& lanes, int lane, const RowLoad& load) noexcept;

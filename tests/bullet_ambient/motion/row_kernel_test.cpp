@@ -106,7 +106,7 @@ TEST(RowsTogether, GiveABodyTheBitsThatItHasAlone) {
     RowLoad costs[kFlightsTogether];
     setModels(models, count, lanes);
     for (int i = 0; i < count; ++i)
-      costs[i] = setStart(tasks[number(i)], bodies[number(i)].state, i, lanes);
+      costs[i] = setStart(tasks[number(i)], bodies[number(i)].state, {}, i, lanes);
     kFlightKernels.fastest()->predictRowVelocity(lanes);
     for (int i = 0; i < count; ++i)
       expectSame(rowVelocityOf(lanes, i, costs[i]),

@@ -144,6 +144,22 @@ TEST(FlapInCurrent, RisesBelowAndFallsAboveTheAngleWhereItsMomentsBalance) {
   EXPECT_GT(spinAfterRelease(balance + kDegree), 0);
 }
 
+/// Angle below the level of its hinge at which a flap stands [degrees].
+double standingAngle(double time_step) {
+  const std::string step = std::to_string(time_step);
+  const Scene scene = readNamedScene(
+      "flap_in_current", {{"duration", "10"}, {"time_step", step}, {"output_step", step}});
+  const Vector3 end = run(scene).motion[0].back().position;
+  return std::asin(-end.z() / end.norm()) * 180 / kPi;
+}
+
+// Of second order in the step, eq. (28f); by eq. (23) it stands at 6.6 and 8.2 degrees.
+TEST(FlapInCurrent, StandsNearWhereItDoesAtShortSteps) {
+  constexpr double kLimit = 8.96;  // at 1/4000 s
+  EXPECT_NEAR(standingAngle(1.0 / 60), kLimit, 0.7);
+  EXPECT_NEAR(standingAngle(1.0 / 240), kLimit, 0.06);
+}
+
 // Light bodies on the ground: the scenes leaves and cards_in_wind.
 
 TEST(Leaves, SettleFlatOnTheFloor) {
