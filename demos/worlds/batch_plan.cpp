@@ -63,11 +63,7 @@ BatchPlan::BatchPlan(const Scene& from, const BatchSettings& with) : scene(from)
   requireFinite("together", settings.together, settings.together >= 1, ">= 1");
   requireFinite("most_steps", static_cast<double>(settings.most_steps), settings.most_steps >= 0,
                 ">= 0");
-  if (const auto& gust = settings.gust) {
-    for (const double sigma : gust->intensity)
-      requireFinite("gust.intensity", sigma, sigma >= 0, ">= 0");
-    requireFinite("gust.time", gust->time, gust->time > 0, "> 0");
-  }
+  if (settings.gust) gaussMarkovGusts(*settings.gust);  // checks it
   SceneBodyCache cache(settings.fluid_bodies, scene.threads);
   bodies = prepareBodies(scene, cache);
   cache.save();
