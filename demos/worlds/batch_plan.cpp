@@ -91,12 +91,13 @@ std::size_t BatchPlan::bodyOf(const std::string& key, const std::string& name) c
 int BatchPlan::sizeOf(int size) const {
   if (size == kPerThruster) return static_cast<int>(scene.thrusters.size());
   if (size == kPerJoint) return static_cast<int>(joints.size());
+  if (size == kPerFoil) return static_cast<int>(scene.foils.size());
   return size == kPerParameter ? parameter_size : size;
 }
 
 int BatchPlan::sizeOf(ActionKind kind) const {
   if (kind == ActionKind::kThrusters) return sizeOf(kPerThruster);
-  if (kind == ActionKind::kFoils) return static_cast<int>(scene.foils.size());
+  if (kind == ActionKind::kFoils) return sizeOf(kPerFoil);
   return kind == ActionKind::kWrench || kind == ActionKind::kWrenchWorld ? 6 : sizeOf(kPerJoint);
 }
 

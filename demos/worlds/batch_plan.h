@@ -18,7 +18,7 @@ struct BatchJoint {
 };
 
 /// How many numbers a field has: a count, or that of what a scene has.
-enum FieldSize : int { kPerThruster = -1, kPerJoint = -2, kPerParameter = -3 };
+enum FieldSize : int { kPerThruster = -1, kPerJoint = -2, kPerParameter = -3, kPerFoil = -4 };
 
 struct ObservationView;
 /// Writes all numbers of an observation, without noise.
