@@ -10,14 +10,25 @@ Matrix3 crossMatrix(const Vector3& d) {
   return m;
 }
 
+namespace {
+
+// Returns [d]x^T M: columns of M times d. Eigen's colwise().cross() takes twice the instructions.
+Matrix3 crossColumns(const Matrix3& M, const Vector3& d) {
+  Matrix3 product;
+  for (int i = 0; i < 3; ++i) product.col(i) = M.col(i).cross(d);
+  return product;
+}
+
+}  // namespace
+
 Matrix6 shiftOrigin(const Matrix6& inertia, const Vector3& d) {
-  // By blocks: [d]x^T M = M.colwise() x d, M [d]x = M.rowwise() x d.
+  // By blocks; M [d]x is the transpose of [d]x^T M^T.
   Matrix6 K = inertia;
   const Matrix3 M = K.bottomRightCorner<3, 3>(), C = K.topRightCorner<3, 3>();
-  K.topRightCorner<3, 3>() += M.colwise().cross(d);
-  K.bottomLeftCorner<3, 3>() += M.rowwise().cross(d);
+  K.topRightCorner<3, 3>() += crossColumns(M, d);
+  K.bottomLeftCorner<3, 3>() += crossColumns(M.transpose(), d).transpose();
   const Matrix3 below = K.bottomLeftCorner<3, 3>();
-  K.topLeftCorner<3, 3>() += C.rowwise().cross(d) + below.colwise().cross(d);
+  K.topLeftCorner<3, 3>() += crossColumns(C.transpose(), d).transpose() + crossColumns(below, d);
   return K;
 }
 

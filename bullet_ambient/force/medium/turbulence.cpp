@@ -1,6 +1,7 @@
 #include "bullet_ambient/force/medium/turbulence.h"
 
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -113,9 +114,20 @@ FlowSample GustSum::sample(double time) const noexcept {
   return {sumOver(velocity), sumOver(acceleration)};
 }
 
+// Bodies, and stations along them, ask for one time again and again: each thread keeps its last
+// sample.
 FlowField everywhere(GustSum gusts) {
-  return [sum = std::make_shared<const GustSum>(std::move(gusts))](const Vector3&, double time) {
-    return sum->sample(time);
+  static std::atomic<std::uint64_t> made{0};
+  return [sum = std::make_shared<const GustSum>(std::move(gusts)), number = ++made](const Vector3&,
+                                                                                    double time) {
+    struct Last {
+      std::uint64_t number = 0;
+      double time = 0;
+      FlowSample sample;
+    };
+    thread_local Last last;
+    if (last.number != number || last.time != time) last = {number, time, sum->sample(time)};
+    return last.sample;
   };
 }
 

@@ -303,8 +303,9 @@ TEST(WorldBatch, RefusesInOneLine) {
   settings.variations = {};
   EXPECT_EQ(refusal(reading({{"parameters"}})), "observations[0]: has no numbers: nothing varies");
   settings.gust = GaussMarkovGusts{{1, std::nan(""), 1}, 1};
-  EXPECT_EQ(refusal(settings),
-            "Gauss-Markov gusts: intensity [m/s] is nan; must be zero or positive and finite");
+  EXPECT_EQ(
+      test::refusalOf<std::invalid_argument>([&] { WorldBatch(sceneFrom(ballScene()), settings); }),
+      "Gauss-Markov gusts: intensity [m/s] is nan; must be zero or positive and finite");
   settings.gust.reset();
   settings.worlds = 0;
   EXPECT_NE(refusal(settings).find("worlds: is 0; must be >= 1"), std::string::npos);
