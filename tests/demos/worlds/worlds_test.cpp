@@ -317,6 +317,28 @@ TEST(WorldBatch, AWorldFailsAlone) {
   for (int i = 0; i < 4; ++i) EXPECT_EQ(positionOf(batch, i), positionOf(calm, i));
 }
 
+// Of a body without fluid and of a link of a robot; what is large is no fault.
+TEST(Simulation, IsAtFaultWhereAMotionIsNotFinite) {
+  const double infinite = std::numeric_limits<double>::infinity();
+  json text = vehicle();
+  text["model"] = "vacuum";
+  const TemporaryFolder folder;
+  SceneBodyCache cache(folder / "bodies");
+  const Scene free = sceneFrom(text), robot = readNamedScene("rov_station");
+  Simulation body(free, prepareBodies(free, cache)), link(robot, prepareBodies(robot, cache));
+  for (Simulation* simulation : {&body, &link}) {
+    simulation->step();
+    EXPECT_FALSE(simulation->fault());
+  }
+  body.setTwist(0, {Vector3::Zero(), {1e200, 0, 0}});
+  EXPECT_FALSE(body.fault());
+  body.setTwist(0, {Vector3::Zero(), {infinite, 0, 0}});
+  EXPECT_NE(body.fault().value_or("").find("body \"hull\": its state is not finite"),
+            std::string::npos);
+  link.robot(0).robot().multiBody().setBaseOmega(btVector3(0, btScalar(infinite), 0));
+  EXPECT_NE(link.fault().value_or("").find("its state is not finite"), std::string::npos);
+}
+
 constexpr std::uint64_t kAll = ~std::uint64_t{0};
 
 // The first and the last from Random123's known answers; the others by numpy.random.Philox of NumPy

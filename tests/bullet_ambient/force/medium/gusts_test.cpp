@@ -175,6 +175,17 @@ TEST(Flows, AreCalledWithoutAllocation) {
   EXPECT_TRUE(sum.allFinite());
 }
 
+// Of gusts that blow everywhere at once each thread keeps the last sample.
+TEST(Flows, KeepApartSeedsAndTimesThatFollowEachOther) {
+  const FlowField one = gaussMarkovGusts({{1, 1, 1}, 1, 1}),
+                  two = gaussMarkovGusts({{1, 1, 1}, 1, 2});
+  const Vector3 here(0, 0, 0), first = one(here, 3).velocity, second = two(here, 3).velocity;
+  EXPECT_NE(first, second);
+  EXPECT_EQ(one(here, 3).velocity, first);
+  EXPECT_NE(one(here, 4).velocity, first);
+  EXPECT_EQ(gaussMarkovGusts({{1, 1, 1}, 1, 2})(here, 3).velocity, second);
+}
+
 TEST(Flows, AddNothingWhereOneIsEmpty) {
   const FlowField gust = discreteGust({{1, 0, 0}, 0, 1, 0});
   EXPECT_EQ((FlowField() + gust)({0, 0, 0}, 1).velocity, Vector3(1, 0, 0));
