@@ -11,13 +11,18 @@ Matrix3 crossMatrix(const Vector3& d) {
 }
 
 Matrix6 shiftOrigin(const Matrix6& inertia, const Vector3& d) {
-  // By blocks: [d]x^T M = M.colwise() x d, M [d]x = M.rowwise() x d.
+  // By blocks: [d]x^T X has the columns of X times d; column j of X [d]x is x_k d_l - x_l d_k with
+  // j, k, l in cyclic order.
   Matrix6 K = inertia;
-  const Matrix3 M = K.bottomRightCorner<3, 3>(), C = K.topRightCorner<3, 3>();
-  K.topRightCorner<3, 3>() += M.colwise().cross(d);
-  K.bottomLeftCorner<3, 3>() += M.rowwise().cross(d);
-  const Matrix3 below = K.bottomLeftCorner<3, 3>();
-  K.topLeftCorner<3, 3>() += C.rowwise().cross(d) + below.colwise().cross(d);
+  const Eigen::Matrix<double, 6, 3, Eigen::DontAlign> X = inertia.rightCols<3>();
+  for (int j = 0; j < 3; ++j) {
+    const int k = (j + 1) % 3, l = (j + 2) % 3;
+    const Vector6 turned = X.col(k) * d[l] - X.col(l) * d[k];
+    K.col(3 + j).head<3>() += X.col(j).tail<3>().cross(d);
+    K.col(j).tail<3>() += turned.tail<3>();
+    const Vector3 below = K.col(j).tail<3>();
+    K.col(j).head<3>() += turned.head<3>() + below.cross(d);
+  }
   return K;
 }
 

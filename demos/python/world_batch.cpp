@@ -103,7 +103,7 @@ BatchSettings settingsFrom(const py::dict& from) {
   }
   if (from.contains("gust")) {
     const auto gust = from["gust"].cast<py::dict>();
-    settings.gust = GustDef{vectorIn(gust, "intensity"), gust["time"].cast<double>()};
+    settings.gust = GaussMarkovGusts{vectorIn(gust, "intensity"), gust["time"].cast<double>()};
   }
   return settings;
 }

@@ -57,6 +57,11 @@ FlowField toDrydenGusts(const json& from, const Vector3& up) {
   return drydenGusts(gusts);
 }
 
+FlowField toGaussMarkovGusts(const json& from, const Vector3&) {
+  return gaussMarkovGusts({toVector(from.at("intensity")), from.at("time").get<double>(),
+                           from.value("seed", GaussMarkovGusts().seed)});
+}
+
 FlowField toTurbulence(const json& from, const Vector3&) {
   Turbulence eddies;
   eddies.length = from.value("length", eddies.length);
@@ -72,6 +77,7 @@ constexpr std::pair<const char*, FlowField (*)(const json&, const Vector3&)> kFl
     {"current_profile", toCurrentProfile},
     {"discrete_gust", toDiscreteGust},
     {"dryden_gusts", toDrydenGusts},
+    {"gauss_markov_gusts", toGaussMarkovGusts},
     {"turbulence", toTurbulence}};
 
 std::shared_ptr<const DensityLayers> toLayers(const json& from, const Vector3& up) {

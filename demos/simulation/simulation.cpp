@@ -229,7 +229,7 @@ void Simulation::stepUnchecked() {
 
 std::optional<std::string> Simulation::fault() const {
   for (std::size_t i = 0; i < bodies_.size(); ++i)
-    if (work(i).rejected > 0 || !sample(bodies_[i]).isFinite())
+    if (work(i).rejected > 0 || (!isSound(i) && !sample(bodies_[i]).isFinite()))
       return notFinite(file_, bodies_[i].name, time());
   return std::nullopt;
 }

@@ -193,6 +193,9 @@ class Simulation {
   btRigidBody& rigidBody(std::size_t body);
   /// Null: a link without a collider.
   btCollisionObject* objectOf(std::size_t body) const;
+  /// True if what Bullet keeps of a body's motion is far from infinite, so that sample() is finite;
+  /// false: perhaps it is not.
+  bool isSound(std::size_t body) const;
   std::shared_ptr<const FluidBody> findFluidBody(const std::string& name) const;
   MotionSample sample(const WorldBody& of) const;
   /// Applies a wrench during the next step: about the centre of mass, axes of W.

@@ -1,6 +1,7 @@
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -112,6 +113,30 @@ btCollisionObject* Simulation::objectOf(std::size_t body) const {
   btMultiBody& multi_body = multiBodyOf(of);
   const int number = of.linkNumber();
   return number < 0 ? multi_body.getBaseCollider() : multi_body.getLinkCollider(number);
+}
+
+// A sample takes five times as long. The motion of a link is sound if its own and that of the links
+// before it are, which are bodies before it.
+bool Simulation::isSound(std::size_t body) const {
+  const btCollisionObject* object = objectOf(body);
+  if (!object) return false;
+  const auto size = [](const btVector3& x) {
+    return btFabs(x.x()) + btFabs(x.y()) + btFabs(x.z());
+  };
+  const btTransform& pose = object->getWorldTransform();
+  btScalar sum = size(pose.getOrigin());
+  for (int i = 0; i < 3; ++i) sum += size(pose.getBasis()[i]);
+  const WorldBody& of = bodies_[body];
+  if (!of.link) {
+    sum += size(of.body->getAngularVelocity()) + size(of.body->getLinearVelocity());
+  } else {
+    const btMultiBody& robot = multiBodyOf(of);
+    const bool is_base = of.linkNumber() < 0;
+    const int first = is_base ? 0 : 6 + robot.getLink(of.linkNumber()).m_dofOffset;
+    const int count = is_base ? 6 : robot.getLink(of.linkNumber()).m_dofCount;
+    for (int i = 0; i < count; ++i) sum += btFabs(robot.getVelocityVector()[first + i]);
+  }
+  return sum < std::sqrt(std::numeric_limits<btScalar>::max());
 }
 
 double Simulation::contactImpulse(std::size_t body) const {

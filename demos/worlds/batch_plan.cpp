@@ -63,11 +63,7 @@ BatchPlan::BatchPlan(const Scene& from, const BatchSettings& with) : scene(from)
   requireFinite("together", settings.together, settings.together >= 1, ">= 1");
   requireFinite("most_steps", static_cast<double>(settings.most_steps), settings.most_steps >= 0,
                 ">= 0");
-  if (const auto& gust = settings.gust) {
-    for (const double sigma : gust->intensity)
-      requireFinite("gust.intensity", sigma, sigma >= 0, ">= 0");
-    requireFinite("gust.time", gust->time, gust->time > 0, "> 0");
-  }
+  if (settings.gust) gaussMarkovGusts(*settings.gust);  // checks it
   SceneBodyCache cache(settings.fluid_bodies, scene.threads);
   bodies = prepareBodies(scene, cache);
   cache.save();
@@ -95,12 +91,13 @@ std::size_t BatchPlan::bodyOf(const std::string& key, const std::string& name) c
 int BatchPlan::sizeOf(int size) const {
   if (size == kPerThruster) return static_cast<int>(scene.thrusters.size());
   if (size == kPerJoint) return static_cast<int>(joints.size());
+  if (size == kPerFoil) return static_cast<int>(scene.foils.size());
   return size == kPerParameter ? parameter_size : size;
 }
 
 int BatchPlan::sizeOf(ActionKind kind) const {
   if (kind == ActionKind::kThrusters) return sizeOf(kPerThruster);
-  if (kind == ActionKind::kFoils) return static_cast<int>(scene.foils.size());
+  if (kind == ActionKind::kFoils) return sizeOf(kPerFoil);
   return kind == ActionKind::kWrench || kind == ActionKind::kWrenchWorld ? 6 : sizeOf(kPerJoint);
 }
 

@@ -18,7 +18,7 @@ struct BatchJoint {
 };
 
 /// How many numbers a field has: a count, or that of what a scene has.
-enum FieldSize : int { kPerThruster = -1, kPerJoint = -2, kPerParameter = -3 };
+enum FieldSize : int { kPerThruster = -1, kPerJoint = -2, kPerParameter = -3, kPerFoil = -4 };
 
 struct ObservationView;
 /// Writes all numbers of an observation, without noise.
@@ -65,7 +65,8 @@ std::string observationNames();
 /// Scene and settings of a batch, checked and resolved. Never changed afterwards: all threads read
 /// it.
 struct BatchPlan {
-  /// @throws std::runtime_error, one line that names the key, the value and the limit.
+  /// @throws std::runtime_error or std::invalid_argument, one line that names the key, the value
+  /// and the limit.
   BatchPlan(const Scene& scene, const BatchSettings& settings);
 
   Scene scene;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bullet_ambient/spatial/vector_types.h"
+#include "bullet_ambient/wind.h"
 #include "preprocess/builder/body_maker.h"
 
 namespace ambient {
@@ -42,7 +43,7 @@ enum class VariationKind {
   kThrust,         ///< factors on the T thrusts
   kLag,            ///< factor on the lags of all thrusters
   kCurrent,        ///< velocity of all fluids besides that of the scene [m/s], 3
-  kGust,           ///< factor on GustDef::intensity
+  kGust,           ///< factor on GaussMarkovGusts::intensity
   kPosition,       ///< added to the position at the start [m], 3
   kHeading,        ///< turn about the world's z axis at the start [rad]
   kAttitude,       ///< rotation vector at the start, axes of the body [rad], 3
@@ -94,16 +95,6 @@ struct VariationDef {
   bool is_logarithmic = false;  ///< the logarithm is drawn evenly
 };
 
-/// Gusts that reach all fluids of a world alike: at the end of the n-th env step, of length T,
-///
-///   v_n = a v_(n-1) + sigma sqrt(1 - a^2) N(0, 1),   a = exp(-T / time)
-///
-/// in each axis, and linear in between, with the acceleration that belongs to it.
-struct GustDef {
-  Vector3 intensity = Vector3::Zero();  ///< sigma [m/s]
-  double time = 1;                      ///< in which a gust forgets itself [s]
-};
-
 /// Settings of a WorldBatch.
 struct BatchSettings {
   int worlds = 1;
@@ -115,7 +106,9 @@ struct BatchSettings {
   std::vector<ActionDef> actions = {};
   std::vector<ObservationDef> observations = {};
   std::vector<VariationDef> variations = {};
-  std::optional<GustDef> gust = std::nullopt;
+  /// Reach all fluids of a world, which has a seed of its own in each episode; sampled at the ends
+  /// of env steps and linear in between, with the acceleration that belongs to it.
+  std::optional<GaussMarkovGusts> gust = std::nullopt;
   BodyFolder fluid_bodies = {};
 };
 

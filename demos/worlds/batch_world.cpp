@@ -140,12 +140,12 @@ void BatchWorld::setFlowAndThrusters() {
   gust_factor_ = gust ? *gust : 1;
   const double* current = find(VariationKind::kCurrent);
   if (flow_) flow_->current = current ? vectorAt(current) : Vector3(Vector3::Zero());
+  makeGusts();
 }
 
 void BatchWorld::apply() {
   setHardware(*simulation_);
   setFlowAndThrusters();
-  drawGust();
   if (flow_) flow_->at(0, plan_.envStep());
   std::size_t joint = 0;
   if (const double* offsets = find(VariationKind::kJointPosition))
@@ -162,20 +162,19 @@ void BatchWorld::apply() {
   }
 }
 
-void BatchWorld::drawGust() {
+void BatchWorld::makeGusts() {
   if (!flow_ || !plan_.settings.gust) return;
-  const GustDef& def = *plan_.settings.gust;
-  RandomNumbers random = numbers(RandomStream::kGust);
-  const Vector3 noise{random.normal(), random.normal(), random.normal()};
-  const Vector3 sigma = gust_factor_ * def.intensity;
-  flow_->gust_before = flow_->gust;
-  if (steps_ == 0) {
-    flow_->gust = sigma.cwiseProduct(noise);
-    flow_->gust_before = flow_->gust;
-    return;
-  }
-  const double kept = portable::exp(-plan_.envStep() / def.time);
-  flow_->gust = kept * flow_->gust + std::sqrt(1 - kept * kept) * sigma.cwiseProduct(noise);
+  GaussMarkovGusts gusts = *plan_.settings.gust;
+  const auto stream = static_cast<std::uint64_t>(RandomStream::kGust);
+  gusts.seed = philox({0, stream, episodes_, 0}, {seed_, 0})[0];
+  flow_->gusts = gaussMarkovGusts(gusts);
+  flow_->gust_before = gustAfter(std::max(steps_ - 1, 0LL));
+  flow_->gust = gustAfter(steps_);
+}
+
+Vector3 BatchWorld::gustAfter(long long steps) const {
+  const double time = static_cast<double>(steps) * plan_.envStep();
+  return gust_factor_ * flow_->gusts({0, 0, 0}, time).velocity;
 }
 
 void BatchWorld::reset(const SimulationState& start, bool draws) {
@@ -275,7 +274,7 @@ bool BatchWorld::begin() {
     return false;
   }
   ++steps_;
-  drawGust();
+  if (flow_ && flow_->gusts) flow_->gust_before = std::exchange(flow_->gust, gustAfter(steps_));
   return true;
 }
 
@@ -355,9 +354,8 @@ void BatchWorld::fail(std::string sentence) { fault_ = std::move(sentence); }
 /// First bytes of a state.
 struct BatchWorld::Head {
   char magic[8] = {'A', 'M', 'B', 'B', 'A', 'T', 'C', 'H'};
-  std::uint64_t version = 1, seed = 0, episodes = 0;
+  std::uint64_t version = 2, seed = 0, episodes = 0;
   std::int64_t steps = 0;
-  double gust[6] = {};
 };
 
 FlowField BatchWorld::flowNow() const {
@@ -386,10 +384,6 @@ std::string BatchWorld::saveState() const {
   head.seed = seed_;
   head.episodes = episodes_;
   head.steps = steps_;
-  if (flow_) {
-    Eigen::Map<Vector3>(head.gust) = flow_->gust_before;
-    Eigen::Map<Vector3>(head.gust + 3) = flow_->gust;
-  }
   std::string bytes(reinterpret_cast<const char*>(&head), sizeof head);
   bytes.append(reinterpret_cast<const char*>(rows_.parameters),
                static_cast<std::size_t>(plan_.parameter_size) * sizeof(double));
@@ -405,12 +399,11 @@ void BatchWorld::restoreState(std::string_view bytes) {
   if (bytes.size() < size || std::memcmp(bytes.data(), head.magic, sizeof head.magic) != 0)
     throw std::runtime_error("saved state: is not one of a world of this batch");
   std::memcpy(&head, bytes.data(), sizeof head);
-  if (head.version != 1 || head.steps < 0)
+  if (head.version != 2 || head.steps < 0)
     throw std::runtime_error("saved state: is of another version, or damaged");
   const char* from = bytes.data() + sizeof head;
   std::vector<double> numbers((parameters + twists) / sizeof(double));
   std::copy_n(from, parameters + twists, reinterpret_cast<char*>(numbers.data()));
-  numbers.insert(numbers.end(), std::begin(head.gust), std::end(head.gust));
   if (!std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); }))
     throw std::runtime_error("saved state: is damaged: a number is not finite");
   simulation_->restoreState(bytes.substr(size));
@@ -422,11 +415,7 @@ void BatchWorld::restoreState(std::string_view bytes) {
   fault_.clear();
   setHardware(*simulation_);
   setFlowAndThrusters();
-  if (flow_) {
-    flow_->gust_before = vectorAt(head.gust);
-    flow_->gust = vectorAt(head.gust + 3);
-    flow_->at(1, plan_.envStep());
-  }
+  if (flow_) flow_->at(1, plan_.envStep());
   readWrenches();
   observe();
 }

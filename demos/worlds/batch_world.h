@@ -61,6 +61,7 @@ class BatchWorld {
   /// Flow beside that of the scene, as the regions of the simulation see it.
   struct Flow {
     Vector3 current{0, 0, 0};
+    FlowField gusts;                              ///< of this episode; null: none
     Vector3 gust_before{0, 0, 0}, gust{0, 0, 0};  ///< at both ends of the env step [m/s]
     FlowSample now;
     void at(double share, double env_step);
@@ -79,7 +80,9 @@ class BatchWorld {
   /// Sets what a state of a simulation has not: factors of thrusters, centres of mass.
   void setHardware(Simulation& simulation) const;
   std::string saveSimulation() const;
-  void drawGust();
+  /// Makes the gusts of this episode.
+  void makeGusts();
+  Vector3 gustAfter(long long steps) const;
   bool isActionFinite();
   void command(const ActionField& field);
   void setMotors(const ActionField& field);

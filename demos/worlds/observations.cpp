@@ -92,6 +92,16 @@ const ObservationKind kKinds[] = {
        for (const ThrusterState& thruster : v.simulation.thrusters().states())
          *to++ = thruster.load.thrust;
      }},
+    {"turns", kPerThruster,
+     [](View v, double* to) {
+       for (const ThrusterState& thruster : v.simulation.thrusters().states())
+         *to++ = thruster.drive;
+     }},
+    {"foil_angle", kPerFoil,
+     [](View v, double* to) {
+       const SceneFoils& foils = v.simulation.foils();
+       for (std::size_t i = 0; i < foils.size(); ++i) *to++ = foils.angle(i);
+     }},
     {"wet", 1, [](View v, double* to) { to[0] = v.simulation.wet(v.field->body).share; }},
     {"contact", 1, [](View v, double* to) { to[0] = v.simulation.contactImpulse(v.field->body); }},
     {"fluid_wrench", 6, readWrench},

@@ -116,7 +116,11 @@ WorldConnection::MadeSolver WorldConnection::makeFitting() const {
 WorldConnection::WorldConnection(btDynamicsWorld& world,
                                  const std::shared_ptr<AmbientBodies>& members,
                                  btActionInterface& action, SolverOwner owner)
-    : world_(requireKind(world)), action_(action), owner_(owner), members_(members) {
+    : world_(requireKind(world)),
+      is_threaded_(dynamic_cast<btDiscreteDynamicsWorldMt*>(&world)),
+      action_(action),
+      owner_(owner),
+      members_(members) {
   install(makeFitting());
   world_.addAction(&action_);
 }

@@ -42,6 +42,7 @@ class WorldConnection {
   void refit();
 
   btDiscreteDynamicsWorld& world() const { return world_; }
+  bool isThreaded() const { return is_threaded_; }  ///< the world solves on several threads
   /// @throws std::invalid_argument, in one sentence that begins with `who`, if it is of another
   /// type.
   btMultiBodyDynamicsWorld& multiBodyWorld(const char* who) const;
@@ -60,6 +61,7 @@ class WorldConnection {
   bool isFitted() const;
 
   btDiscreteDynamicsWorld& world_;
+  const bool is_threaded_;
   btActionInterface& action_;
   SolverOwner owner_;
   const std::shared_ptr<AmbientBodies> members_;

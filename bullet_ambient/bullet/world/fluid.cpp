@@ -1,6 +1,5 @@
 #include "bullet_ambient/fluid.h"
 
-#include <BulletDynamics/Dynamics/btDiscreteDynamicsWorldMt.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 
 #include <cstdio>
@@ -182,7 +181,7 @@ void Fluid::setTaskRunner(TaskRunner runner) { members_->task_runner = std::move
 
 void stepTogether(Fluid* const* fluids, int count, const std::function<void(int)>& step) {
   for (int i = 0; i < count; ++i)
-    if (dynamic_cast<btDiscreteDynamicsWorldMt*>(&fluids[i]->connection_->world()))
+    if (fluids[i]->connection_->isThreaded())
       throw std::invalid_argument("stepTogether: world " + std::to_string(i) +
                                   " solves on several threads; must be on one");
   FlightQueue queue(count, &step);

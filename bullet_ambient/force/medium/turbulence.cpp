@@ -1,10 +1,12 @@
 #include "bullet_ambient/force/medium/turbulence.h"
 
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <memory>
+#include <utility>
+#include <vector>
 
-#include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/philox.h"
 #include "bullet_ambient/base/pi.h"
@@ -15,13 +17,11 @@ namespace ambient {
 namespace {
 
 // Uses of random numbers of one seed.
-enum GustStream : std::uint64_t { kDrydenPhases, kCubeTurns, kShellPhases };
+enum GustStream : std::uint64_t { kGustPhases, kCubeTurns, kShellPhases };
 
 constexpr std::size_t kShellsOfCube = 4;
 constexpr double kKarmanScale = 0.7468342;  // k_e L = sqrt(pi) Gamma(5/6) / Gamma(1/3)
 constexpr double kFirstShell = 0.32421;     // of k / k_e: 2e-4 of the energy is below its shell
-
-using Vector4 = Eigen::Matrix<double, 4, 1>;
 
 RandomBlock gustNumbers(std::uint64_t seed, GustStream stream, std::size_t index) {
   return philox({index, stream, 0, 0}, {seed, 0});
@@ -36,82 +36,99 @@ double drydenShare(bool is_along, double x) {
 }
 
 // Sum of modes whose frequencies are two to the octave: an octave on, sine and cosine are those of
-// twice the angle. Components: along the wind, across it, up, and 0.
-class DrydenSum {
+// twice the angle. The two modes of an octave are added up side by side.
+class GustSum {
  public:
-  explicit DrydenSum(const DrydenGusts& gusts);
+  // `axes`: those of the components, columns in W; the first `along` of them have the spectrum of
+  // the component along the wind.
+  GustSum(const DrydenScales& scales, double speed, const Matrix3& axes, int along,
+          std::uint64_t seed);
 
   FlowSample sample(double time) const noexcept;
 
  private:
-  static constexpr int kPerOctave = 2, kMostOctaves = 15;
+  static constexpr int kPerOctave = 2;
   static constexpr double kLowest = 1.0 / 16, kHighest = 128;  // of x
 
-  struct Mode {
-    Vector4 cosine = Vector4::Zero(), sine = Vector4::Zero();  // [m/s]
+  using Pair = Eigen::Array<double, kPerOctave, 1>;
+  struct Octave {
+    std::array<Pair, 3> cosine, sine;  // of each component [m/s]
   };
-  void setMode(int base, int octave, double wave_number, const DrydenScales& scales,
-               std::uint64_t seed);
 
-  int octaves_ = 0;
-  Matrix3 axes_;                            // of the components, in W
-  std::array<double, kPerOctave> first_{};  // frequencies [rad/s]
-  std::array<std::array<Mode, kMostOctaves>, kPerOctave> modes_{};
+  Matrix3 axes_;
+  Pair first_;  // frequencies [rad/s]
+  std::vector<Octave> octaves_;
 };
 
-DrydenSum::DrydenSum(const DrydenGusts& gusts) {
-  const DrydenScales scales = drydenScales(gusts);
-  const Vector3 up = gusts.up.normalized();
-  axes_.col(0) = (gusts.direction - gusts.direction.dot(up) * up).normalized();
-  axes_.col(1) = up.cross(axes_.col(0));
-  axes_.col(2) = up;
+GustSum::GustSum(const DrydenScales& scales, double speed, const Matrix3& axes, int along,
+                 std::uint64_t seed)
+    : axes_(axes) {
   const double lowest = kLowest / scales.lengths.maxCoeff();  // wave number [1/m]
   const double highest = kHighest / scales.lengths.minCoeff();
-  while (std::ldexp(lowest, octaves_) < highest) ++octaves_;
-  AMBIENT_ASSERT(octaves_ <= kMostOctaves);
-  for (int base = 0; base < kPerOctave; ++base) {
-    const double wave_number = base == 0 ? lowest : std::sqrt(2.0) * lowest;
-    first_[static_cast<std::size_t>(base)] = gusts.speed * wave_number;
-    for (int octave = 0; octave < octaves_; ++octave)
-      setMode(base, octave, std::ldexp(wave_number, octave), scales, gusts.seed);
-  }
-}
-
-void DrydenSum::setMode(int base, int octave, double wave_number, const DrydenScales& scales,
-                        std::uint64_t seed) {
   const double half = std::sqrt(std::sqrt(2.0));  // of a band
-  const bool is_first = base == 0 && octave == 0;
-  const int index = kPerOctave * octave + base;
-  const RandomBlock numbers = gustNumbers(seed, kDrydenPhases, static_cast<std::size_t>(index));
-  Mode& mode = modes_[static_cast<std::size_t>(base)][static_cast<std::size_t>(octave)];
-  for (int i = 0; i < 3; ++i) {
-    const double x = scales.lengths[i] * wave_number;
-    const double below = is_first ? 0 : drydenShare(i == 0, x / half);
-    const double share = drydenShare(i == 0, x * half) - below;
-    const double amplitude = scales.intensities[i] * std::sqrt(2 * share);
-    const auto [sine, cosine] =
-        portable::sineAndCosine(phaseOf(numbers[static_cast<std::size_t>(i)]));
-    mode.cosine[i] = amplitude * cosine;
-    mode.sine[i] = amplitude * sine;
-  }
-}
-
-FlowSample DrydenSum::sample(double time) const noexcept {
-  Vector4 velocity = Vector4::Zero(), acceleration = Vector4::Zero();
-  for (std::size_t base = 0; base < first_.size(); ++base) {
-    double frequency = first_[base];
-    auto [sine, cosine] = portable::sineAndCosine(frequency * time);
-    for (std::size_t octave = 0; octave < static_cast<std::size_t>(octaves_); ++octave) {
-      const Mode& mode = modes_[base][octave];
-      velocity += cosine * mode.cosine + sine * mode.sine;
-      acceleration += (frequency * cosine) * mode.sine - (frequency * sine) * mode.cosine;
-      const double doubled = 2 * sine * cosine;
-      cosine = 1 - 2 * sine * sine;
-      sine = doubled;
-      frequency *= 2;
+  first_ = speed * lowest * Pair(1, std::sqrt(2.0));
+  for (int octave = 0; std::ldexp(lowest, octave) < highest; ++octave) {
+    Octave& modes = octaves_.emplace_back();
+    for (int base = 0; base < kPerOctave; ++base) {
+      const int index = kPerOctave * octave + base;
+      const double wave_number = std::ldexp(base == 0 ? lowest : std::sqrt(2.0) * lowest, octave);
+      const RandomBlock numbers = gustNumbers(seed, kGustPhases, static_cast<std::size_t>(index));
+      for (int i = 0; i < 3; ++i) {
+        const auto component = static_cast<std::size_t>(i);
+        const double x = scales.lengths[i] * wave_number;
+        const double below = index == 0 ? 0 : drydenShare(i < along, x / half);
+        const double share = drydenShare(i < along, x * half) - below;
+        const double amplitude = scales.intensities[i] * std::sqrt(2 * share);
+        const auto [sine, cosine] = portable::sineAndCosine(phaseOf(numbers[component]));
+        modes.cosine[component][base] = amplitude * cosine;
+        modes.sine[component][base] = amplitude * sine;
+      }
     }
   }
-  return {axes_ * velocity.head<3>(), axes_ * acceleration.head<3>()};
+}
+
+FlowSample GustSum::sample(double time) const noexcept {
+  const auto low = portable::sineAndCosine(first_[0] * time);
+  const auto high = portable::sineAndCosine(first_[1] * time);
+  Pair sine(low.sine, high.sine), cosine(low.cosine, high.cosine), frequency = first_;
+  Eigen::Array<double, kPerOctave, 3> velocity, acceleration;
+  velocity.setZero();
+  acceleration.setZero();
+  for (const Octave& modes : octaves_) {
+    const Pair quick_sine = frequency * sine, quick_cosine = frequency * cosine;
+    for (int i = 0; i < 3; ++i) {
+      const Pair &c = modes.cosine[static_cast<std::size_t>(i)],
+                 &s = modes.sine[static_cast<std::size_t>(i)];
+      velocity.col(i) += cosine * c + sine * s;
+      acceleration.col(i) += quick_cosine * s - quick_sine * c;
+    }
+    const Pair twice = 2 * sine;
+    const Pair squared = twice * sine;
+    sine = twice * cosine;
+    cosine = 1 - squared;
+    frequency *= 2;
+  }
+  const auto sumOver = [&](const auto& pairs) {
+    return Vector3(axes_ * Vector3(pairs.colwise().sum().matrix().transpose()));
+  };
+  return {sumOver(velocity), sumOver(acceleration)};
+}
+
+// Bodies, and stations along them, ask for one time again and again: each thread keeps its last
+// sample.
+FlowField everywhere(GustSum gusts) {
+  static std::atomic<std::uint64_t> made{0};
+  return [sum = std::make_shared<const GustSum>(std::move(gusts)), number = ++made](const Vector3&,
+                                                                                    double time) {
+    struct Last {
+      std::uint64_t number = 0;
+      double time = 0;
+      FlowSample sample;
+    };
+    thread_local Last last;
+    if (last.number != number || last.time != time) last = {number, time, sum->sample(time)};
+    return last.sample;
+  };
 }
 
 // Energy of von Karman's spectrum at a wave number over its scale k_e, per logarithm of it [1].
@@ -259,11 +276,23 @@ FlowField drydenGusts(const DrydenGusts& gusts) {
   check.require(gusts.intensity >= 0 && std::isfinite(gusts.intensity), "intensity [m/s]",
                 gusts.intensity, "zero or positive and finite");
   const Vector3 up = check.direction("up", gusts.up);
-  check.direction("the horizontal part of the direction",
-                  gusts.direction - gusts.direction.dot(up) * up);
-  return [sum = std::make_shared<const DrydenSum>(gusts)](const Vector3&, double time) {
-    return sum->sample(time);
-  };
+  Matrix3 axes;
+  axes.col(0) = check.direction("the horizontal part of the direction",
+                                gusts.direction - gusts.direction.dot(up) * up);
+  axes.col(1) = up.cross(axes.col(0));
+  axes.col(2) = up;
+  return everywhere({drydenScales(gusts), gusts.speed, axes, 1, gusts.seed});
+}
+
+FlowField gaussMarkovGusts(const GaussMarkovGusts& gusts) {
+  const FlowChecks check{"Gauss-Markov gusts"};
+  for (const double sigma : gusts.intensity)
+    check.require(sigma >= 0 && std::isfinite(sigma), "intensity [m/s]", sigma,
+                  "zero or positive and finite");
+  check.require(gusts.time > 0 && std::isfinite(gusts.time), "time [s]", gusts.time,
+                "positive and finite");
+  return everywhere(
+      {{Vector3::Constant(gusts.time), gusts.intensity}, 1, Matrix3::Identity(), 3, gusts.seed});
 }
 
 FlowField turbulence(const Turbulence& turbulence) {

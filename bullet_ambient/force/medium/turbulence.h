@@ -30,6 +30,18 @@ DrydenScales drydenScales(const DrydenGusts& gusts);
 /// @throws std::invalid_argument, naming value and limit, if a number is not physical.
 FlowField drydenGusts(const DrydenGusts& gusts);
 
+/// Gusts whose correlation is exp(-t / time) in each axis, those of a first-order Gauss-Markov
+/// process: Dryden's along the wind, docs/theory.md eq. (175), without height and speed.
+struct GaussMarkovGusts {
+  Vector3 intensity{0, 0, 0};  ///< sigma, axes of the world [m/s]
+  double time = 1;             ///< in which they forget themselves [s]
+  std::uint64_t seed = 1;
+};
+
+/// Makes gusts that blow everywhere at once, a function of the time alone, as drydenGusts() does.
+/// @throws std::invalid_argument, naming value and limit, if a number is not physical.
+FlowField gaussMarkovGusts(const GaussMarkovGusts& gusts);
+
 /// Turbulence in space and time, the same in all directions, with von Karman's spectrum;
 /// docs/theory.md eq. (178).
 struct Turbulence {

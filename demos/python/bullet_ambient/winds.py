@@ -59,6 +59,15 @@ def dryden_gusts(*, height: float = 10, speed: float = 10, intensity: float = 1,
                              "seed": seed}}
 
 
+def gauss_markov_gusts(intensity: _Vector, time: float, *, seed: int = 1) -> _Flow:
+    """Returns gusts whose correlation is exp(-t / time): Dryden's along the wind, in each axis.
+
+    intensity : (3,) standard deviations [m/s]
+    time : in which they forget themselves [s]
+    """
+    return {"gauss_markov_gusts": {"intensity": _three(intensity), "time": time, "seed": seed}}
+
+
 def turbulence(*, length: float = 100, intensity: float = 1, smallest: float = 0, carried: _Vector = (0, 0, 0),
                seed: int = 1) -> _Flow:
     """Returns 64 waves with von Karman's spectrum, without the mean velocity.

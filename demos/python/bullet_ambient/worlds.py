@@ -20,11 +20,8 @@ _Path = Union[str, "os.PathLike[str]"]
 
 @dataclass(frozen=True)
 class Gust:
-    """Gusts of all fluids of a world, alike everywhere in it: at the end of the n-th env step, of length T,
-
-        v_n = a v_(n-1) + intensity sqrt(1 - a^2) N(0, 1),   a = exp(-T / time)
-
-    in each axis, and linear in between.
+    """Gusts of all fluids of a world, alike everywhere in it: `gauss_markov_gusts` of a seed for each world and episode at
+    the ends of env steps, linear in between.
 
     intensity : standard deviation [m/s], one number for all axes or three
     time : in which a gust forgets itself [s]

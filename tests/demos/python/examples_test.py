@@ -19,6 +19,7 @@ import bullet_ambient as ba
 EXAMPLES = Path(__file__).resolve().parents[3] / "demos/python/examples"
 sys.path.append(str(EXAMPLES))
 
+import hold_hover  # noqa: E402
 import hold_place  # noqa: E402
 import hull_rates  # noqa: E402
 import plate_map  # noqa: E402
@@ -192,6 +193,19 @@ class SceneEnergyTest(unittest.TestCase):
         motion = ba.World(scene).run(0.1)
         weight = (5 - 1000 * 4 / 3 * np.pi * 0.1**3) * 9.81
         self.assertAlmostEqual(scene_energy.energy(scene, motion)[0], 2 * weight, delta=1e-12 * weight)
+
+
+class HoldHoverTest(unittest.TestCase):
+    def test_a_quadrotor_stays_within_a_metre_and_drifts_by_its_attitude_alone(self):
+        with tempfile.TemporaryDirectory() as cache:
+            runs = [hold_hover.run(holds_place, 10, cache) for holds_place in (True, False)]
+        (time, held, _, turns), (_, drifts, tilt, _) = runs
+        self.assertLess(np.linalg.norm(held - hold_hover.PLACE, axis=1).max(), 0.9)
+        self.assertGreater(drifts[-1, 0], 10)
+        self.assertGreater(tilt.min(), np.cos(np.radians(3)))
+        propeller = ba.Scene(hold_hover.SCENE).document["thrusters"][0]["propeller"]
+        hovering = np.sqrt(1.2 * 9.81 / 4 / (1.204 * propeller["diameter"] ** 4 * propeller["ct_cp"][0][1]))
+        self.assertAlmostEqual(turns[time > 1].mean(), hovering, delta=0.05 * hovering)  # of updraughts
 
 
 class HoldPlaceTest(unittest.TestCase):

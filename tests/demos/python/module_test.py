@@ -368,6 +368,7 @@ class WorldTest(Temporary):
         dryden = [ba.flow_velocity([ba.dryden_gusts(height=30, seed=seed)], points, 3) for seed in (1, 1, 2)]
         np.testing.assert_array_equal(dryden[0], dryden[1])
         self.assertTrue((dryden[0] != dryden[2]).any())
+        self.assertEqual(ba.flow_velocity([ba.gauss_markov_gusts([0, 2, 0], 3)], points, 3).any(axis=0).tolist(), [False, True, False])
         with self.assertRaisesRegex(ValueError, r"^wind profile: roughness \[m\] is 20; must be from 0 to below the height$"):
             ba.flow_velocity([ba.wind_profile([1, 0, 0], roughness=20)], points)
         with self.assertRaisesRegex(ValueError, "number of|must be|flow"):

@@ -314,6 +314,16 @@ class WorldBatchTest(unittest.TestCase):
         running.join()
         self.assertTrue(refused)
 
+    def test_turns_and_angles_are_those_of_a_world(self):
+        scene = ba.Scene("rudder_and_screw", {"foils.0.command": 0.5})
+        batch = ba.WorldBatch(scene, 2, substeps=3, observations=["turns", "foil_angle"])
+        batch.step()
+        with ba.World(scene) as world:
+            world.step(3)
+            for i in range(2):
+                self.assertEqual(batch["turns"][i].tolist(), world.turns.tolist())
+                self.assertEqual(batch["foil_angle"][i].tolist(), world.foil_angles.tolist())
+
     def test_thrusters_of_a_world(self):
         with ba.World(ba.Scene(SCENE)) as world:
             self.assertEqual(world.thrusters, ["thruster_0", "thruster_1"])

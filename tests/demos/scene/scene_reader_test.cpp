@@ -405,7 +405,8 @@ TEST(SceneWater, TakesFlowsAndLayers) {
   text["water"]["layers"] = {{"levels", {{-3, 1030}, {-1, 1020}}}};
   text["regions"][0]["flow"] = json::parse(R"([
     {"turbulence": {"length": 3, "intensity": 0.5, "smallest": 1, "carried": [1, 0, 0], "seed": 5},
-     "dryden_gusts": {"height": 20, "speed": 7, "intensity": 2, "direction": [1, 0, 1], "seed": 6}}])");
+     "dryden_gusts": {"height": 20, "speed": 7, "intensity": 2, "direction": [1, 0, 1], "seed": 6},
+     "gauss_markov_gusts": {"intensity": [1, 0, 2], "time": 3, "seed": 7}}])");
   text["regions"][0]["layers"] = {{"standard_atmosphere", {0, 500}}};
   const std::vector<FluidRegion> regions = makeRegions(sceneFrom(text));
   EXPECT_EQ(regions[0].flow({0, -0.5, 0}, 9).velocity, Vector3(0.5, 0, 2));
@@ -414,8 +415,10 @@ TEST(SceneWater, TakesFlowsAndLayers) {
   EXPECT_EQ(regions[0].layers->up(), Vector3(0, 1, 0));
   Turbulence eddies{3, 0.5, 1, {1, 0, 0}, 5};
   const DrydenGusts gusts{20, 7, 2, {1, 0, 1}, {0, 1, 0}, 6};
-  EXPECT_EQ(regions[1].flow({1, 2, 3}, 4).velocity,
-            (turbulence(eddies) + drydenGusts(gusts))({1, 2, 3}, 4).velocity);
+  EXPECT_EQ(
+      regions[1].flow({1, 2, 3}, 4).velocity,
+      (drydenGusts(gusts) + gaussMarkovGusts({{1, 0, 2}, 3, 7}) + turbulence(eddies))({1, 2, 3}, 4)
+          .velocity);
   EXPECT_EQ(regions[1].layers->density(0), standardAtmosphere(0).density);
   EXPECT_FALSE(regions[2].flow || regions[2].layers);
 }

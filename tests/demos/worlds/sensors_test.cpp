@@ -231,7 +231,7 @@ TEST(Gusts, HaveTheirVarianceAndMemory) {
   scene["model"] = "vacuum";
   BatchSettings settings = reading({{"flow"}, {"twist"}});
   settings.worlds = kWorlds;
-  settings.gust = GustDef{{2, 2, 2}, 0.03};
+  settings.gust = GaussMarkovGusts{{2, 2, 2}, 0.03};
   scene["model"] = "ambient";
   scene["bodies"][0]["mass"] = 1e6;
   WorldBatch batch(sceneFrom(scene), settings);
@@ -251,15 +251,18 @@ TEST(Gusts, HaveTheirVarianceAndMemory) {
   EXPECT_NEAR(product / square, kept, 4 / std::sqrt(independent));
 }
 
-// The first gust of an episode is drawn axis by axis.
-TEST(Gusts, AreDrawnInTheOrderOfTheAxes) {
+// A world's gusts are those of wind.h, whose seed is a number of its seed and episode.
+TEST(Gusts, AreThoseOfTheirSeedAndEpisode) {
   json scene = ballScene();
   scene["bodies"][0]["linear_velocity"] = {0, 0, 0};
   BatchSettings settings = reading({{"flow"}});
   settings.seed = 5;
-  settings.gust = GustDef{{1, 1, 1}, 1};
-  RandomNumbers random({5, RandomStream::kGust, 1, 0});
-  for (const double seen : read(scene, settings, 0)) EXPECT_EQ(seen, random.normal());
+  settings.gust = GaussMarkovGusts{{1, 2, 3}, 1};
+  const std::uint64_t seed =
+      philox({0, static_cast<std::uint64_t>(RandomStream::kGust), 1, 0}, {5, 0})[0];
+  const Vector3 expected = gaussMarkovGusts({{1, 2, 3}, 1, seed})({0, 0, 0}, 0).velocity;
+  const std::vector<double> seen = read(scene, settings, 0);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(seen[static_cast<std::size_t>(i)], expected[i]);
 }
 
 // A twist added at the start to any link is one of the root link.
@@ -299,8 +302,10 @@ TEST(WorldBatch, RefusesInOneLine) {
   EXPECT_EQ(refusal(settings), "variation \"mass\": is given twice");
   settings.variations = {};
   EXPECT_EQ(refusal(reading({{"parameters"}})), "observations[0]: has no numbers: nothing varies");
-  settings.gust = GustDef{{1, std::nan(""), 1}, 1};
-  EXPECT_EQ(refusal(settings), "gust.intensity: is nan; must be >= 0");
+  settings.gust = GaussMarkovGusts{{1, std::nan(""), 1}, 1};
+  EXPECT_EQ(
+      test::refusalOf<std::invalid_argument>([&] { WorldBatch(sceneFrom(ballScene()), settings); }),
+      "Gauss-Markov gusts: intensity [m/s] is nan; must be zero or positive and finite");
   settings.gust.reset();
   settings.worlds = 0;
   EXPECT_NE(refusal(settings).find("worlds: is 0; must be >= 1"), std::string::npos);

@@ -302,13 +302,13 @@ TEST(FoilsInScenes, FollowTheirCommandsAndAreInSavedStates) {
   }
 }
 
-// Worlds of a batch turn foils of their own, from one state at the start.
+// Worlds of a batch turn foils of their own, from one state at the start, and observe them.
 TEST(FoilsInScenes, TurnInEachWorldOfABatch) {
   BatchSettings settings;
   settings.worlds = 2;
   settings.substeps = 60;
   settings.actions = {{"foils"}};
-  settings.observations = {{"heading"}};
+  settings.observations = {{"heading"}, {"turns"}, {"foil_angle"}};
   WorldBatch batch(boat(0, 1), settings);
   for (int n = 0; n < 5; ++n) {
     batch.actions()[0] = 1;
@@ -316,7 +316,15 @@ TEST(FoilsInScenes, TurnInEachWorldOfABatch) {
     batch.step();
   }
   EXPECT_GT(batch.observations()[1], 0.1);
-  EXPECT_LT(batch.observations()[3], -0.1);
+  EXPECT_LT(batch.observations()[5], -0.1);
+  for (int i = 0; i < 2; ++i) {
+    Simulation& world = batch.world(i).simulation();
+    EXPECT_EQ(batch.observations()[4 * i + 2], world.thrusters().states()[0].drive);
+    EXPECT_EQ(batch.observations()[4 * i + 3], world.foils().angle(0));
+  }
+  EXPECT_GT(batch.observations()[2], 9);
+  EXPECT_LT(batch.observations()[3], -0.5);
+  EXPECT_GT(batch.observations()[7], 0.5);
 }
 
 }  // namespace

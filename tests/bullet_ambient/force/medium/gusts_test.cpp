@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -70,6 +71,26 @@ TEST(DrydenGusts, HaveTheirVarianceAndCorrelation) {
     }
 }
 
+TEST(GaussMarkovGusts, HaveTheirVarianceAndCorrelation) {
+  const Vector3 intensity(0, 0.5, 2);
+  for (const double s : {0.0, 0.1, 0.5, 1.0, 3.0}) {
+    SCOPED_TRACE(s);
+    std::array<GustMean, 3> products;
+    for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+      const FlowField gusts = gaussMarkovGusts({intensity, 0.7, seed});
+      for (const double time : {0.0, 517.0, 4099.0}) {
+        const Vector3 now = gusts({0, 0, 0}, time).velocity;
+        const Vector3 later = gusts({0, 0, 0}, time + s * 0.7).velocity;
+        for (int i = 0; i < 3; ++i) products[static_cast<std::size_t>(i)].add(now[i] * later[i]);
+      }
+    }
+    for (int i = 0; i < 3; ++i) {
+      const double variance = intensity[i] * intensity[i];
+      expectWithin3Sigma(products[static_cast<std::size_t>(i)], variance * std::exp(-s), variance);
+    }
+  }
+}
+
 // Numbers of MIL-F-8785C, figures 10 and 11, by their formulas; at 1000 ft both pieces meet.
 TEST(DrydenGusts, HaveTheScalesOfTheSpecification) {
   DrydenGusts gusts = strongGusts();
@@ -125,6 +146,7 @@ std::vector<FlowField> allFlows() {
           currentProfile({{0, {1, 0, 0}}, {3, {0, 2, 0}}, {8, {0, 0, 0}}}, 10),
           discreteGust({{1, 2, 3}, 0.3, 1.1, 0.4}),
           drydenGusts(strongGusts()),
+          gaussMarkovGusts({{1, 2, 3}, 0.5}),
           eddies,
           windProfile(log) + eddies,
           eddies + windProfile(power) + discreteGust({{1, 2, 3}, 0.3, 1.1, 0.4})};
@@ -151,6 +173,17 @@ TEST(Flows, AreCalledWithoutAllocation) {
   for (const FlowField& flow : flows) sum += flow({1, 2, 3}, 4).velocity;
   EXPECT_EQ(allocationCount(), before);
   EXPECT_TRUE(sum.allFinite());
+}
+
+// Of gusts that blow everywhere at once each thread keeps the last sample.
+TEST(Flows, KeepApartSeedsAndTimesThatFollowEachOther) {
+  const FlowField one = gaussMarkovGusts({{1, 1, 1}, 1, 1}),
+                  two = gaussMarkovGusts({{1, 1, 1}, 1, 2});
+  const Vector3 here(0, 0, 0), first = one(here, 3).velocity, second = two(here, 3).velocity;
+  EXPECT_NE(first, second);
+  EXPECT_EQ(one(here, 3).velocity, first);
+  EXPECT_NE(one(here, 4).velocity, first);
+  EXPECT_EQ(gaussMarkovGusts({{1, 1, 1}, 1, 2})(here, 3).velocity, second);
 }
 
 TEST(Flows, AddNothingWhereOneIsEmpty) {
@@ -281,6 +314,10 @@ TEST(Flows, SayWhatIsWrong) {
   gusts.height = 1;
   EXPECT_EQ(flowError([&] { drydenGusts(gusts); }),
             "Dryden gusts: height [m] is 1; must be at least 3.048 and finite");
+  EXPECT_EQ(flowError([] {
+              gaussMarkovGusts({{1, 1, 1}, 0});
+            }),
+            "Gauss-Markov gusts: time [s] is 0; must be positive and finite");
   Turbulence eddies;
   eddies.smallest = 200;
   EXPECT_EQ(flowError([&] { turbulence(eddies); }),
