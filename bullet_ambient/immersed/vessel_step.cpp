@@ -153,8 +153,25 @@ void mixWater(AmbientBody& ambient, const Matrix3& to_world, const Vector6& x, d
   }
   const SloshingAt at = waterAt(ambient, to_world, {0, 0, 0}).sloshing();
   mixSloshing(vessel.holds.data(), vessel.sloshing.later.data(), at, x, states);
-  projectOnModes(at, energy, states);
-  vessel.sloshing_energy = energyOfSloshing(at, states).sum();
+  vessel.sloshing_energy = projectOnModes(at, energy, states);
+}
+
+// Brings a vessel to the stand with the water that has passed. `come`: exchangeWater() of holds.
+void takeWater(AmbientBody& ambient, const Matrix3& to_world, const Vector6& x,
+               const Matrix6& come) {
+  VesselState& vessel = *ambient.vessel;
+  const SurfaceModel& model = *ambient.surface();
+  const SurfaceStand& stand = ambient.stand();
+  const double twice_before = x.dot(stand.inertia.full() * x) + 2 * vessel.sloshing_energy;
+  vessel.sloshing.later = vessel.sloshing.modes;  // before water has passed
+  ambient.floating->is_valid = false;
+  AmbientBody* const body = &ambient;
+  completeStandsOf(&body, 1);
+  mixWater(ambient, to_world, x, twice_before / 2);
+  const Matrix6 come_B = model.excess_density * model.fluid_frame.inertiaToB(come);
+  const Vector6 end = x - stand.inverse.full() * (come_B * x);
+  const double most = std::max(0.0, twice_before - 2 * vessel.sloshing_energy);
+  vessel.change_B = scaledWithin(end, end.dot(stand.inertia.full() * end), most).twist - x;
 }
 
 // Ends the step of a hold that is empty and stays so.
@@ -175,7 +192,7 @@ bool isNearlyLevel(const AmbientBody& ambient) {
 
 }  // namespace
 
-void exchangeWater(AmbientBody& ambient, const MotionView& now, double duration) noexcept {
+bool exchangeWater(AmbientBody& ambient, const MotionView& now, double duration) noexcept {
   constexpr double kStill = 1e-9;  // of a hold
   VesselState& vessel = *ambient.vessel;
   const SurfaceModel& model = *ambient.surface();
@@ -187,14 +204,12 @@ void exchangeWater(AmbientBody& ambient, const MotionView& now, double duration)
   if (staysDry(*model.holds, plane_F, passage, vessel.holds.data())) {
     for (HoldState& hold : vessel.holds) stayDry(hold);
     vessel.sloshing_energy = 0;  // setWater() may have emptied a hold
-    return;
+    return false;
   }
   const SurfaceStand& stand = standNow(ambient, now);
   const Vector6 x = twistInWater(ambient, now.state);
   const Matrix3 R = now.rotation();
   beginSloshing(ambient, R, x);
-  const double twice_before = x.dot(stand.inertia.full() * x) + 2 * vessel.sloshing_energy;
-  vessel.sloshing.later = vessel.sloshing.modes;  // before water passes
   if (stand.inside_F) passage.modes = vessel.sloshing.modes.data();
   const Matrix6 come =
       exchangeWater(*model.holds, stand.immersion_F.plane, passage, vessel.holds.data());
@@ -205,17 +220,9 @@ void exchangeWater(AmbientBody& ambient, const MotionView& now, double duration)
     (hold.inflow > 0 ? hold.flooded : hold.drained) += std::abs(hold.inflow);
     if (std::abs(hold.change) > kStill * vessel.shape->holds[i].volume) ambient.may_rest = false;
   }
-  if (has_changed) {
-    ambient.floating->is_valid = false;
-    AmbientBody* const body = &ambient;
-    completeStandsOf(&body, 1);
-    mixWater(ambient, R, x, twice_before / 2);
-    const Matrix6 come_B = model.excess_density * model.fluid_frame.inertiaToB(come);
-    const Vector6 end = x - stand.inverse.full() * (come_B * x);
-    const double most = std::max(0.0, twice_before - 2 * vessel.sloshing_energy);
-    vessel.change_B = scaledWithin(end, end.dot(stand.inertia.full() * end), most).twist - x;
-  }
+  if (has_changed) takeWater(ambient, R, x, come);
   if (!isNearlyLevel(ambient)) ambient.may_rest = false;
+  return has_changed;
 }
 
 double sloshingEnergyNow(const AmbientBody& ambient, const MotionView& now) {

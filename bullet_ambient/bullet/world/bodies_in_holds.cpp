@@ -76,14 +76,15 @@ bool isVesselAtSurface(const PlacedMember& member) {
 }
 
 /// Calls visit(const PlacedMember&) for the others whose centre is no farther from that of a vessel
-/// than the vessel reaches.
+/// than the vessel reaches, from west to east. `vessel`: one of `placed`.
 template <class Visit>
 void forEachNear(const std::vector<PlacedMember>& placed, const PlacedMember& vessel,
                  const Visit& visit) {
-  const double reach = vessel.body->surface()->radius, east = vessel.centre.x() + reach;
-  const auto isWest = [](const PlacedMember& member, double x) { return member.centre.x() < x; };
-  auto member = std::lower_bound(placed.begin(), placed.end(), vessel.centre.x() - reach, isWest);
-  for (; member != placed.end() && member->centre.x() <= east; ++member)
+  const double reach = vessel.body->surface()->radius;
+  const double west = vessel.centre.x() - reach, east = vessel.centre.x() + reach;
+  const PlacedMember *member = &vessel, *const end = placed.data() + placed.size();
+  while (member != placed.data() && !(member[-1].centre.x() < west)) --member;
+  for (; member != end && member->centre.x() <= east; ++member)
     if (member->body != vessel.body &&
         (member->centre - vessel.centre).squaredNorm() < reach * reach)
       visit(*member);
@@ -178,6 +179,7 @@ bool isShared(const PlacedMember& vessel, AmbientBodies& bodies) {
   const std::vector<HoldState>& holds = vessel.body->vessel->holds;
   bool is_any = std::any_of(holds.begin(), holds.end(),
                             [](const HoldState& hold) { return hold.displaced != 0; });
+  if (bodies.regions.in_holds.empty()) return is_any;
   forEachInside(vessel, bodies, [&](const PlacedMember&, HoldAround&) { is_any = true; });
   return is_any;
 }

@@ -89,15 +89,15 @@ struct Passage {
   const HoldModes* modes = nullptr;
 };
 
-/// Water in all holds of a body at one pose, in F: what it adds to the closed vessel.
+/// Water in all holds of a body at one pose: what it adds to the closed vessel.
 struct WaterInside {
   bool is_any = false;
-  /// Terms of V, S and W in docs/theory.md eq. (135): volume and moment are negative.
+  /// Terms of V, S and W in docs/theory.md eq. (135), in F: volume and moment are negative.
   WetVolume below;
-  Matrix3 spread = Matrix3::Zero();  ///< sum of Waterplane::spread of its levels [m^4]
-  /// Inertia of the water less that of its modes of sloshing, per unit density, about F's origin.
+  Matrix3 spread = Matrix3::Zero();  ///< sum of Waterplane::spread of its levels, in F [m^4]
+  /// Inertia in B of the water less that of its modes of sloshing, per unit density.
   SymmetricMatrix inertia;
-  const HoldModes* modes = nullptr;  ///< of each hold; null: not kept
+  const HoldModes* modes = nullptr;  ///< of each hold, in B; null: not kept
 
   /// Returns the wet part of the closed vessel less the water; the waterplane is that outside.
   WetVolume with(WetVolume vessel) const noexcept {
@@ -112,7 +112,7 @@ struct WaterInside {
 struct VesselSloshing {
   std::vector<Sloshing> now;            ///< from step to step
   std::vector<Sloshing> moved;          ///< in a step
-  std::vector<HoldModes> modes, later;  ///< at the stand of the body; where a step comes to
+  std::vector<HoldModes> modes, later;  ///< in B at the stand of the body; where a step comes to
 
   /// For a number of holds.
   void resize(std::size_t count);
@@ -128,14 +128,16 @@ struct VesselWater {
   double damping = 0.03;               ///< HoldSettings::sloshing_damping
 };
 
-/// Finds the levels of the water in the holds and sums over it. Cost: four to six clips of each
+/// Finds the levels of the water in the holds and sums over it. Cost: one to three clips of each
 /// hold with water.
 /// @param holds of the body
 /// @param states one of each hold
 /// @param plane_F of the water outside
+/// @param frame pose of F in B
 /// @param modes where those of each hold are kept; null: nowhere
 WaterInside waterInside(const HoldShapes& holds, const HoldState* states,
-                        const SurfacePlane& plane_F, HoldModes* modes = nullptr) noexcept;
+                        const SurfacePlane& plane_F, const FrameOffset& frame,
+                        HoldModes* modes = nullptr) noexcept;
 
 /// Tells if all holds are full of water.
 bool areFull(const HoldShapes& holds, const HoldState* states) noexcept;

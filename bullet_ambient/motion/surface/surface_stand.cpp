@@ -20,7 +20,8 @@ SurfacePlace placeAt(const SurfaceModel& model, const SurfacePlane& plane_B,
   place.immersion_F = immersionOf(model, plane_B);
   const Matrix6 inertia = inertiaAt(model, place.immersion_F);
   if (water.states) {
-    *water.inside = waterInside(*model.holds, water.states, place.immersion_F.plane, water.modes);
+    *water.inside = waterInside(*model.holds, water.states, place.immersion_F.plane,
+                                model.fluid_frame, water.modes);
     if (water.inside->is_any) place.inside_F = water.inside;
   }
   place.inertia = SymmetricMatrix(
@@ -30,7 +31,7 @@ SurfacePlace placeAt(const SurfaceModel& model, const SurfacePlane& plane_B,
 
 Matrix6 inertiaInside(const SurfaceModel& model, const WaterInside* inside_F) noexcept {
   if (!inside_F) return Matrix6::Zero();
-  return model.excess_density * model.fluid_frame.inertiaToB(inside_F->inertia.full());
+  return model.excess_density * inside_F->inertia.full();
 }
 
 WaterLeft::WaterLeft(const WaterAt& at, const Sloshing* states) noexcept
@@ -56,7 +57,7 @@ Vector6 givenMomentum(const WaterLeft& before, const WaterAt& after, const Slosh
 
 Vector6 shiftWater(const WaterLeft& before, const WaterAt& after, const Vector6& x,
                    SymmetricMatrix& inertia, Sloshing* states) noexcept {
-  projectOnModes(after.sloshing(), before.energy, states);
+  const double sloshing = projectOnModes(after.sloshing(), before.energy, states);
   const Matrix6 K_before = inertia.full();
   const Matrix6 K_after =
       K_before - before.inertia.full() + inertiaInside(after.model, after.place.inside_F);
@@ -65,7 +66,7 @@ Vector6 shiftWater(const WaterLeft& before, const WaterAt& after, const Vector6&
   inertia = SymmetricMatrix(K_after);
   const Vector6 own = K_before * x, momentum = own + givenMomentum(before, after, states);
   const double twice_most =
-      x.dot(own) + 2 * (before.energy - energyOfSloshing(after.sloshing(), states).sum());
+      x.dot(own) + 2 * (before.energy - sloshing);
   Vector6 end = factors.solve(momentum);
   // A torque along the tilt: the part of the spin across the normal.
   const Vector3& normal = after.place.plane.normal;

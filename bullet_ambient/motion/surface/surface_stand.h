@@ -32,8 +32,7 @@ struct WaterAt {
   Vector3 position_W;  ///< of the centre of mass, in a frame that moves with the water [m]
 
   SloshingAt sloshing() const {
-    return {model.fluid_frame, model.excess_density, place.inside_F->modes,
-            model.holds->shapes.size(), to_world};
+    return {model.excess_density, place.inside_F->modes, model.holds->shapes.size(), to_world};
   }
 };
 /// Water in the holds at a place that the body has left: its part of K, in B, and its sloshing.

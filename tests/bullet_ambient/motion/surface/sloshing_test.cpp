@@ -32,13 +32,12 @@ struct BargeWater {
         modes(modesOf(shape, fill, {{0, 0, 1}, 0, 1000, kPull})) {}
 
   SloshingAt at(const Matrix3& to_world = Matrix3::Identity()) const {
-    return {frame, 1000, &modes, 1, to_world};
+    return {1000, &modes, 1, to_world};
   }
   const SloshMode& across() const {
     return modes.modes[std::abs(modes.modes[0].axis.y()) > 0.7 ? 0 : 1];
   }
 
-  FrameOffset frame;
   Hold hold;
   HoldShape shape;
   HoldFill fill;
@@ -293,7 +292,7 @@ TEST(Sloshing, NeverGrowsWithItsModes) {
   }
   const HoldModes none;
   Sloshing state{true, {1, 0, 0}, {0, 1, 0}};
-  projectOnModes({water.frame, 1000, &none, 1, Matrix3::Identity()}, 1, &state);
+  projectOnModes({1000, &none, 1, Matrix3::Identity()}, 1, &state);
   EXPECT_EQ(state.way_W.norm() + state.velocity_W.norm(), 0);
 }
 
