@@ -146,6 +146,7 @@ struct VesselState {
   std::vector<HoldState> holds;  ///< as in FluidBody::holds
   RimRises rises;                ///< of waves at the openings in this step
   bool has_waves = false;        ///< true: `rises` counts
+  WavesInside waves_inside;      ///< of the water in the holds at the openings in this step
   OpeningChanges changes;        ///< of openings while the body is in its fluid
   WaterInside inside;            ///< at FloatingState::stand
   VesselSloshing sloshing;

@@ -7,6 +7,7 @@
 
 #include "bullet_ambient/immersed/flow_along.h"
 #include "bullet_ambient/motion/surface/hold_exchange.h"
+#include "bullet_ambient/motion/surface/slopping.h"
 
 namespace ambient {
 namespace {
@@ -162,6 +163,9 @@ void takeWater(AmbientBody& ambient, const Matrix3& to_world, const Vector6& x,
   VesselState& vessel = *ambient.vessel;
   const SurfaceModel& model = *ambient.surface();
   const SurfaceStand& stand = ambient.stand();
+  if (vessel.waves_inside.is_any)
+    vessel.sloshing_energy -= loseSlopped(stand.plane.density * stand.plane.gravity,
+                                          vessel.waves_inside, vessel.sloshing.now.data());
   const double twice_before = x.dot(stand.inertia.full() * x) + 2 * vessel.sloshing_energy;
   vessel.sloshing.later = vessel.sloshing.modes;  // before water has passed
   ambient.floating->is_valid = false;
@@ -210,7 +214,13 @@ bool exchangeWater(AmbientBody& ambient, const MotionView& now, double duration)
   const Vector6 x = twistInWater(ambient, now.state);
   const Matrix3 R = now.rotation();
   beginSloshing(ambient, R, x);
-  if (stand.inside_F) passage.modes = vessel.sloshing.modes.data();
+  vessel.waves_inside.is_any = false;
+  if (stand.inside_F) {
+    passage.modes = vessel.sloshing.modes.data();
+    findWavesInside(waterAt(ambient, R, {0, 0, 0}), &vessel.changes, vessel.sloshing.now.data(),
+                    vessel.waves_inside);
+    if (vessel.waves_inside.is_any) passage.waves = &vessel.waves_inside;
+  }
   const Matrix6 come =
       exchangeWater(*model.holds, stand.immersion_F.plane, passage, vessel.holds.data());
   bool has_changed = false;

@@ -161,14 +161,15 @@ double lowestCorner(const VesselState& vessel, std::size_t hold, const Vector3& 
   return lowest;
 }
 
-/// Returns the normal of the surface as the water sloshes: its slope along a mode is omega^2 q / g.
+/// Returns the normal of the surface as the water sloshes: a plane that meets the walls where the
+/// waves do, docs/theory.md eq. (156).
 Vector3 slopingNormal(const HoldModes& modes, const Sloshing& sloshing, const SurfacePlane& plane_F,
                       const Matrix3& R_WF) {
   Vector3 normal = plane_F.normal;
   if (!(plane_F.gravity > 0)) return normal;
   for (const SloshMode& mode : modes.modes)
-    normal -= mode.square / plane_F.gravity * mode.axis.dot(R_WF.transpose() * sloshing.way_W) *
-              mode.axis;
+    normal -= kWavePerPlane * mode.square / plane_F.gravity *
+              mode.axis.dot(R_WF.transpose() * sloshing.way_W) * mode.axis;
   return normal.normalized();
 }
 

@@ -5,7 +5,6 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/elementary.h"
-#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/fluid_body/box_turning.h"
 #include "bullet_ambient/spatial/inertia.h"
 
@@ -19,8 +18,7 @@ HoldShape::HoldShape(const Hold& hold)
     auto& middles = middles_[static_cast<std::size_t>(axis)];
     for (int i = 1; i < kLevels; ++i) {
       const double share = static_cast<double>(i) / kLevels;
-      const HoldFill fill =
-          fillHold(*this, normal, share * capacity_, low + share * (high - low));
+      const HoldFill fill = fillHold(*this, normal, share * capacity_, low + share * (high - low));
       middles[static_cast<std::size_t>(i - 1)] = fill.water.waterplane.centroid;
     }
   }
@@ -161,6 +159,7 @@ HoldModes modesOf(const HoldShape& shape, const HoldFill& fill,
   const double mean = volume / area;
   const double depth = std::min(mean, 2 * (fill.height - normal.dot(centre)));
   if (!(depth > 0)) return found;
+  found.middle = water.waterplane.centroid;
   const Level level(water.waterplane, normal);
   // Where the hold narrows above the water, it turns as the full one.
   const double open = depth / mean;
@@ -173,6 +172,7 @@ HoldModes modesOf(const HoldShape& shape, const HoldFill& fill,
     const double length = std::sqrt(level.squares[i]), k = kPi / length;
     const double per_gravity = k * tanhOf(k * depth);
     mode.axis = level.axes[i];
+    mode.length = length;
     mode.square = plane_F.gravity * per_gravity;
     mode.volume = per_gravity * level.moments[i];
     // The rest of the water keeps a positive inertia.
@@ -193,6 +193,7 @@ HoldModes HoldModes::inB(const FrameOffset& frame) const noexcept {
   const Matrix3& R = frame.rotation;
   HoldModes there = *this;
   there.turning = R * turning * R.transpose();
+  there.middle = R * middle + frame.translation;
   for (SloshMode& mode : there.modes) {
     if (!(mode.volume > 0)) continue;
     mode.axis = R * mode.axis;

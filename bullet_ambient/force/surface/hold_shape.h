@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/fluid_body/packed/packed_shape.h"
 #include "bullet_ambient/force/surface/hydrostatics.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
@@ -68,12 +69,22 @@ struct SloshMode {
   double volume = 0;       ///< that mass, per unit density [m^3]; 0: there is no mode
   double square = 0;       ///< omega^2 [1/s^2]
   double farthest = 0;     ///< way at which the surface meets the floor or the top of the hold [m]
+  double length = 0;       ///< l of the box with this level [m]
 };
+
+/// First mode of a box at its wall, over the plane with the same moment there [1].
+constexpr double kWavePerPlane = kPi * kPi / 12;
+/// Height over the level of a wave where it meets the wall, for a way q of its pendulum [m];
+/// docs/theory.md eq. (156).
+inline double crestOf(const SloshMode& mode, double way, double gravity) noexcept {
+  return kWavePerPlane * mode.square / gravity * way * mode.length / 2;
+}
 
 /// Level of the water in a hold and its motion: its two modes, and its resistance to turning.
 struct HoldModes {
   SloshMode modes[2];
-  double height = 0;  ///< HoldFill::height, in F; without water of no meaning [m]
+  double height = 0;                  ///< HoldFill::height, in F; without water of no meaning [m]
+  Vector3 middle{0, 0, 0};            ///< of the level [m]
   Matrix3 turning = Matrix3::Zero();  ///< J about its centre, per unit density, eq. (151) [m^5]
 
   /// Converts from F, all but the height. `frame`: pose of F in B.

@@ -78,6 +78,20 @@ struct HoldState {
   double filled() const { return volume + displaced; }
 };
 
+/// Waves of the water in the holds of a body where they reach its openings to the sea.
+struct WavesInside {
+  bool is_any = false;                ///< true: one reaches an opening
+  RimRises rises;                     ///< of those over the level in the hold
+  std::vector<std::uint8_t> reaches;  ///< of the openings; 1: `rises` counts
+  std::vector<double> energy;         ///< of the waves in each hold, over rho g [m^4]
+  std::vector<double> lost;           ///< the part of it that has gone with water [m^4]
+
+  /// Heights at the edges of an opening; null: the water is level there.
+  const std::vector<double>* at(std::size_t opening) const {
+    return reaches[opening] ? &rises[opening] : nullptr;
+  }
+};
+
 /// Air around the holds and a duration in which water flows.
 struct Passage {
   bool are_open = true;                     ///< false: nothing passes through openings
@@ -87,6 +101,7 @@ struct Passage {
   const RimRises* rises = nullptr;          ///< null: the sea is a plane at the openings
   /// Levels and modes of the holds at the plane, with their present water; null: not known.
   const HoldModes* modes = nullptr;
+  WavesInside* waves = nullptr;  ///< null: the water in the holds is level
 };
 
 /// Water in all holds of a body at one pose: what it adds to the closed vessel.

@@ -1,0 +1,141 @@
+#include "preprocess/builder/given_holds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+#include "bullet_ambient/base/fnv1a.h"
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/force/surface/hold_flow.h"
+#include "preprocess/mesh/check/mesh_checks.h"
+#include "preprocess/mesh/defects/surface_crossing.h"
+#include "preprocess/mesh/geometry.h"
+#include "preprocess/mesh/import/mesh_import.h"
+#include "preprocess/mesh/input_error.h"
+#include "preprocess/mesh/mass_properties.h"
+
+namespace ambient {
+namespace {
+
+std::string nameOf(const BuildSettings& settings) {
+  return settings.source.empty() ? settings.name : settings.source;
+}
+
+/// Whether a point is in a closed mesh, whichever way its normals look.
+bool isIn(const TriangleMesh& mesh, const Vector3& point) {
+  double angle = 0;
+  for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) angle += solidAngle(mesh, t, point);
+  return std::abs(angle) > 2 * kPi;
+}
+
+/// Whether a vertex of a mesh is in, or not in, another mesh.
+bool hasVertex(const TriangleMesh& mesh, bool is_in, const TriangleMesh& other) {
+  for (Eigen::Index i = 0; i < mesh.vertices.cols(); ++i)
+    if (isIn(other, mesh.vertices.col(i)) == is_in) return true;
+  return false;
+}
+
+Hold tankOf(const TriangleMesh& mesh, std::string name) {
+  const MeshProperties properties = computeMassProperties(mesh);
+  Hold tank;
+  tank.name = std::move(name);
+  tank.surface = surfaceOf(mesh);
+  tank.volume = properties.volume;
+  tank.centre = properties.uniform.centre;
+  tank.turning_inertia = tank.volume * turningInertia(properties.uniform.inertia);
+  return tank;
+}
+
+void addTank(const TriangleMesh& closed, const std::filesystem::path& file,
+             BuildSettings& settings) {
+  const std::string name = file.string();
+  const CheckedMesh tank =
+      requireSound(checkMesh(importMesh(file, settings.holds.tank_scale).mesh, name), name);
+  if (hasVertex(tank.mesh, false, closed))
+    raiseInputError(name, "the tank is not wholly inside ", nameOf(settings));
+  for (const Hold& hold : settings.found_holds) {
+    const TriangleMesh room = meshOf(hold.surface);
+    if (hasVertex(tank.mesh, true, room) || hasVertex(room, true, tank.mesh))
+      raiseInputError(name, "the tank reaches into the ", hold.name, " of ", nameOf(settings));
+  }
+  settings.found_holds.push_back(tankOf(tank.mesh, file.stem().string()));
+  // What is in a cavity already has no walls to take away.
+  if (settings.cavities.triangleCount() > 0 && !hasVertex(tank.mesh, false, settings.cavities))
+    settings.cavities = joinMeshes({settings.cavities, tank.mesh});
+}
+
+/// The nearest wall of all holds.
+struct NearestWall {
+  std::size_t hold = 0;
+  double distance = std::numeric_limits<double>::infinity();  ///< [m]
+};
+
+NearestWall nearestWall(const std::vector<Hold>& holds, const Vector3& place) {
+  NearestWall nearest;
+  for (std::size_t i = 0; i < holds.size(); ++i) {
+    const TriangleMesh walls = meshOf(holds[i].surface);
+    for (Eigen::Index t = 0; t < walls.triangleCount(); ++t) {
+      const double distance = (nearestPoint(cornersOf(walls, t), place) - place).norm();
+      if (distance < nearest.distance) nearest = {i, distance};
+    }
+  }
+  return nearest;
+}
+
+void addOpening(const GivenOpening& opening, std::size_t number, BuildSettings& settings) {
+  constexpr double kFarthest = 0.1;  // of the size of the hold
+  const std::string name = nameOf(settings) + ": opening " + std::to_string(number);
+  if (!(opening.area > 0) || !std::isfinite(opening.area))
+    raiseInputError(name, "its area of ", opening.area, " m^2 is not positive and finite");
+  if (!opening.normal.allFinite() || opening.normal.isZero(0))
+    raiseInputError(name, "its normal (", opening.normal.transpose(), ") is no direction");
+  if (!opening.place.allFinite()) raiseInputError(name, "its place is not finite");
+  if (settings.found_holds.empty()) raiseInputError(name, "there is no hold that it could open");
+  const NearestWall nearest = nearestWall(settings.found_holds, opening.place);
+  Hold& hold = settings.found_holds[nearest.hold];
+  const TriangleMesh walls = meshOf(hold.surface);
+  const double most = kFarthest * walls.extents().norm();
+  if (!(nearest.distance <= most))
+    raiseInputError(name, "it is ", nearest.distance,
+                    " m from the nearest wall of a hold, more than ", most, " m");
+  if (!(opening.area < computeMassProperties(walls).area))
+    raiseInputError(name, "its area of ", opening.area, " m^2 is above that of the walls of the ",
+                    hold.name);
+  hold.openings.push_back(
+      openingOf({opening.place, opening.normal.stableNormalized(), opening.area}));
+}
+
+}  // namespace
+
+std::vector<std::string> takeGivenHolds(const TriangleMesh& closed, BuildSettings& settings) {
+  const HoldSearch& given = settings.holds;
+  const std::size_t found = settings.found_holds.size();
+  if (found == 0 && !given.tanks.empty()) settings.walls = closed;
+  for (const std::filesystem::path& file : given.tanks) addTank(closed, file, settings);
+  std::vector<Hold>& holds = settings.found_holds;
+  if (holds.size() > found)
+    settings.walls =
+        joinMeshes({settings.walls,
+                    emptied({holds.begin() + static_cast<std::ptrdiff_t>(found), holds.end()})});
+  for (std::size_t i = 0; i < given.openings.size(); ++i)
+    addOpening(given.openings[i], i + 1, settings);
+  std::vector<std::string> lines;
+  for (std::size_t i = found; i < holds.size(); ++i)
+    lines.push_back(inputMessage(nameOf(settings), holdText(holds[i]), "; a tank"));
+  return lines;
+}
+
+std::string givenHoldsText(const HoldSearch& search) {
+  std::ostringstream text;
+  text.precision(17);
+  for (const std::filesystem::path& file : search.tanks)
+    text << ", tank " << hashText(fnv1a64(readBytes(file)));
+  for (const GivenOpening& opening : search.openings)
+    text << ", opening " << opening.place.transpose() << ' ' << opening.area << ' '
+         << opening.normal.transpose();
+  return text.str();
+}
+
+}  // namespace ambient
