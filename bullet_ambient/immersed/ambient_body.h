@@ -152,7 +152,12 @@ struct VesselState {
   VesselSloshing sloshing;
   double sloshing_energy = 0;  ///< of VesselSloshing::now [J]
   WaterLeft before_rows;       ///< after it has sloshed for a step in which rows move the body
-  /// Change of the velocity in B by the water that has come in at the start of this step.
+  /// Drag of the bodies in the holds, turned round, about the centre of mass, in the last step; and
+  /// the largest speed of one past the vessel [m/s].
+  Wrench reaction_W;
+  double reaction_speed = 0;
+  /// Change of the velocity in B by that and by the water that has come in at the start of this
+  /// step.
   Vector6 change_B = Vector6::Zero();
 };
 

@@ -178,6 +178,19 @@ void takeWater(AmbientBody& ambient, const Matrix3& to_world, const Vector6& x,
   vessel.change_B = scaledWithin(end, end.dot(stand.inertia.full() * end), most).twist - x;
 }
 
+// Change of the velocity in B by the drag of the bodies in the holds, which no more than carries
+// the vessel along.
+Vector6 kickByContents(const AmbientBody& ambient, const Matrix3& to_world, double duration) {
+  const VesselState& vessel = *ambient.vessel;
+  if (!(vessel.reaction_speed > 0)) return Vector6::Zero();
+  const Wrench& push = vessel.reaction_W;
+  const Vector6 kick =
+      duration * (ambient.stand().inverse.full() *
+                  stack(to_world.transpose() * push.torque, to_world.transpose() * push.force));
+  const double speed = kick.tail<3>().norm();
+  return speed > vessel.reaction_speed ? vessel.reaction_speed / speed * kick : kick;
+}
+
 // Ends the step of a hold that is empty and stays so.
 void stayDry(HoldState& hold) {
   hold.change = hold.inflow = 0;
@@ -231,6 +244,7 @@ bool exchangeWater(AmbientBody& ambient, const MotionView& now, double duration)
     if (std::abs(hold.change) > kStill * vessel.shape->holds[i].volume) ambient.may_rest = false;
   }
   if (has_changed) takeWater(ambient, R, x, come);
+  vessel.change_B += kickByContents(ambient, R, duration);
   if (!isNearlyLevel(ambient)) ambient.may_rest = false;
   return has_changed;
 }

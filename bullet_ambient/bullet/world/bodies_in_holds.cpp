@@ -239,6 +239,24 @@ void findLevel(const Vessel& vessel, std::size_t hold) {
   });
 }
 
+/// Gathers what the bodies in the holds have of drag on the water there, which the vessel takes in
+/// the next step. Bodies that rows have moved have none.
+void gatherReactions(const Vessel& vessel) {
+  VesselState& state = *vessel.ambient.vessel;
+  const Vector3 centre = vessel.now.centre();
+  forEachInside(vessel.place, vessel.members, [&](const PlacedMember& member, HoldAround& around) {
+    const auto* const last = std::get_if<LastFlight>(&member.body->outcome.motion);
+    if (around.is_dry || member.link || !isAwake(member) || !last || !last->memory.has_load) return;
+    const Wrench& drag = last->memory.load_W;
+    const Vector3 arm = member.centre - centre;
+    state.reaction_W -= Wrench{drag.torque + arm.cross(drag.force), drag.force};
+    const Twist& of_vessel = vessel.now.twist_W;
+    const Vector3 past =
+        nowOf(member).twist_W.linear - of_vessel.linear - of_vessel.angular.cross(arm);
+    state.reaction_speed = std::max(state.reaction_speed, past.norm());
+  });
+}
+
 }  // namespace
 
 void findBodiesInHolds(btCollisionWorld& world, AmbientBodies& bodies) noexcept {
@@ -255,9 +273,13 @@ void findBodiesInHolds(btCollisionWorld& world, AmbientBodies& bodies) noexcept 
     });
   }
   for (const PlacedMember& member : placed) {
-    if (!isVesselAtSurface(member) || !isShared(member, bodies)) continue;
+    if (!isVesselAtSurface(member)) continue;
+    member.body->vessel->reaction_W = {};
+    member.body->vessel->reaction_speed = 0;
+    if (!isShared(member, bodies)) continue;
     const Vessel vessel(member, bodies);
     for (std::size_t i = 0; i < member.body->vessel->holds.size(); ++i) findLevel(vessel, i);
+    gatherReactions(vessel);
   }
 }
 
