@@ -270,8 +270,8 @@ Vector6 sloshForRows(AmbientBody& ambient, const RigidState& now, double duratio
   sloshing.moved = sloshing.now;
   joinVessel(at.sloshing(), x, sloshing.moved.data());
   const Vector6 end =
-      exchangeSloshing(at.sloshing(), ambient.stand().inverse.full(),
-                       ambient.def->holds.sloshing_damping, duration, x, sloshing.moved.data());
+      exchangeSloshing(at.sloshing(), ambient.stand().inverse, ambient.def->holds.sloshing_damping,
+                       duration, x, sloshing.moved.data());
   vessel.before_rows = WaterLeft(at, sloshing.moved.data());
   return end;
 }

@@ -15,6 +15,7 @@
 #include "preprocess/mesh/import/mesh_import.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mass_properties.h"
+#include "preprocess/shape/json_schema.h"
 
 namespace ambient {
 namespace {

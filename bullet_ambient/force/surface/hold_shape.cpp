@@ -152,22 +152,34 @@ HoldModes modesOf(const HoldShape& shape, const HoldFill& fill,
   if (!(volume > 0)) return found;
   found.height = fill.height;
   const Vector3& normal = plane_F.normal;
-  const double share = volume / shape.capacity(), root = portable::cbrt(share);
-  found.turning = share * root * root * shape.turningInertia();
-  if (!(area > 0) || !(plane_F.gravity > 0)) return found;
+  const double share = volume / shape.capacity();
+  const auto turnAsFull = [&] {
+    const double root = portable::cbrt(share);
+    return Matrix3(share * root * root * shape.turningInertia());
+  };
+  if (!(area > 0) || !(plane_F.gravity > 0)) {
+    found.turning = turnAsFull();
+    return found;
+  }
   const Vector3 centre = water.moment / volume;
   const double mean = volume / area;
   const double depth = std::min(mean, 2 * (fill.height - normal.dot(centre)));
-  if (!(depth > 0)) return found;
+  if (!(depth > 0)) {
+    found.turning = turnAsFull();
+    return found;
+  }
   found.middle = water.waterplane.centroid;
   const Level level(water.waterplane, normal);
   // Where the hold narrows above the water, it turns as the full one.
   const double open = depth / mean;
-  found.turning = open * volume * turningBelow(level, normal, depth) + (1 - open) * found.turning;
-  const double size = portable::cbrt(volume + area * std::sqrt(area));
+  constexpr double kRounding = 1e-12;
+  found.turning = open * volume * turningBelow(level, normal, depth);
+  if (1 - open > kRounding) found.turning += (1 - open) * turnAsFull();
+  const double cube = volume + area * std::sqrt(area);
   for (int i = 0; i < 2; ++i) {
     constexpr double kSliver = 1e-6;
-    if (level.moments[i] < kSliver * area * size * size) continue;
+    const double square = level.moments[i] / (kSliver * area);
+    if (square * square * square < cube * cube) continue;
     SloshMode& mode = found.modes[i];
     const double length = std::sqrt(level.squares[i]), k = kPi / length;
     const double per_gravity = k * tanhOf(k * depth);

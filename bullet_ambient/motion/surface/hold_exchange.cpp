@@ -157,8 +157,8 @@ void exchangeThrough(const HoldShapes& holds, const Numbered& at, const SurfaceP
 /// Whether the holds are empty and the sea is below their openings.
 bool areDryAndClear(const HoldShapes& holds, const SurfacePlane& plane_F, const Passage& passage,
                     const HoldState* states) {
-  bool are_clear = areEmpty(holds, states);
-  if (!are_clear) return false;
+  if (!areEmpty(holds, states)) return false;
+  bool are_clear = true;
   forEachOpening(
       holds, passage.changes, [&](const HoldShapes::Opening& opening, std::size_t number) {
         const auto* rises = passage.rises ? &(*passage.rises)[number] : nullptr;

@@ -63,7 +63,7 @@ void VesselSloshing::resize(std::size_t count) {
 }
 
 WaterInside waterInside(const HoldShapes& holds, const HoldState* states,
-                        const SurfacePlane& plane_F, const FrameOffset& frame,
+                        const SurfacePlane& plane_F, const HoldsInBody& body,
                         HoldModes* modes) noexcept {
   WaterInside all;
   all.modes = modes;
@@ -73,14 +73,16 @@ WaterInside waterInside(const HoldShapes& holds, const HoldState* states,
     if (!(states[i].volume > 0)) continue;
     const HoldFill fill = levelIn(holds.shapes[i], states[i], plane_F);
     const HoldModes found =
-        modesOfWater(states[i], modesOf(holds.shapes[i], fill, plane_F)).inB(frame);
+        modesOfWater(states[i], modesOf(holds.shapes[i], fill, plane_F)).inB(body.fluid_frame);
     if (modes) modes[i] = found;
     all.below = withWaterInside(all.below, plane_F, fill);
     all.spread += fill.water.waterplane.spread;
-    inertia += inertiaOfWater(states[i], fill.water, frame, found);
+    inertia += inertiaOfWater(states[i], fill.water, body.fluid_frame, found);
     all.is_any = true;
   }
-  if (all.is_any) all.inertia = SymmetricMatrix(inertia);
+  if (!all.is_any) return all;
+  all.inertia = SymmetricMatrix(inertia);
+  for (double& entry : all.inertia.entries) entry *= body.density;
   return all;
 }
 

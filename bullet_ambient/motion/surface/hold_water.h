@@ -110,8 +110,7 @@ struct WaterInside {
   /// Terms of V, S and W in docs/theory.md eq. (135), in F: volume and moment are negative.
   WetVolume below;
   Matrix3 spread = Matrix3::Zero();  ///< sum of Waterplane::spread of its levels, in F [m^4]
-  /// Inertia in B of the water less that of its modes of sloshing, per unit density.
-  SymmetricMatrix inertia;
+  SymmetricMatrix inertia;           ///< in B, of the water less that of its modes of sloshing
   const HoldModes* modes = nullptr;  ///< of each hold, in B; null: not kept
 
   /// Returns the wet part of the closed vessel less the water; the waterplane is that outside.
@@ -143,15 +142,21 @@ struct VesselWater {
   double damping = 0.03;               ///< HoldSettings::sloshing_damping
 };
 
+/// Body with holds: pose of F in B, and density of the water less that of the fluid above [kg/m^3].
+struct HoldsInBody {
+  const FrameOffset& fluid_frame;
+  double density;
+};
+
 /// Finds the levels of the water in the holds and sums over it. Cost: one to three clips of each
 /// hold with water.
 /// @param holds of the body
 /// @param states one of each hold
 /// @param plane_F of the water outside
-/// @param frame pose of F in B
+/// @param body whose frame and density the inertia has
 /// @param modes where those of each hold are kept; null: nowhere
 WaterInside waterInside(const HoldShapes& holds, const HoldState* states,
-                        const SurfacePlane& plane_F, const FrameOffset& frame,
+                        const SurfacePlane& plane_F, const HoldsInBody& body,
                         HoldModes* modes = nullptr) noexcept;
 
 /// Tells if all holds are full of water.

@@ -11,41 +11,37 @@
 namespace ambient {
 namespace {
 
-/// Waves in one hold, in F.
+/// Waves in one hold.
 struct HoldWaves {
   HoldWaves(const WaterAt& at, std::size_t hold, const Sloshing& state)
-      : middle(at.model.fluid_frame.rotation.transpose() *
-               (at.place.inside_F->modes[hold].middle - at.model.fluid_frame.translation)) {
-    const HoldModes& modes = at.place.inside_F->modes[hold];
+      : frame(at.model.fluid_frame), modes(at.place.inside_F->modes[hold]) {
     const double gravity = at.place.plane.gravity;
     for (int i = 0; i < 2; ++i) {
       const SloshMode& mode = modes.modes[i];
       if (!(mode.volume > 0) || !state.is_known) continue;
       const double way = (at.to_world * mode.axis).dot(state.way_W);
-      axes[i] = at.model.fluid_frame.rotation.transpose() * mode.axis;
       crests[i] = crestOf(mode, way, gravity);
-      half_lengths[i] = mode.length / 2;
       energy += mode.volume * mode.square / gravity * way * way / 2;
     }
   }
 
-  double most() const { return std::abs(crests[0]) + std::abs(crests[1]); }
-  /// Height of the surface over the level at a place [m].
-  double riseAt(const Vector3& place) const {
+  double highest() const { return modes.height + std::abs(crests[0]) + std::abs(crests[1]); }
+  /// Height of the surface over the level at a place in F [m].
+  double riseAt(const Vector3& place_F) const {
+    const Vector3 place = frame.rotation * place_F + frame.translation - modes.middle;
     double rise = 0;
     for (int i = 0; i < 2; ++i) {
       if (crests[i] == 0) continue;
-      const double share = axes[i].dot(place - middle) / half_lengths[i];
+      const double share = 2 * modes.modes[i].axis.dot(place) / modes.modes[i].length;
       rise += crests[i] * portable::sin(kPi / 2 * std::clamp(share, -1.0, 1.0));
     }
     return rise;
   }
 
-  Vector3 middle;  ///< of the level
-  Vector3 axes[2] = {{0, 0, 0}, {0, 0, 0}};
-  double crests[2] = {0, 0};        ///< at the walls [m]
-  double half_lengths[2] = {0, 0};  ///< [m]
-  double energy = 0;                ///< over rho g [m^4]
+  const FrameOffset& frame;
+  const HoldModes& modes;
+  double crests[2] = {0, 0};  ///< at the walls [m]
+  double energy = 0;          ///< over rho g [m^4]
 };
 
 }  // namespace
@@ -63,7 +59,7 @@ void findWavesInside(const WaterAt& at, const OpeningChanges* changes, const Slo
     const HoldWaves of(at, hold, states[hold]);
     waves.energy[hold] = of.energy;
     if (!(of.energy > 0)) continue;
-    const double highest = at.place.inside_F->modes[hold].height + of.most();
+    const double highest = of.highest();
     forEachOpening(holds, changes, [&](const HoldShapes::Opening& opening, std::size_t number) {
       if (opening.to >= 0 || static_cast<std::size_t>(opening.from) != hold) return;
       if (!(-opening.shape.top(-up) < highest)) return;

@@ -40,8 +40,7 @@ double dampingRatio(double least, double way, double farthest) {
 }  // namespace
 
 void joinVessel(const SloshingAt& at, const Vector6& x, Sloshing* states) noexcept {
-  if (std::all_of(states, states + at.count,
-                  [](const Sloshing& state) { return state.is_known; }))
+  if (std::all_of(states, states + at.count, [](const Sloshing& state) { return state.is_known; }))
     return;
   for (std::size_t i = 0; i < at.count; ++i)
     if (!states[i].is_known) states[i] = {};
@@ -96,7 +95,7 @@ double projectOnModes(const SloshingAt& at, double energy, Sloshing* states) noe
   return std::max(0.0, energy);
 }
 
-Vector6 exchangeSloshing(const SloshingAt& at, const Matrix6& inverse, double damping,
+Vector6 exchangeSloshing(const SloshingAt& at, const SymmetricMatrix& inverse, double damping,
                          double duration, const Vector6& x, Sloshing* states) noexcept {
   AMBIENT_ASSERT(duration >= 0 && damping >= 0);
   Vector6 end = x;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bullet_ambient/force/surface/hold_shape.h"
+#include "bullet_ambient/motion/surface/symmetric_matrix.h"
 
 namespace ambient {
 
@@ -45,7 +46,7 @@ double projectOnModes(const SloshingAt& at, double energy, Sloshing* states) noe
 /// of x.K x / 2 and the energy of the pendulums does not grow, whatever the duration. Returns the
 /// twist afterwards, in B, relative to the water around, as x is the one before. `inverse` is K^-1,
 /// `damping` HoldSettings::sloshing_damping.
-Vector6 exchangeSloshing(const SloshingAt& at, const Matrix6& inverse, double damping,
+Vector6 exchangeSloshing(const SloshingAt& at, const SymmetricMatrix& inverse, double damping,
                          double duration, const Vector6& x, Sloshing* states) noexcept;
 
 }  // namespace ambient

@@ -21,9 +21,6 @@ struct SurfacePlace {
 SurfacePlace placeAt(const SurfaceModel& model, const SurfacePlane& plane_B,
                      const VesselWater& water = {}) noexcept;
 
-/// Returns the part of K that is water in the holds, in B. `inside_F`: null: none.
-Matrix6 inertiaInside(const SurfaceModel& model, const WaterInside* inside_F) noexcept;
-
 /// A body with water in its holds at a place. @pre inside_F of the place, with its modes
 struct WaterAt {
   const SurfaceModel& model;

@@ -55,7 +55,7 @@ TEST(Sloshing, OfAVesselThatIsHeldIsTheMidpointRule) {
   constexpr int kSteps = 100;
   for (int i = 0; i < kSteps; ++i) {
     const Vector6 x =
-        exchangeSloshing(water.at(), Matrix6::Zero(), 0, step, Vector6::Zero(), &state);
+        exchangeSloshing(water.at(), SymmetricMatrix(), 0, step, Vector6::Zero(), &state);
     EXPECT_EQ(x.norm(), 0);
   }
   const double turned = kSteps * 2 * std::atan(rate * step / 2);
@@ -72,7 +72,7 @@ TEST(Sloshing, IsDampedByItsShareOfTheCriticalDamping) {
     double last = 0, highest = 0;
     const int steps = static_cast<int>(3.5 * 2 * kPi / rate / kStep);
     for (int i = 0; i < steps; ++i) {
-      exchangeSloshing(water.at(), Matrix6::Zero(), damping, kStep, Vector6::Zero(), &state);
+      exchangeSloshing(water.at(), SymmetricMatrix(), damping, kStep, Vector6::Zero(), &state);
       if (state.way_W.y() > last && i > steps * 5 / 7) highest = std::max(highest, state.way_W.y());
       last = state.way_W.y();
     }
@@ -102,8 +102,8 @@ TEST(Sloshing, KeepsMomentumAndEnergyWithAnyBody) {
     const double energy = energyOf(x);
     const Vector6 momentum = momentumOf(x);
     const double damping = i % 2 == 0 ? 0.1 : 0, step = std::pow(10, arbitrary.between(-3, 1));
-    const Vector6 end =
-        exchangeSloshing(at, Cholesky<6>(inertia).inverse(), damping, step, x, &state);
+    const Vector6 end = exchangeSloshing(at, SymmetricMatrix(Cholesky<6>(inertia).inverse()),
+                                         damping, step, x, &state);
     EXPECT_LT((momentumOf(end) - momentum).norm(), 1e-9 * momentum.norm());
     if (damping > 0) {
       EXPECT_LT(energyOf(end), energy);
