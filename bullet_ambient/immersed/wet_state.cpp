@@ -221,10 +221,10 @@ std::vector<HoldWater> holdsOf(const AmbientBody& ambient, const MotionView& now
     HoldWater& water =
         all.emplace_back(waterIn(*ambient.vessel, i, {R.transpose() * up, 0, 0, gravity}, R));
     const HoldState& state = ambient.vessel->holds[i];
-    water.has_trapped_air = state.is_sealed;
-    water.air_pressure = state.is_sealed && water.capacity > state.volume
-                             ? state.air / (water.capacity - state.volume)
-                             : ambient.def->holds.atmosphere;
+    constexpr double kFull = 1e-9;  // of a hold: less air is rounding
+    const double room = water.capacity - state.filled();
+    water.has_trapped_air = state.is_sealed && room > kFull * water.capacity;
+    water.air_pressure = water.has_trapped_air ? state.air / room : ambient.def->holds.atmosphere;
     water.centre = origin_W + R * water.centre;
     water.level = origin_W + R * water.level;
     water.normal = R * water.normal;

@@ -32,6 +32,7 @@ TEST(Vessel, BargeWithAHoleSinksInItsTime) {
   EXPECT_LT(middleOf(body), -1);
   const HoldWater hold = sea.scene.fluid.find(body)->holds().at(0);
   EXPECT_NEAR(hold.flooded - hold.drained, kCapacity, 1e-9);
+  EXPECT_FALSE(hold.has_trapped_air);
   // Far below it is a body of walls in one fluid.
   sea.scene.step(1 / 60.0, 300);
   EXPECT_EQ(sea.of(body).surface(), nullptr);
