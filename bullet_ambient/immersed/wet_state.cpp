@@ -162,7 +162,7 @@ double lowestCorner(const VesselState& vessel, std::size_t hold, const Vector3& 
 }
 
 /// Returns the normal of the surface as the water sloshes: a plane that meets the walls where the
-/// waves do, docs/theory.md eq. (181).
+/// waves do, docs/theory.md eq. (154a).
 Vector3 slopingNormal(const HoldModes& modes, const Sloshing& sloshing, const SurfacePlane& plane_F,
                       const Matrix3& R_WF) {
   Vector3 normal = plane_F.normal;

@@ -213,7 +213,9 @@ std::vector<std::string> takeHolds(TriangleMesh& mesh, BuildSettings& settings) 
   for (const Hold& hold : settings.found_holds)
     vessel.lines.push_back(
         inputMessage(sourceOf(settings), holdText(hold, settings.holds.unit), "; it stays dry"));
-  const std::vector<std::string> given = takeGivenHolds(mesh, settings);
+  const std::vector<std::string> given =
+      addGivenHolds(mesh, settings.holds, sourceOf(settings),
+                    {settings.found_holds, settings.walls, settings.cavities});
   vessel.lines.insert(vessel.lines.end(), given.begin(), given.end());
   return vessel.lines;
 }

@@ -20,10 +20,6 @@
 namespace ambient {
 namespace {
 
-std::string nameOf(const BuildSettings& settings) {
-  return settings.source.empty() ? settings.name : settings.source;
-}
-
 /// Whether a point is in a closed mesh, whichever way its normals look.
 bool isIn(const TriangleMesh& mesh, const Vector3& point) {
   double angle = 0;
@@ -49,22 +45,28 @@ Hold tankOf(const TriangleMesh& mesh, std::string name) {
   return tank;
 }
 
-void addTank(const TriangleMesh& closed, const std::filesystem::path& file,
-             BuildSettings& settings) {
+/// A vessel that holds are added to.
+struct GivenTo {
+  const TriangleMesh& closed;
+  const std::string& source;
+  const HoldsOfBody& body;
+};
+
+void addTank(const std::filesystem::path& file, double scale, const GivenTo& to) {
   const std::string name = file.string();
-  const CheckedMesh tank =
-      requireSound(checkMesh(importMesh(file, settings.holds.tank_scale).mesh, name), name);
-  if (hasVertex(tank.mesh, false, closed))
-    raiseInputError(name, "the tank is not wholly inside ", nameOf(settings));
-  for (const Hold& hold : settings.found_holds) {
+  const CheckedMesh tank = requireSound(checkMesh(importMesh(file, scale).mesh, name), name);
+  if (hasVertex(tank.mesh, false, to.closed))
+    raiseInputError(name, "the tank is not wholly inside ", to.source);
+  for (const Hold& hold : to.body.holds) {
     const TriangleMesh room = meshOf(hold.surface);
     if (hasVertex(tank.mesh, true, room) || hasVertex(room, true, tank.mesh))
-      raiseInputError(name, "the tank reaches into the ", hold.name, " of ", nameOf(settings));
+      raiseInputError(name, "the tank reaches into the ", hold.name, " of ", to.source);
   }
-  settings.found_holds.push_back(tankOf(tank.mesh, file.stem().string()));
+  to.body.holds.push_back(tankOf(tank.mesh, file.stem().string()));
   // What is in a cavity already has no walls to take away.
-  if (settings.cavities.triangleCount() > 0 && !hasVertex(tank.mesh, false, settings.cavities))
-    settings.cavities = joinMeshes({settings.cavities, tank.mesh});
+  TriangleMesh& cavities = to.body.cavities;
+  if (cavities.triangleCount() > 0 && !hasVertex(tank.mesh, false, cavities))
+    cavities = joinMeshes({cavities, tank.mesh});
 }
 
 /// The nearest wall of all holds.
@@ -85,17 +87,17 @@ NearestWall nearestWall(const std::vector<Hold>& holds, const Vector3& place) {
   return nearest;
 }
 
-void addOpening(const GivenOpening& opening, std::size_t number, BuildSettings& settings) {
+void addOpening(const GivenOpening& opening, std::size_t number, const GivenTo& to) {
   constexpr double kFarthest = 0.1;  // of the size of the hold
-  const std::string name = nameOf(settings) + ": opening " + std::to_string(number);
+  const std::string name = to.source + ": opening " + std::to_string(number);
   if (!(opening.area > 0) || !std::isfinite(opening.area))
     raiseInputError(name, "its area of ", opening.area, " m^2 is not positive and finite");
   if (!opening.normal.allFinite() || opening.normal.isZero(0))
     raiseInputError(name, "its normal (", opening.normal.transpose(), ") is no direction");
   if (!opening.place.allFinite()) raiseInputError(name, "its place is not finite");
-  if (settings.found_holds.empty()) raiseInputError(name, "there is no hold that it could open");
-  const NearestWall nearest = nearestWall(settings.found_holds, opening.place);
-  Hold& hold = settings.found_holds[nearest.hold];
+  if (to.body.holds.empty()) raiseInputError(name, "there is no hold that it could open");
+  const NearestWall nearest = nearestWall(to.body.holds, opening.place);
+  Hold& hold = to.body.holds[nearest.hold];
   const TriangleMesh walls = meshOf(hold.surface);
   const double most = kFarthest * walls.extents().norm();
   if (!(nearest.distance <= most))
@@ -110,30 +112,27 @@ void addOpening(const GivenOpening& opening, std::size_t number, BuildSettings& 
 
 }  // namespace
 
-std::vector<std::string> takeGivenHolds(const TriangleMesh& closed, BuildSettings& settings) {
-  const HoldSearch& given = settings.holds;
-  const std::size_t found = settings.found_holds.size();
-  if (found == 0 && !given.tanks.empty()) settings.walls = closed;
-  for (const std::filesystem::path& file : given.tanks) addTank(closed, file, settings);
-  std::vector<Hold>& holds = settings.found_holds;
-  if (holds.size() > found)
-    settings.walls =
-        joinMeshes({settings.walls,
-                    emptied({holds.begin() + static_cast<std::ptrdiff_t>(found), holds.end()})});
-  for (std::size_t i = 0; i < given.openings.size(); ++i)
-    addOpening(given.openings[i], i + 1, settings);
+std::vector<std::string> addGivenHolds(const TriangleMesh& closed, const HoldSearch& given,
+                                       const std::string& source, const HoldsOfBody& body) {
+  const GivenTo to{closed, source, body};
+  const auto found = static_cast<std::ptrdiff_t>(body.holds.size());
+  for (const std::filesystem::path& file : given.tanks) addTank(file, given.tank_scale, to);
+  if (!given.tanks.empty())
+    body.walls = joinMeshes({found == 0 ? closed : body.walls,
+                             emptied({body.holds.begin() + found, body.holds.end()})});
+  for (std::size_t i = 0; i < given.openings.size(); ++i) addOpening(given.openings[i], i + 1, to);
   std::vector<std::string> lines;
-  for (std::size_t i = found; i < holds.size(); ++i)
-    lines.push_back(inputMessage(nameOf(settings), holdText(holds[i]), "; a tank"));
+  for (auto hold = body.holds.begin() + found; hold != body.holds.end(); ++hold)
+    lines.push_back(inputMessage(source, holdText(*hold), "; a tank"));
   return lines;
 }
 
-std::string givenHoldsText(const HoldSearch& search) {
+std::string givenHoldsText(const HoldSearch& given) {
   std::ostringstream text;
   text.precision(17);
-  for (const std::filesystem::path& file : search.tanks)
+  for (const std::filesystem::path& file : given.tanks)
     text << ", tank " << hashText(fnv1a64(readBytes(file)));
-  for (const GivenOpening& opening : search.openings)
+  for (const GivenOpening& opening : given.openings)
     text << ", opening " << opening.place.transpose() << ' ' << opening.area << ' '
          << opening.normal.transpose();
   return text.str();

@@ -75,7 +75,7 @@ struct SloshMode {
 /// First mode of a box at its wall, over the plane with the same moment there [1].
 constexpr double kWavePerPlane = kPi * kPi / 12;
 /// Height over the level of a wave where it meets the wall, for a way q of its pendulum [m];
-/// docs/theory.md eq. (181).
+/// docs/theory.md eq. (154a).
 inline double crestOf(const SloshMode& mode, double way, double gravity) noexcept {
   return kWavePerPlane * mode.square / gravity * way * mode.length / 2;
 }

@@ -72,7 +72,7 @@ double aimOf(const SeaAt& sea, double level) {
   return height + (flow > 0 ? outside.second - inside.first : outside.first - inside.second);
 }
 
-/// Returns what comes in of a volume over waves inside, docs/theory.md eq. (182): they lose the
+/// Returns what comes in of a volume over waves inside, docs/theory.md eq. (154b): they lose the
 /// energy of what slops over their crests, and what lifts water from the lower level to the higher
 /// one. `available`: energy of the waves over rho g [m^4]; it becomes what is left.
 double sloppedIn(const HoldShape& shape, const SeaAt& sea, const HoldState& state, double in,

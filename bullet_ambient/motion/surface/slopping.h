@@ -5,7 +5,7 @@
 namespace ambient {
 
 /// Finds the waves of the water in the holds where they may reach the openings to the sea,
-/// docs/theory.md eq. (181). Cost: the corners of the openings of holds with waves; where one is
+/// docs/theory.md eq. (154a). Cost: the corners of the openings of holds with waves; where one is
 /// reached, 50 ns for each of its edges. Allocates nothing.
 /// @param at the water at the place of the body
 /// @param changes of its openings; null: none
@@ -14,7 +14,7 @@ namespace ambient {
 void findWavesInside(const WaterAt& at, const OpeningChanges* changes, const Sloshing* states,
                      WavesInside& waves) noexcept;
 
-/// Takes from the sloshing the energy of the water that has slopped over, eq. (182). Returns it
+/// Takes from the sloshing the energy of the water that has slopped over, eq. (154b). Returns it
 /// [J]. Parameters are those of findWavesInside(); the place may have been left since.
 double loseSlopped(double weight, const WavesInside& waves, Sloshing* states) noexcept;
 

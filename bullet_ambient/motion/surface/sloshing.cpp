@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/motion/body/one_body.h"
 
 namespace ambient {
 namespace {
@@ -108,7 +109,7 @@ Vector6 exchangeSloshing(const SloshingAt& at, const SymmetricMatrix& inverse, d
         const double loss =
             2 * dampingRatio(damping, q, mode.farthest) * pendulum.mass * std::sqrt(mode.square);
         const double stiffness = pendulum.stiffness;
-        const Vector6 answer = inverse * N;
+        const Vector6 answer = asEigen(inverse * plain(N));
         const double per_mass = 1 / pendulum.mass + N.dot(answer);
         const double rate = (u - N.dot(end) - half * per_mass * stiffness * q) /
                             (1 + half * per_mass * (loss + half * stiffness));

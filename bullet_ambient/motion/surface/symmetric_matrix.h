@@ -24,14 +24,6 @@ struct SymmetricMatrix : SymmetricOf<double> {
     return m;
   }
 
-  Vector6 operator*(const Vector6& x) const {
-    Vector6 product = Vector6::Zero();
-    for (int row = 0; row < 6; ++row)
-      for (int column = 0; column < 6; ++column)
-        product[row] += entries[symmetricEntry(row, column)] * x[column];
-    return product;
-  }
-
   /// The part that acts on velocities of translation.
   Matrix3 bottomRight() const {
     Matrix3 m;
