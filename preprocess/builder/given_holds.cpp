@@ -27,11 +27,28 @@ bool isIn(const TriangleMesh& mesh, const Vector3& point) {
   return std::abs(angle) > 2 * kPi;
 }
 
-/// Whether a vertex of a mesh is in, or not in, another mesh.
-bool hasVertex(const TriangleMesh& mesh, bool is_in, const TriangleMesh& other) {
-  for (Eigen::Index i = 0; i < mesh.vertices.cols(); ++i)
-    if (isIn(other, mesh.vertices.col(i)) == is_in) return true;
-  return false;
+/// Points a little inside the faces of a closed mesh: near their corners, and in their middle.
+std::vector<Vector3> pointsWithin(const TriangleMesh& mesh) {
+  constexpr double kInwards = 1e-6;  // of its size: meshes may touch
+  constexpr double kAside = 0.02;    // of the way from a corner to the middle
+  const double inwards = kInwards * mesh.extents().norm();
+  std::vector<Vector3> points;
+  for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) {
+    const Vector3 middle = mesh.barycentre(t) - inwards * mesh.twiceArea(t).normalized();
+    points.push_back(middle);
+    for (int k = 0; k < 3; ++k) {
+      const Vector3 corner = mesh.vertices.col(mesh.triangles(k, t));
+      points.emplace_back(middle + (1 - kAside) * (corner - mesh.barycentre(t)));
+    }
+  }
+  return points;
+}
+
+/// Whether a point of a mesh is in, or not in, another mesh.
+bool hasPoint(const TriangleMesh& mesh, bool is_in, const TriangleMesh& other) {
+  const std::vector<Vector3> points = pointsWithin(mesh);
+  return std::any_of(points.begin(), points.end(),
+                     [&](const Vector3& point) { return isIn(other, point) == is_in; });
 }
 
 Hold tankOf(const TriangleMesh& mesh, std::string name) {
@@ -55,17 +72,17 @@ struct GivenTo {
 void addTank(const std::filesystem::path& file, double scale, const GivenTo& to) {
   const std::string name = file.string();
   const CheckedMesh tank = requireSound(checkMesh(importMesh(file, scale).mesh, name), name);
-  if (hasVertex(tank.mesh, false, to.closed))
+  if (hasPoint(tank.mesh, false, to.closed))
     raiseInputError(name, "the tank is not wholly inside ", to.source);
   for (const Hold& hold : to.body.holds) {
     const TriangleMesh room = meshOf(hold.surface);
-    if (hasVertex(tank.mesh, true, room) || hasVertex(room, true, tank.mesh))
+    if (hasPoint(tank.mesh, true, room) || hasPoint(room, true, tank.mesh))
       raiseInputError(name, "the tank reaches into the ", hold.name, " of ", to.source);
   }
   to.body.holds.push_back(tankOf(tank.mesh, file.stem().string()));
   // What is in a cavity already has no walls to take away.
   TriangleMesh& cavities = to.body.cavities;
-  if (cavities.triangleCount() > 0 && !hasVertex(tank.mesh, false, cavities))
+  if (cavities.triangleCount() > 0 && !hasPoint(tank.mesh, false, cavities))
     cavities = joinMeshes({cavities, tank.mesh});
 }
 

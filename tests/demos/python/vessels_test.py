@@ -89,7 +89,7 @@ class DoorsTest(unittest.TestCase):
             hull = block(1, 0.5, 0.25)
             body = ba.FluidBody.from_mesh(*hull, panels=0, tanks=[tank], openings=[([0, 0, -0.125], [0, 0, -1], 0.001)])
             (hold,) = body.holds
-            self.assertAlmostEqual(hold["volume"], 0.15, delta=1e-12)
+            self.assertAlmostEqual(hold["volume"], 0.15, delta=1e-7)  # the file has the rounding of float
             for given, words in (
                 ({"holds": 1}, 'holds must be "auto" or "none", not 1'),
                 ({"holds": "some"}, "holds must be \"auto\" or \"none\", not 'some'"),
