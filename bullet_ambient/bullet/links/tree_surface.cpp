@@ -33,14 +33,6 @@ Vector6 endTwist(const LinkDynamics& dynamics, int link, const Medium& water, do
   return twist.vector();
 }
 
-// Up to kFlightsTogether links that have come to where a step ends, with the twists that they have
-// there alone.
-struct LinkPassages {
-  int count = 0;
-  AmbientLink* links[kFlightsTogether] = {};
-  RowPassage passages[kFlightsTogether];
-};
-
 // Returns the gyroscopic torque about the axis of a body of revolution, along that axis, in a
 // motion of a link that is frozen.
 Vector3 torqueOnSpin(const AmbientLink& link, const Vector6& x) {
@@ -49,16 +41,18 @@ Vector3 torqueOnSpin(const AmbientLink& link, const Vector6& x) {
   return axis.dot(gyroscopicWrench(pairOfTwist(*link.frozen, x)).torque) * axis;
 }
 
-// Lets the links pass the surface side by side, and writes the impulses that change their twists.
+// Lets up to kFlightsTogether links pass the surface side by side, which have come to where a step
+// ends, with the twists that they have there alone. Writes the impulses that change these.
 // Returns the energy removed [J].
-double passTogether(LinkPassages& some, double duration, std::vector<Wrench>& impulses) {
+double passTogether(AmbientLink* const* links, RowPassage* passages, int count, double duration,
+                    std::vector<Wrench>& impulses) {
   Vector6 before[kFlightsTogether];
-  for (int i = 0; i < some.count; ++i) before[i] = some.passages[i].twist.twist;
-  passWithRows(some.passages, some.count, duration);
+  for (int i = 0; i < count; ++i) before[i] = passages[i].twist.twist;
+  passWithRows(passages, count, duration);
   double energy_removed = 0;
-  for (int i = 0; i < some.count; ++i) {
-    AmbientLink& link = *some.links[i];
-    const BoundedTwist& after = some.passages[i].twist;
+  for (int i = 0; i < count; ++i) {
+    AmbientLink& link = *links[i];
+    const BoundedTwist& after = passages[i].twist;
     FloatingState& floating = *link.ambient.floating;
     const Vector3 on_spin = torqueOnSpin(link, before[i]);
     link.frozen.freeze(link.ambient);
@@ -136,21 +130,23 @@ double arriveAtSurface(AmbientTree& tree) noexcept {
   const LinkDynamics& dynamics = tree.flight.dynamics();
   std::fill(step.impulses.begin(), step.impulses.end(), Wrench{});
   double energy_removed = 0;
-  LinkPassages some;
+  int count = 0;
+  AmbientLink* links[kFlightsTogether];
+  RowPassage passages[kFlightsTogether];
   const auto arrive = [&] {
-    energy_removed += passTogether(some, duration, step.impulses);
-    some.count = 0;
+    energy_removed += passTogether(links, passages, count, duration, step.impulses);
+    count = 0;
   };
   forEachAtSurface(tree, [&](AmbientLink& link, int i) {
-    some.links[some.count] = &link;
-    RowPassage& passage = some.passages[some.count++];
+    links[count] = &link;
+    RowPassage& passage = passages[count++];
     passage.body = &link.ambient;
     passage.pose = {dynamics.rotation(i), dynamics.position(i)};
     passage.twist = {endTwist(dynamics, i, link.ambient.medium, duration)};
     passage.hydrostatics = step.surface.has_flown ? &link.hydrostatics : nullptr;
-    if (some.count == kFlightsTogether) arrive();
+    if (count == kFlightsTogether) arrive();
   });
-  if (some.count > 0) arrive();
+  if (count > 0) arrive();
   return addResponse(tree, step.end) ? energy_removed : 0;
 }
 

@@ -200,7 +200,7 @@ inline void addCut(const HullBlock* blocks, const Choice& choice, const Planes& 
 }
 
 /// Rows of sums over wholly wet blocks: s.N, s.M, s.Q of eq. (57).
-enum WetRow { kFlux, kFluxMoment, kFluxSecond = kFluxMoment + 3, kWetRows = 10 };
+enum { kFlux, kFluxMoment, kFluxSecond = kFluxMoment + 3, kWetRows = 10 };
 static_assert(kWetRows == HullMoments::kNumbers, "each number has a row");
 
 /// Adds the sums over wholly wet triangles of these moments to rows.

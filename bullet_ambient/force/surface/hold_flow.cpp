@@ -189,7 +189,7 @@ double volumeThrough(const OpeningShape& opening, const Upward& up, const WaterS
   if (end == 0) return 0;
   const double at_far = excess(end);
   if (at_far == 0 || (at_far > 0) == (first > 0)) return end;
-  return fallingRoot({0, first, end, at_far}, kAccuracy * std::abs(first), excess);
+  return fallingRoot(0, first, end, at_far, kAccuracy * std::abs(first), excess);
 }
 
 double SealedAir::productAfter(double taken, double level, const Outside& outside) const noexcept {

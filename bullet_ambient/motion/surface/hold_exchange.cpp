@@ -132,20 +132,15 @@ bool hasOneAir(const HoldShapes::Opening& opening, const HoldState* states) {
   return states[opening.from].air_group == there;
 }
 
-/// An opening that is not shut, and its number among all.
-struct Numbered {
-  const HoldShapes::Opening& opening;
-  std::size_t number;
-};
-
-void exchangeThrough(const HoldShapes& holds, const Numbered& at, const SurfacePlane& plane_F,
-                     const Passage& passage, HoldState* states) {
-  const HoldShapes::Opening& opening = at.opening;
+/// Exchanges through an opening that is not shut; `number`: its own among all.
+void exchangeThrough(const HoldShapes& holds, const HoldShapes::Opening& opening,
+                     std::size_t number, const SurfacePlane& plane_F, const Passage& passage,
+                     HoldState* states) {
   if (!hasOneAir(opening, states)) {
     exchangeSealed(holds, opening, plane_F, passage, states);
   } else if (opening.to < 0) {
-    const SeaAt sea{opening.shape, plane_F, passage.rises ? &(*passage.rises)[at.number] : nullptr,
-                    passage.waves ? passage.waves->at(at.number) : nullptr};
+    const SeaAt sea{opening.shape, plane_F, passage.rises ? &(*passage.rises)[number] : nullptr,
+                    passage.waves ? passage.waves->at(number) : nullptr};
     const auto hold = static_cast<std::size_t>(opening.from);
     exchangeWithSea(holds.shapes[hold], sea, passage, states[hold], hold);
   } else {
@@ -213,7 +208,7 @@ Matrix6 exchangeWater(const HoldShapes& holds, const SurfacePlane& plane_F, cons
     sealHolds(holds, plane_F, passage, states);
     forEachOpening(holds, passage.changes,
                    [&](const HoldShapes::Opening& opening, std::size_t number) {
-                     exchangeThrough(holds, {opening, number}, plane_F, passage, states);
+                     exchangeThrough(holds, opening, number, plane_F, passage, states);
                    });
   }
   Matrix6 come = Matrix6::Zero();

@@ -229,7 +229,7 @@ class SealedOpening {
     const double at_end = excess(end);
     if (at_end == 0 || (at_end > 0) == (first > 0)) return end;
     constexpr double kAccuracy = 1e-12;  // of the explicit step
-    return fallingRoot({0, first, end, at_end}, kAccuracy * std::abs(first), excess);
+    return fallingRoot(0, first, end, at_end, kAccuracy * std::abs(first), excess);
   }
 
   void take(double passed) {
@@ -274,7 +274,7 @@ class SealedOpening {
     if (first == 0 || (first > 0) != (most > 0)) return 0;
     if (last == 0 || (last > 0) == (most > 0)) return most;
     constexpr double kAccuracy = 1e-12;  // of the head
-    return fallingRoot({0, first, most, last}, kAccuracy * std::abs(first), head);
+    return fallingRoot(0, first, most, last, kAccuracy * std::abs(first), head);
   }
 
   /// The volume at which pressure or, while bubbles rise, a difference of levels does not drive a

@@ -68,7 +68,8 @@ void readStand(const StandLanes& lanes, int body, SurfaceStand& stand) noexcept 
   stand.frequency = lanes.frequency[body];
 }
 
-void computeStands(StandLanes& lanes, const BodyInLane* bodies, int count) noexcept {
+void computeStands(StandLanes& lanes, const SurfaceModel* const* models,
+                   SurfacePlace* const* places, int count) noexcept {
   kSurfaceKernels.fastest()->stand(lanes);
   const auto isIndefinite = [&](int i) {
     return lanes.active[i] > 0 && lanes.is_indefinite[i] > 0;
@@ -77,29 +78,29 @@ void computeStands(StandLanes& lanes, const BodyInLane* bodies, int count) noexc
   for (int i = 0; i < count; ++i) {
     if (!isIndefinite(i)) continue;
     is_any = true;
-    SymmetricMatrix& inertia = bodies[i].place->inertia;
-    inertia = SymmetricMatrix(positiveInertia(*bodies[i].model, inertia.full()));
-    setPlace(lanes, i, *bodies[i].model, *bodies[i].place);
+    SymmetricMatrix& inertia = places[i]->inertia;
+    inertia = SymmetricMatrix(positiveInertia(*models[i], inertia.full()));
+    setPlace(lanes, i, *models[i], *places[i]);
     setLane(lanes.least, i, SymmetricMatrix(Matrix6::Zero()));
   }
   if (!is_any) return;
   kSurfaceKernels.fastest()->stand(lanes);
   for (int i = 0; i < count; ++i)
     if (isIndefinite(i))
-      setLane(lanes.inverse, i, SymmetricMatrix(bodies[i].model->above.inverse_inertia));
+      setLane(lanes.inverse, i, SymmetricMatrix(models[i]->above.inverse_inertia));
 }
 
 void completeStands(const SurfaceModel* const* models, SurfaceStand* const* stands,
                     int count) noexcept {
   AMBIENT_ASSERT(count >= 0 && count <= kFlightLanes);
   StandLanes lanes{};
-  BodyInLane bodies[kFlightLanes] = {};
+  SurfacePlace* places[kFlightLanes] = {};
   for (int i = 0; i < count; ++i) {
     lanes.active[i] = 1;
     setPlace(lanes, i, *models[i], *stands[i]);
-    bodies[i] = {models[i], stands[i]};
+    places[i] = stands[i];
   }
-  computeStands(lanes, bodies, count);
+  computeStands(lanes, models, places, count);
   for (int i = 0; i < count; ++i) {
     readStand(lanes, i, *stands[i]);
   }

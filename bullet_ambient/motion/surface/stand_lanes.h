@@ -38,13 +38,9 @@ void setStand(StandLanes& lanes, int body, const SurfaceModel& model,
 /// Copies the result of computeStands() from lane `body` to a stand.
 void readStand(const StandLanes& lanes, int body, SurfaceStand& stand) noexcept;
 
-/// A body in a lane. computeStands() may replace the inertia of the place, see there.
-struct BodyInLane {
-  const SurfaceModel* model;
-  SurfacePlace* place;
-};
 /// Calls SurfaceKernel::stand() for the active lanes. Replaces a K that is not positive definite by
 /// positiveInertia(), in the place of the body, too.
-void computeStands(StandLanes& lanes, const BodyInLane* bodies, int count) noexcept;
+void computeStands(StandLanes& lanes, const SurfaceModel* const* models,
+                   SurfacePlace* const* places, int count) noexcept;
 
 }  // namespace ambient

@@ -269,13 +269,15 @@ class SurfaceFlights {
     }
     flight_kernel_.drift(lanes_.flight);
     kernel_.see(lanes_);
-    BodyInLane bodies[kFlightLanes];
+    const SurfaceModel* models[kFlightLanes];
+    SurfacePlace* places[kFlightLanes];
     for (int i = 0; i < count_; ++i) {
       Progress& p = progress_[i];
-      bodies[i] = {&p.model(), &p.later};
+      models[i] = &p.model();
+      places[i] = &p.later;
       if (isActive(i)) findPlace(i);
     }
-    computeStands(lanes_.stand, bodies, count_);
+    computeStands(lanes_.stand, models, places, count_);
     kernel_.pass(lanes_);
     for (int i = 0; i < count_; ++i)
       if (isActive(i)) meetError(i, lanes_.passage_error[i]);
