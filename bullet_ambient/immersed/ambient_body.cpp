@@ -110,6 +110,17 @@ void setModels(AmbientBody& ambient, std::shared_ptr<const FluidModels> models) 
   }
 }
 
+namespace {
+
+// Makes room for waves at the edges of one more opening.
+void addRises(std::size_t edges, VesselState& vessel) {
+  vessel.rises.emplace_back(edges);
+  vessel.waves_inside.rises.emplace_back(edges);
+  vessel.waves_inside.reaches.push_back(0);
+}
+
+}  // namespace
+
 void takeHolds(AmbientBody& ambient) {
   const AttachDef& def = *ambient.def;
   const std::vector<Hold>& holds = def.fluid_body->holds;
@@ -124,10 +135,12 @@ void takeHolds(AmbientBody& ambient) {
   ambient.vessel->shape = def.fluid_body;
   ambient.vessel->holds.resize(holds.size());
   ambient.vessel->sloshing.resize(holds.size());
+  ambient.vessel->waves_inside.energy.resize(holds.size());
+  ambient.vessel->waves_inside.lost.resize(holds.size());
   for (const Hold& hold : holds)
     for (const HoldOpening& opening : hold.openings) {
       ambient.vessel->changes.is_shut.push_back(0);
-      ambient.vessel->rises.emplace_back(OpeningShape(opening).edges().size());
+      addRises(OpeningShape(opening).edges().size(), *ambient.vessel);
     }
   ambient.vessel->is_known = !def.holds.water.empty();
   for (std::size_t i = 0; i < def.holds.water.size(); ++i)
@@ -136,7 +149,7 @@ void takeHolds(AmbientBody& ambient) {
 
 void addHole(const AddedHole& hole, VesselState& vessel) {
   vessel.changes.add(hole);
-  vessel.rises.emplace_back(vessel.changes.added.back().shape.edges().size());
+  addRises(vessel.changes.added.back().shape.edges().size(), vessel);
 }
 
 void rebuildModels(AmbientBody& ambient, const InverseMass& mass) {

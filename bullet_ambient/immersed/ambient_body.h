@@ -152,12 +152,18 @@ struct VesselState {
   std::vector<HoldState> holds;  ///< as in FluidBody::holds
   RimRises rises;                ///< of waves at the openings in this step
   bool has_waves = false;        ///< true: `rises` counts
+  WavesInside waves_inside;      ///< of the water in the holds at the openings in this step
   OpeningChanges changes;        ///< of openings while the body is in its fluid
   WaterInside inside;            ///< at FloatingState::stand
   VesselSloshing sloshing;
   double sloshing_energy = 0;  ///< of VesselSloshing::now [J]
   WaterLeft before_rows;       ///< after it has sloshed for a step in which rows move the body
-  /// Change of the velocity in B by the water that has come in at the start of this step.
+  /// Drag of the bodies in the holds, turned round, about the centre of mass, in the last step; and
+  /// the largest speed of one past the vessel [m/s].
+  Wrench reaction_W;
+  double reaction_speed = 0;
+  /// Change of the velocity in B by that and by the water that has come in at the start of this
+  /// step.
   Vector6 change_B = Vector6::Zero();
 };
 

@@ -373,7 +373,7 @@ double displacedFluid(const AmbientBody& ambient) {
 Wrench pushBySpinUp(AmbientBody& ambient, const MotionView& now) {
   const SurfaceModel* const surface = ambient.surface();
   Matrix6 inertia = surface ? standNow(ambient, now).inertia.full() : ambient.model().inertia;
-  if (surface && ambient.vessel) inertia -= inertiaInside(*surface, ambient.stand().inside_F);
+  if (surface && ambient.stand().inside_F) inertia -= ambient.stand().inside_F->inertia.full();
   const Vector3& rate = ambient.flow_along->spin_up_B;
   Wrench push = Wrench::fromVector(inertia.leftCols<3>() * rate);
   push.torque -= ambient.models->inverse_mass.moments().cwiseProduct(rate);

@@ -7,6 +7,7 @@
 
 #include "bullet_ambient/immersed/flow_along.h"
 #include "bullet_ambient/motion/surface/hold_exchange.h"
+#include "bullet_ambient/motion/surface/slopping.h"
 
 namespace ambient {
 namespace {
@@ -153,8 +154,41 @@ void mixWater(AmbientBody& ambient, const Matrix3& to_world, const Vector6& x, d
   }
   const SloshingAt at = waterAt(ambient, to_world, {0, 0, 0}).sloshing();
   mixSloshing(vessel.holds.data(), vessel.sloshing.later.data(), at, x, states);
-  projectOnModes(at, energy, states);
-  vessel.sloshing_energy = energyOfSloshing(at, states).sum();
+  vessel.sloshing_energy = projectOnModes(at, energy, states);
+}
+
+// Brings a vessel to the stand with the water that has passed. `come`: exchangeWater() of holds.
+void takeWater(AmbientBody& ambient, const Matrix3& to_world, const Vector6& x,
+               const Matrix6& come) {
+  VesselState& vessel = *ambient.vessel;
+  const SurfaceModel& model = *ambient.surface();
+  const SurfaceStand& stand = ambient.stand();
+  if (vessel.waves_inside.is_any)
+    vessel.sloshing_energy -= loseSlopped(stand.plane.density * stand.plane.gravity,
+                                          vessel.waves_inside, vessel.sloshing.now.data());
+  const double twice_before = x.dot(stand.inertia.full() * x) + 2 * vessel.sloshing_energy;
+  vessel.sloshing.later = vessel.sloshing.modes;  // before water has passed
+  ambient.floating->is_valid = false;
+  AmbientBody* const body = &ambient;
+  completeStandsOf(&body, 1);
+  mixWater(ambient, to_world, x, twice_before / 2);
+  const Matrix6 come_B = model.excess_density * model.fluid_frame.inertiaToB(come);
+  const Vector6 end = x - stand.inverse.full() * (come_B * x);
+  const double most = std::max(0.0, twice_before - 2 * vessel.sloshing_energy);
+  vessel.change_B = scaledWithin(end, end.dot(stand.inertia.full() * end), most).twist - x;
+}
+
+// Change of the velocity in B by the drag of the bodies in the holds, which no more than carries
+// the vessel along.
+Vector6 kickByContents(const AmbientBody& ambient, const Matrix3& to_world, double duration) {
+  const VesselState& vessel = *ambient.vessel;
+  if (!(vessel.reaction_speed > 0)) return Vector6::Zero();
+  const Wrench& push = vessel.reaction_W;
+  const Vector6 kick =
+      duration * (ambient.stand().inverse.full() *
+                  stack(to_world.transpose() * push.torque, to_world.transpose() * push.force));
+  const double speed = kick.tail<3>().norm();
+  return speed > vessel.reaction_speed ? vessel.reaction_speed / speed * kick : kick;
 }
 
 // Ends the step of a hold that is empty and stays so.
@@ -175,7 +209,7 @@ bool isNearlyLevel(const AmbientBody& ambient) {
 
 }  // namespace
 
-void exchangeWater(AmbientBody& ambient, const MotionView& now, double duration) noexcept {
+bool exchangeWater(AmbientBody& ambient, const MotionView& now, double duration) noexcept {
   constexpr double kStill = 1e-9;  // of a hold
   VesselState& vessel = *ambient.vessel;
   const SurfaceModel& model = *ambient.surface();
@@ -187,15 +221,19 @@ void exchangeWater(AmbientBody& ambient, const MotionView& now, double duration)
   if (staysDry(*model.holds, plane_F, passage, vessel.holds.data())) {
     for (HoldState& hold : vessel.holds) stayDry(hold);
     vessel.sloshing_energy = 0;  // setWater() may have emptied a hold
-    return;
+    return false;
   }
   const SurfaceStand& stand = standNow(ambient, now);
   const Vector6 x = twistInWater(ambient, now.state);
   const Matrix3 R = now.rotation();
   beginSloshing(ambient, R, x);
-  const double twice_before = x.dot(stand.inertia.full() * x) + 2 * vessel.sloshing_energy;
-  vessel.sloshing.later = vessel.sloshing.modes;  // before water passes
-  if (stand.inside_F) passage.modes = vessel.sloshing.modes.data();
+  vessel.waves_inside.is_any = false;
+  if (stand.inside_F) {
+    passage.modes = vessel.sloshing.modes.data();
+    findWavesInside(waterAt(ambient, R, {0, 0, 0}), &vessel.changes, vessel.sloshing.now.data(),
+                    vessel.waves_inside);
+    if (vessel.waves_inside.is_any) passage.waves = &vessel.waves_inside;
+  }
   const Matrix6 come =
       exchangeWater(*model.holds, stand.immersion_F.plane, passage, vessel.holds.data());
   bool has_changed = false;
@@ -205,17 +243,10 @@ void exchangeWater(AmbientBody& ambient, const MotionView& now, double duration)
     (hold.inflow > 0 ? hold.flooded : hold.drained) += std::abs(hold.inflow);
     if (std::abs(hold.change) > kStill * vessel.shape->holds[i].volume) ambient.may_rest = false;
   }
-  if (has_changed) {
-    ambient.floating->is_valid = false;
-    AmbientBody* const body = &ambient;
-    completeStandsOf(&body, 1);
-    mixWater(ambient, R, x, twice_before / 2);
-    const Matrix6 come_B = model.excess_density * model.fluid_frame.inertiaToB(come);
-    const Vector6 end = x - stand.inverse.full() * (come_B * x);
-    const double most = std::max(0.0, twice_before - 2 * vessel.sloshing_energy);
-    vessel.change_B = scaledWithin(end, end.dot(stand.inertia.full() * end), most).twist - x;
-  }
+  if (has_changed) takeWater(ambient, R, x, come);
+  vessel.change_B += kickByContents(ambient, R, duration);
   if (!isNearlyLevel(ambient)) ambient.may_rest = false;
+  return has_changed;
 }
 
 double sloshingEnergyNow(const AmbientBody& ambient, const MotionView& now) {
@@ -239,8 +270,8 @@ Vector6 sloshForRows(AmbientBody& ambient, const RigidState& now, double duratio
   sloshing.moved = sloshing.now;
   joinVessel(at.sloshing(), x, sloshing.moved.data());
   const Vector6 end =
-      exchangeSloshing(at.sloshing(), ambient.stand().inverse.full(),
-                       ambient.def->holds.sloshing_damping, duration, x, sloshing.moved.data());
+      exchangeSloshing(at.sloshing(), ambient.stand().inverse, ambient.def->holds.sloshing_damping,
+                       duration, x, sloshing.moved.data());
   vessel.before_rows = WaterLeft(at, sloshing.moved.data());
   return end;
 }

@@ -34,10 +34,10 @@ double sloshingEnergyNow(const AmbientBody& ambient, const MotionView& now);
 
 /// Lets water pass through the openings of a body at a surface at the start of a step of `duration`
 /// [s]. Water that comes in was at rest in the water around: sets VesselState::change_B, which the
-/// motion of the step adds. Counts, and keeps the body from rest while water flows. Allocates
-/// nothing.
+/// motion of the step adds. Counts, and keeps the body from rest while water flows. Returns true if
+/// water has passed. Allocates nothing.
 /// @pre it has holds, and a surface is near
-void exchangeWater(AmbientBody& ambient, const MotionView& now, double duration) noexcept;
+bool exchangeWater(AmbientBody& ambient, const MotionView& now, double duration) noexcept;
 
 /// Lets the water in the holds slosh over a step in which rows move the body, whose twist in B
 /// would be x. Returns the twist after that. @pre standNow(); water is inside

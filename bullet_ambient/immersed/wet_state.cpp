@@ -161,14 +161,15 @@ double lowestCorner(const VesselState& vessel, std::size_t hold, const Vector3& 
   return lowest;
 }
 
-/// Returns the normal of the surface as the water sloshes: its slope along a mode is omega^2 q / g.
+/// Returns the normal of the surface as the water sloshes: a plane that meets the walls where the
+/// waves do, docs/theory.md eq. (154a).
 Vector3 slopingNormal(const HoldModes& modes, const Sloshing& sloshing, const SurfacePlane& plane_F,
                       const Matrix3& R_WF) {
   Vector3 normal = plane_F.normal;
   if (!(plane_F.gravity > 0)) return normal;
   for (const SloshMode& mode : modes.modes)
-    normal -= mode.square / plane_F.gravity * mode.axis.dot(R_WF.transpose() * sloshing.way_W) *
-              mode.axis;
+    normal -= kWavePerPlane * mode.square / plane_F.gravity *
+              mode.axis.dot(R_WF.transpose() * sloshing.way_W) * mode.axis;
   return normal.normalized();
 }
 
@@ -220,10 +221,10 @@ std::vector<HoldWater> holdsOf(const AmbientBody& ambient, const MotionView& now
     HoldWater& water =
         all.emplace_back(waterIn(*ambient.vessel, i, {R.transpose() * up, 0, 0, gravity}, R));
     const HoldState& state = ambient.vessel->holds[i];
-    water.has_trapped_air = state.is_sealed;
-    water.air_pressure = state.is_sealed && water.capacity > state.volume
-                             ? state.air / (water.capacity - state.volume)
-                             : ambient.def->holds.atmosphere;
+    constexpr double kFull = 1e-9;  // of a hold: less air is rounding
+    const double room = water.capacity - state.filled();
+    water.has_trapped_air = state.is_sealed && room > kFull * water.capacity;
+    water.air_pressure = water.has_trapped_air ? state.air / room : ambient.def->holds.atmosphere;
     water.centre = origin_W + R * water.centre;
     water.level = origin_W + R * water.level;
     water.normal = R * water.normal;

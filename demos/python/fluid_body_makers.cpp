@@ -94,6 +94,8 @@ FluidBody buildFromMesh(const TriangleMesh& mesh, bool sheet, const SourceSettin
                               ? requireSound(checkMesh(mesh, settings.name, {true}), settings.name)
                               : makeBodyMesh(mesh, settings.name, settings.strict);
     build.cavities = checked.cavities;
+    if (sheet && !(settings.holds.tanks.empty() && settings.holds.openings.empty()))
+      throw std::runtime_error(settings.name + ": a tank or an opening needs a closed mesh");
     if (!sheet) {
       const std::vector<std::string> lines = takeHolds(checked.mesh, build);
       checked.warnings.insert(checked.warnings.end(), lines.begin(), lines.end());
@@ -173,10 +175,38 @@ TriangleMesh meshFrom(const py::object& mesh, const py::object& faces) {
   return made;
 }
 
-bool holdsWanted(const std::string& word) {
+bool holdsWanted(const py::handle& given) {
+  const std::string word = py::isinstance<py::str>(given) ? given.cast<std::string>() : "";
   if (word != "auto" && word != "none")
-    throw py::value_error("holds must be \"auto\" or \"none\", not \"" + word + "\"");
+    throw py::value_error("holds must be \"auto\" or \"none\", not " +
+                          py::repr(given).cast<std::string>());
   return word == "auto";
+}
+
+std::vector<fs::path> tanksFrom(const py::handle& given) {
+  if (py::isinstance<py::str>(given) || !py::isinstance<py::sequence>(given))
+    throw py::value_error("tanks must be a list of files");
+  std::vector<fs::path> tanks;
+  for (const py::handle& file : py::reinterpret_borrow<py::sequence>(given))
+    tanks.push_back(pathFrom(py::reinterpret_borrow<py::object>(file)));
+  return tanks;
+}
+
+std::vector<GivenOpening> openingsFrom(const py::handle& given) {
+  const auto refuse = [] {
+    throw py::value_error("openings must be a list of (place, normal, area): (3,), (3,), a number");
+  };
+  if (py::isinstance<py::str>(given) || !py::isinstance<py::sequence>(given)) refuse();
+  std::vector<GivenOpening> openings;
+  for (const py::handle& opening : py::reinterpret_borrow<py::sequence>(given)) {
+    if (!py::isinstance<py::sequence>(opening) || py::len(opening) != 3) refuse();
+    const auto parts = py::reinterpret_borrow<py::sequence>(opening);
+    if (!PyNumber_Check(py::object(parts[2]).ptr())) refuse();
+    openings.push_back({vectorFrom(py::cast<InputArray>(parts[0]), "place of an opening"),
+                        vectorFrom(py::cast<InputArray>(parts[1]), "normal of an opening"),
+                        py::float_(parts[2])});
+  }
+  return openings;
 }
 
 Vector3 directionFrom(const InputArray& array, const std::string& what) {
@@ -201,7 +231,11 @@ SourceSettings settingsFrom(const std::string& name, const py::kwargs& given) {
     else if (word == "waterline_table")
       settings.waterline_subdivisions = value.cast<int>();
     else if (word == "holds")
-      settings.holds.is_wanted = holdsWanted(value.cast<std::string>());
+      settings.holds.is_wanted = holdsWanted(value);
+    else if (word == "tanks")
+      settings.holds.tanks = tanksFrom(value);
+    else if (word == "openings")
+      settings.holds.openings = openingsFrom(value);
     else if (word == "up")
       settings.holds.up = directionFrom(py::cast<InputArray>(value), word);
     else if (word == "strict")
@@ -211,7 +245,7 @@ SourceSettings settingsFrom(const std::string& name, const py::kwargs& given) {
     else
       throw py::type_error("unknown keyword " + word +
                            "; known are origin, panels, threads, waterline_table, holds, up, "
-                           "strict, cache");
+                           "tanks, openings, strict, cache");
   }
   return settings;
 }
@@ -275,6 +309,8 @@ waterline_table : N from 1 to 16: also computes a table of the added mass at the
     N divisions of the octahedron of attitudes, which takes half a minute and more; default 0: none
 holds : "auto" (default): rooms that hold water stay dry, with a warning that names them; "none": the body of its walls
 up : (3,) which way the mesh stands when its holds are found; default: the axis with the largest ones
+tanks : files of closed meshes in the walls or in a cavity that are holds without openings
+openings : list of (place (3,) [m], normal (3,) out of the hold, area [m^2]): holes in the nearest wall of a hold
 strict : raise ValueError where the mesh is open, crosses itself or is otherwise no body; default: wrap it
     into a closed surface, with a warning that has volume and area before and after
 cache : folder in which results are stored and found by content
@@ -286,7 +322,7 @@ Cost: a second or two for a thousand faces.)")
           py::arg("folder") = ".",
           R"(Builds the fluid body of a shape described as in scenes: {"type": "box", "size": [1, 2, 3]}.
 
-`folder` is the folder of relative file names. from_mesh() describes origin, panels, threads, waterline_table, holds, up, strict and cache.)")
+`folder` is the folder of relative file names. from_mesh() describes origin, panels, threads, waterline_table, holds, up, tanks, openings, strict and cache.)")
       .def_static("read", &read, py::arg("path"), "Reads an .ambient file.")
       .def("write", &write, py::arg("path"),
            "Writes an .ambient file completely, or leaves the old one.")

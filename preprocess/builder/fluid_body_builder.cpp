@@ -10,6 +10,7 @@
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "preprocess/base/surface_form.h"
+#include "preprocess/builder/given_holds.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/triangle_mesh.h"
@@ -204,13 +205,18 @@ std::string libraryVersion() {
 
 std::vector<std::string> takeHolds(TriangleMesh& mesh, BuildSettings& settings) {
   Vessel vessel = findHolds(mesh, settings.holds, sourceOf(settings));
-  if (vessel.holds.empty()) return vessel.lines;
-  settings.walls = std::move(mesh);
-  mesh = std::move(vessel.closed);
-  settings.found_holds = std::move(vessel.holds);
+  if (!vessel.holds.empty()) {
+    settings.walls = std::move(mesh);
+    mesh = std::move(vessel.closed);
+    settings.found_holds = std::move(vessel.holds);
+  }
   for (const Hold& hold : settings.found_holds)
     vessel.lines.push_back(
         inputMessage(sourceOf(settings), holdText(hold, settings.holds.unit), "; it stays dry"));
+  const std::vector<std::string> given =
+      addGivenHolds(mesh, settings.holds, sourceOf(settings),
+                    {settings.found_holds, settings.walls, settings.cavities});
+  vessel.lines.insert(vessel.lines.end(), given.begin(), given.end());
   return vessel.lines;
 }
 
@@ -219,6 +225,7 @@ std::string holdsText(const HoldSearch& search) {
   text.precision(17);
   text << ", holds " << (search.is_wanted ? "auto" : "none");
   if (search.is_wanted && search.up) text << ", up " << search.up->transpose();
+  text << givenHoldsText(search);
   return text.str();
 }
 

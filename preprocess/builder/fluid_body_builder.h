@@ -63,8 +63,9 @@ struct BuildSettings : CommonBuildSettings {
   std::function<void(const std::string&)> warn = nullptr;
 };
 
-/// Finds the holds of a checked mesh, in place of which the closed vessel comes, and returns what a
-/// user should know about them, a line each.
+/// Finds the holds of a checked mesh, in place of which the closed vessel comes, adds those that
+/// are given, and returns what a user should know about them, a line each.
+/// @throws std::runtime_error as addGivenHolds()
 std::vector<std::string> takeHolds(TriangleMesh& mesh, BuildSettings& settings);
 
 /// Text of the settings of a search for Provenance::settings; begins with ", ".

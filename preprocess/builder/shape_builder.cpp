@@ -107,10 +107,30 @@ bool mayHaveHolds(const ShapeDescription& shape) {
          std::holds_alternative<Compound>(shape.geometry);
 }
 
+/// The scale in the shape's own description.
+double ownScale(const ShapeDescription& shape) {
+  if (const auto* mesh = std::get_if<MeshFile>(&shape.geometry)) return mesh->scale;
+  if (const auto* sheet = std::get_if<MeshSheet>(&shape.geometry)) return sheet->scale;
+  return 1;
+}
+
 HoldSearch searchFor(const ShapeDescription& shape, const ShapeBuildSettings& settings) {
   HoldSearch search = settings.holds;
   search.is_wanted = search.is_wanted && shape.has_holds;
+  search.tank_scale = settings.scale * ownScale(shape);
+  search.tanks.insert(search.tanks.end(), shape.tanks.begin(), shape.tanks.end());
+  for (GivenOpening opening : shape.openings) {
+    opening.place *= settings.scale;
+    opening.area *= settings.scale * settings.scale;
+    search.openings.push_back(opening);
+  }
   return search;
+}
+
+/// Refuses tanks and openings of a shape that cannot have them.
+void requireRoomFor(const HoldSearch& given, const ShapeDescription& shape) {
+  if (mayHaveHolds(shape) || (given.tanks.empty() && given.openings.empty())) return;
+  raiseInputError(shape.source, "a tank or an opening needs a closed mesh or a compound");
 }
 
 std::string settingsText(const ShapeDescription& shape, const ShapeBuildSettings& settings) {
@@ -138,13 +158,6 @@ std::string settingsText(const ShapeDescription& shape, const ShapeBuildSettings
   if (settings.flow.solver == FlowSolverKind::Dense) text << ", dense";
   if (settings.flow.solver == FlowSolverKind::Hierarchical) text << ", hierarchical";
   return text.str();
-}
-
-/// The scale in the shape's own description.
-double ownScale(const ShapeDescription& shape) {
-  if (const auto* mesh = std::get_if<MeshFile>(&shape.geometry)) return mesh->scale;
-  if (const auto* sheet = std::get_if<MeshSheet>(&shape.geometry)) return sheet->scale;
-  return 1;
 }
 
 BuiltBody readBody(const FluidBodyFile& shape, const ShapeBuildSettings& settings) {
@@ -195,6 +208,7 @@ BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& se
   if (const auto* fluid_body = std::get_if<FluidBodyFile>(&shape.geometry)) {
     return readBody(*fluid_body, settings);
   }
+  requireRoomFor(settings.holds, shape);
   if (settings.begin) settings.begin("reading and checking the mesh");
   CheckedMesh checked = makeShapeMesh(shape, settings.scale);
   const ShapeFacts facts = factsOf(shape.geometry);

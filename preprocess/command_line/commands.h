@@ -31,7 +31,9 @@ struct BuildArguments {
   std::vector<int> levels;
   std::vector<double> drag;
   std::string wings = "none";
-  int waterline = 0;  // subdivisions
+  std::vector<std::string> tanks;
+  std::vector<double> openings;  // seven numbers of each
+  int waterline = 0;             // subdivisions
   bool no_tables = false, rebuild = false, json = false;
 };
 

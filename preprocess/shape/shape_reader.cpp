@@ -135,6 +135,11 @@ ShapeDescription readShape(const json& shape, const std::filesystem::path& direc
   ShapeDescription description;
   description.geometry = readGeometry({shape, directory, source});
   description.has_holds = shape.value("holds", "auto") == "auto";
+  for (const json& tank : shape.value("tanks", json::array()))
+    description.tanks.push_back((directory / tank.get<std::string>()).lexically_normal());
+  for (const json& opening : shape.value("openings", json::array()))
+    description.openings.push_back({vectorOf<3>(opening["place"]), vectorOf<3>(opening["normal"]),
+                                    opening["area"].get<double>()});
   description.faces = shape.value("faces", ShapeDescription::kDefaultFaces);
   description.text = shape.dump();
   description.source = source;

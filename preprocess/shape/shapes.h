@@ -6,6 +6,8 @@
 #include <variant>
 #include <vector>
 
+#include "preprocess/mesh/holds/hold_search.h"
+
 namespace ambient {
 
 // Shapes in their own frame S, lengths in metres. Solids are centred at the origin, round ones have
@@ -96,7 +98,9 @@ struct ShapeDescription {
   static constexpr int kDefaultFaces = 1300;
 
   Shape geometry;
-  bool has_holds = true;      ///< false: rooms of a mesh or compound do not stay dry
+  bool has_holds = true;  ///< false: rooms of a mesh or compound do not stay dry
+  std::vector<std::filesystem::path> tanks = {};  ///< files as HoldSearch::tanks
+  std::vector<GivenOpening> openings = {};        ///< in the frame of the shape
   int faces = kDefaultFaces;  ///< triangles aimed at, where the shape has no mesh of its own
   std::string text;           ///< the description, as JSON on one line
   std::string source;         ///< begins every message about it: the file, and the place therein

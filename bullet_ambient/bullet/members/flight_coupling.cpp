@@ -89,8 +89,7 @@ bool prepareFluid(AmbientBody& ambient, const MotionView* now, const Twist& twis
   followWake(ambient, twist_W, time_step);
   if (ambient.vessel && ambient.surface()) {
     findRimWaves(ambient, *now, bodies.regions);
-    exchangeWater(ambient, *now, time_step);
-    saySunk(ambient, bodies.complaints);
+    if (exchangeWater(ambient, *now, time_step)) saySunk(ambient, bodies.complaints);
   }
   if (may_be_in_region) findPushes(ambient, *now, bodies.regions, time_step);
   return true;

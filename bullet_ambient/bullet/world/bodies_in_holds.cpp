@@ -76,14 +76,15 @@ bool isVesselAtSurface(const PlacedMember& member) {
 }
 
 /// Calls visit(const PlacedMember&) for the others whose centre is no farther from that of a vessel
-/// than the vessel reaches.
+/// than the vessel reaches, from west to east. `vessel`: one of `placed`.
 template <class Visit>
 void forEachNear(const std::vector<PlacedMember>& placed, const PlacedMember& vessel,
                  const Visit& visit) {
-  const double reach = vessel.body->surface()->radius, east = vessel.centre.x() + reach;
-  const auto isWest = [](const PlacedMember& member, double x) { return member.centre.x() < x; };
-  auto member = std::lower_bound(placed.begin(), placed.end(), vessel.centre.x() - reach, isWest);
-  for (; member != placed.end() && member->centre.x() <= east; ++member)
+  const double reach = vessel.body->surface()->radius;
+  const double west = vessel.centre.x() - reach, east = vessel.centre.x() + reach;
+  const PlacedMember *member = &vessel, *const end = placed.data() + placed.size();
+  while (member != placed.data() && !(member[-1].centre.x() < west)) --member;
+  for (; member != end && member->centre.x() <= east; ++member)
     if (member->body != vessel.body &&
         (member->centre - vessel.centre).squaredNorm() < reach * reach)
       visit(*member);
@@ -178,6 +179,7 @@ bool isShared(const PlacedMember& vessel, AmbientBodies& bodies) {
   const std::vector<HoldState>& holds = vessel.body->vessel->holds;
   bool is_any = std::any_of(holds.begin(), holds.end(),
                             [](const HoldState& hold) { return hold.displaced != 0; });
+  if (bodies.regions.in_holds.empty()) return is_any;
   forEachInside(vessel, bodies, [&](const PlacedMember&, HoldAround&) { is_any = true; });
   return is_any;
 }
@@ -237,6 +239,24 @@ void findLevel(const Vessel& vessel, std::size_t hold) {
   });
 }
 
+/// Gathers what the bodies in the holds have of drag on the water there, which the vessel takes in
+/// the next step. Bodies that rows have moved have none.
+void gatherReactions(const Vessel& vessel) {
+  VesselState& state = *vessel.ambient.vessel;
+  const Vector3 centre = vessel.now.centre();
+  forEachInside(vessel.place, vessel.members, [&](const PlacedMember& member, HoldAround& around) {
+    const auto* const last = std::get_if<LastFlight>(&member.body->outcome.motion);
+    if (around.is_dry || member.link || !isAwake(member) || !last || !last->memory.has_load) return;
+    const Wrench& drag = last->memory.load_W;
+    const Vector3 arm = member.centre - centre;
+    state.reaction_W -= Wrench{drag.torque + arm.cross(drag.force), drag.force};
+    const Twist& of_vessel = vessel.now.twist_W;
+    const Vector3 past =
+        nowOf(member).twist_W.linear - of_vessel.linear - of_vessel.angular.cross(arm);
+    state.reaction_speed = std::max(state.reaction_speed, past.norm());
+  });
+}
+
 }  // namespace
 
 void findBodiesInHolds(btCollisionWorld& world, AmbientBodies& bodies) noexcept {
@@ -253,9 +273,13 @@ void findBodiesInHolds(btCollisionWorld& world, AmbientBodies& bodies) noexcept 
     });
   }
   for (const PlacedMember& member : placed) {
-    if (!isVesselAtSurface(member) || !isShared(member, bodies)) continue;
+    if (!isVesselAtSurface(member)) continue;
+    member.body->vessel->reaction_W = {};
+    member.body->vessel->reaction_speed = 0;
+    if (!isShared(member, bodies)) continue;
     const Vessel vessel(member, bodies);
     for (std::size_t i = 0; i < member.body->vessel->holds.size(); ++i) findLevel(vessel, i);
+    gatherReactions(vessel);
   }
 }
 

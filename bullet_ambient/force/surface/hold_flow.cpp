@@ -46,19 +46,23 @@ double overCrest(double from, double to) {
   return from > to ? flow : -flow;
 }
 
-/// Height of a side at an edge of an opening [m]; `rises`: WaterSide::rises.
-double heightAt(double height, const double* rises, std::size_t edge) {
-  return rises ? height + rises[edge] : height;
-}
+/// Heights on both sides of an opening [m].
+struct Levels {
+  double from, to;
+  const double *from_rises = nullptr, *to_rises = nullptr;  ///< WaterSide::rises
+
+  double fromAt(std::size_t edge) const { return from_rises ? from + from_rises[edge] : from; }
+  double toAt(std::size_t edge) const { return to_rises ? to + to_rises[edge] : to; }
+};
 
 /// Through the pieces of a lid, per C sqrt(2g): eq. (139). `air`: as of sealedFlowThrough().
-BothWays throughPieces(const OpeningShape& opening, const Vector3& normal, double from_height,
-                       double to_height, const double* from_rises, double air) {
+BothWays throughPieces(const OpeningShape& opening, const Vector3& normal, const Levels& levels,
+                       double air) {
   BothWays flow;
   for (const OpeningShape::Piece& piece : opening.pieces()) {
     const double height = normal.dot(piece.place);
-    const double from = std::max(0.0, heightAt(from_height, from_rises, piece.edge) - height),
-                 to = std::max(0.0, to_height - height), head = from - to - air;
+    const double from = std::max(0.0, levels.fromAt(piece.edge) - height),
+                 to = std::max(0.0, levels.toAt(piece.edge) - height), head = from - to - air;
     if ((head > 0 ? from : to) > 0)
       flow.add(std::copysign(piece.area * std::sqrt(std::abs(head)), head));
   }
@@ -131,23 +135,24 @@ HoldOpening openingOf(const WallHole& hole) {
 }
 
 double flowThrough(const OpeningShape& opening, const Upward& up, double from_height,
-                   double to_height, const double* from_rises) noexcept {
+                   double to_height, const double* from_rises, const double* to_rises) noexcept {
   AMBIENT_ASSERT(isUnit(up.normal) && up.gravity >= 0);
+  const Levels levels{from_height, to_height, from_rises, to_rises};
   BothWays weir;
   bool is_covered_from = true, is_covered_to = true;
   for (std::size_t i = 0; i < opening.edges().size(); ++i) {
     const OpeningShape::Edge& edge = opening.edges()[i];
-    const double height = up.normal.dot(edge.middle),
-                 from = heightAt(from_height, from_rises, i) - height;
-    weir.add(edge.way.cross(up.normal).norm() *
-             overCrest(std::max(0.0, from), std::max(0.0, to_height - height)));
+    const double height = up.normal.dot(edge.middle);
+    const double from = levels.fromAt(i) - height, to = levels.toAt(i) - height;
+    weir.add(edge.way.cross(up.normal).norm() * overCrest(std::max(0.0, from), std::max(0.0, to)));
     is_covered_from = is_covered_from && from > 0;
+    is_covered_to = is_covered_to && (!to_rises || to > 0);
   }
-  const BothWays orifice = throughPieces(opening, up.normal, from_height, to_height, from_rises, 0);
+  const BothWays orifice = throughPieces(opening, up.normal, levels, 0);
   for (const Vector3& corner : opening.corners()) {
     const double height = up.normal.dot(corner);
     is_covered_from = is_covered_from && (from_rises || height < from_height);
-    is_covered_to = is_covered_to && height < to_height;
+    is_covered_to = is_covered_to && (to_rises || height < to_height);
   }
   if (is_covered_from) weir.forth = std::min(weir.forth, orifice.forth);
   if (is_covered_to) weir.back = std::min(weir.back, orifice.back);
@@ -157,7 +162,7 @@ double flowThrough(const OpeningShape& opening, const Upward& up, double from_he
 double sealedFlowThrough(const OpeningShape& opening, const Upward& up, double from_height,
                          double to_height, double air) noexcept {
   AMBIENT_ASSERT(isUnit(up.normal) && up.gravity >= 0);
-  const BothWays flow = throughPieces(opening, up.normal, from_height, to_height, nullptr, air);
+  const BothWays flow = throughPieces(opening, up.normal, {from_height, to_height}, air);
   return kDischarge * std::sqrt(2 * up.gravity) * (flow.forth - flow.back);
 }
 
@@ -175,7 +180,7 @@ double volumeThrough(const OpeningShape& opening, const Upward& up, const WaterS
   // q.
   const auto excess = [&](double q) {
     return duration * flowThrough(opening, up, from.height - q / from.area, to.height + q / to.area,
-                                  from.rises) -
+                                  from.rises, to.rises) -
            q;
   };
   const double first = excess(0);

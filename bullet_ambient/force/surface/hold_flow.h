@@ -68,9 +68,10 @@ struct Upward {
 /// a root for each edge and piece, 0.5 us.
 /// @param opening,up in F
 /// @param from_height,to_height of the levels along the normal [m]
-/// @param from_rises WaterSide::rises of the first side
+/// @param from_rises,to_rises WaterSide::rises of the sides
 double flowThrough(const OpeningShape& opening, const Upward& up, double from_height,
-                   double to_height, const double* from_rises = nullptr) noexcept;
+                   double to_height, const double* from_rises = nullptr,
+                   const double* to_rises = nullptr) noexcept;
 
 /// Flow through an opening where water shuts off the air on one side, eq. (139) with another
 /// pressure there, positive from one side to the other [m^3/s]. Only water flows: a side gives

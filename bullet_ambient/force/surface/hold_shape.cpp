@@ -5,16 +5,57 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/elementary.h"
-#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/fluid_body/box_turning.h"
 #include "bullet_ambient/spatial/inertia.h"
 
 namespace ambient {
 
+HoldShape::HoldShape(const Hold& hold)
+    : hull_(hold.surface), capacity_(hold.volume), turning_inertia_(hold.turning_inertia) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector3 normal = Vector3::Unit(axis);
+    const auto [low, high] = computeExtent(hull_, normal);
+    auto& middles = middles_[static_cast<std::size_t>(axis)];
+    for (int i = 1; i < kLevels; ++i) {
+      const double share = static_cast<double>(i) / kLevels;
+      const HoldFill fill = fillHold(*this, normal, share * capacity_, low + share * (high - low));
+      middles[static_cast<std::size_t>(i - 1)] = fill.water.waterplane.centroid;
+    }
+  }
+}
+
+double HoldShape::levelNear(const Vector3& normal, double volume) const noexcept {
+  Eigen::Index axis = 0;
+  normal.cwiseAbs().maxCoeff(&axis);
+  const double share = volume / capacity_, below = normal[axis] > 0 ? share : 1 - share;
+  const auto& middles = middles_[static_cast<std::size_t>(axis)];
+  const double place = kLevels * below - 1;
+  const int i = std::clamp(static_cast<int>(place), 0, kLevels - 3);
+  const Vector3& low = middles[static_cast<std::size_t>(i)];
+  const Vector3& high = middles[static_cast<std::size_t>(i + 1)];
+  return normal.dot(low + (place - i) * (high - low));
+}
+
+namespace {
+
+/// Moves a level to where its hold has a volume, by a way that is small against the hold.
+void moveLevel(const Vector3& normal, double volume, HoldFill& fill) {
+  WetVolume& water = fill.water;
+  const double more = volume - water.volume, way = more / water.waterplane.area;
+  water.moment += more * (water.waterplane.centroid + way / 2 * normal);
+  water.depth_integral += way * (water.volume + more / 2);
+  water.waterplane.centroid += way * normal;
+  water.volume = volume;
+  fill.height += way;
+}
+
+}  // namespace
+
 HoldFill fillHold(const HoldShape& shape, const Vector3& normal, double volume,
                   double guess) noexcept {
   constexpr double kEmpty = 1e-12, kAccuracy = 1e-12;  // of the hold
-  constexpr int kMostClips = 60;                       // bisections alone need fewer
+  constexpr double kNear = 1e-7;  // of water or air: what Newton's last step leaves is its square
+  constexpr int kMostClips = 60;  // bisections alone need fewer
   const double capacity = shape.capacity();
   AMBIENT_ASSERT(isUnit(normal) && capacity > 0);
   auto [low, high] = computeExtent(shape.hull(), normal);
@@ -29,13 +70,18 @@ HoldFill fillHold(const HoldShape& shape, const Vector3& normal, double volume,
     fill.water.waterplane = {};
     return fill;
   }
-  double next = low < guess && guess < high ? guess : low + (high - low) * volume / capacity;
+  double next = std::isnan(guess) ? shape.levelNear(normal, volume) : guess;
+  if (!(low < next && next < high)) next = low + (high - low) * volume / capacity;
+  const double near = kNear * std::min(volume, capacity - volume);
   while (fill.clips < kMostClips) {
     clip(next);
-    const double error = fill.water.volume - volume;
+    const double error = fill.water.volume - volume, area = fill.water.waterplane.area;
     if (std::abs(error) <= kAccuracy * capacity) break;
+    if (area > 0 && std::abs(error) <= near) {
+      moveLevel(normal, volume, fill);
+      return fill;
+    }
     (error > 0 ? high : low) = next;
-    const double area = fill.water.waterplane.area;
     next = area > 0 ? next - error / area : low;
     if (!(low < next && next < high)) next = (low + high) / 2;
   }
@@ -106,25 +152,39 @@ HoldModes modesOf(const HoldShape& shape, const HoldFill& fill,
   if (!(volume > 0)) return found;
   found.height = fill.height;
   const Vector3& normal = plane_F.normal;
-  const double share = volume / shape.capacity(), root = portable::cbrt(share);
-  found.turning = share * root * root * shape.turningInertia();
-  if (!(area > 0) || !(plane_F.gravity > 0)) return found;
+  const double share = volume / shape.capacity();
+  const auto turnAsFull = [&] {
+    const double root = portable::cbrt(share);
+    return Matrix3(share * root * root * shape.turningInertia());
+  };
+  if (!(area > 0) || !(plane_F.gravity > 0)) {
+    found.turning = turnAsFull();
+    return found;
+  }
   const Vector3 centre = water.moment / volume;
   const double mean = volume / area;
   const double depth = std::min(mean, 2 * (fill.height - normal.dot(centre)));
-  if (!(depth > 0)) return found;
+  if (!(depth > 0)) {
+    found.turning = turnAsFull();
+    return found;
+  }
+  found.middle = water.waterplane.centroid;
   const Level level(water.waterplane, normal);
   // Where the hold narrows above the water, it turns as the full one.
   const double open = depth / mean;
-  found.turning = open * volume * turningBelow(level, normal, depth) + (1 - open) * found.turning;
-  const double size = portable::cbrt(volume + area * std::sqrt(area));
+  constexpr double kRounding = 1e-12;
+  found.turning = open * volume * turningBelow(level, normal, depth);
+  if (1 - open > kRounding) found.turning += (1 - open) * turnAsFull();
+  const double cube = volume + area * std::sqrt(area);
   for (int i = 0; i < 2; ++i) {
     constexpr double kSliver = 1e-6;
-    if (level.moments[i] < kSliver * area * size * size) continue;
+    const double square = level.moments[i] / (kSliver * area);
+    if (square * square * square < cube * cube) continue;
     SloshMode& mode = found.modes[i];
     const double length = std::sqrt(level.squares[i]), k = kPi / length;
     const double per_gravity = k * tanhOf(k * depth);
     mode.axis = level.axes[i];
+    mode.length = length;
     mode.square = plane_F.gravity * per_gravity;
     mode.volume = per_gravity * level.moments[i];
     // The rest of the water keeps a positive inertia.
@@ -141,11 +201,32 @@ HoldModes modesOf(const HoldShape& shape, const HoldFill& fill,
   return found;
 }
 
+HoldModes HoldModes::inB(const FrameOffset& frame) const noexcept {
+  const Matrix3& R = frame.rotation;
+  HoldModes there = *this;
+  there.turning = R * turning * R.transpose();
+  there.middle = R * middle + frame.translation;
+  for (SloshMode& mode : there.modes) {
+    if (!(mode.volume > 0)) continue;
+    mode.axis = R * mode.axis;
+    mode.bob = R * mode.bob + frame.translation;
+    mode.pivot = R * mode.pivot + frame.translation;
+  }
+  return there;
+}
+
 Matrix6 carriedInertia(const WetVolume& water, const HoldModes& modes) noexcept {
   if (!(water.volume > 0)) return Matrix6::Zero();
-  Matrix6 inertia =
-      shiftOrigin(rigidBodyInertia(water.volume, modes.turning), -water.moment / water.volume);
+  const Vector3 &S = water.moment, centre = S / water.volume;
+  const Matrix3 coupling = crossMatrix(S);
+  Matrix6 inertia;
+  inertia.topLeftCorner<3, 3>() =
+      modes.turning + S.dot(centre) * Matrix3::Identity() - S * centre.transpose();
+  inertia.topRightCorner<3, 3>() = coupling;
+  inertia.bottomLeftCorner<3, 3>() = -coupling;
+  inertia.bottomRightCorner<3, 3>() = water.volume * Matrix3::Identity();
   for (const SloshMode& mode : modes.modes) {
+    if (!(mode.volume > 0)) continue;
     const Vector6 n = stack(mode.bob.cross(mode.axis), mode.axis);
     inertia -= mode.volume * n * n.transpose();
   }

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
+#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/fluid_body/packed/packed_shape.h"
 #include "bullet_ambient/force/surface/hydrostatics.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
@@ -11,18 +13,26 @@ namespace ambient {
 /// A hold for hydrostatics, in frame F.
 class HoldShape {
  public:
-  explicit HoldShape(const Hold& hold)
-      : hull_(hold.surface), capacity_(hold.volume), turning_inertia_(hold.turning_inertia) {}
+  /// Cost: some 150 computeWetVolume().
+  explicit HoldShape(const Hold& hold);
 
   const PackedHull& hull() const { return hull_; }
   double capacity() const { return capacity_; }  ///< [m^3]
   /// Hold::turning_inertia [m^5].
   const Matrix3& turningInertia() const { return turning_inertia_; }
+  /// Height of a level along a normal that is near to that of a volume, whatever was before: the
+  /// level turns about its middle. Exact where walls stand along the axis of F that is nearest to
+  /// the normal [m].
+  double levelNear(const Vector3& normal, double volume) const noexcept;
 
  private:
+  static constexpr int kLevels = 16;  // shares of the capacity
+
   PackedHull hull_;
   double capacity_;
   Matrix3 turning_inertia_;
+  /// Middles of the levels along each axis of F, at 1/16 to 15/16 of the capacity [m].
+  std::array<std::array<Vector3, kLevels - 1>, 3> middles_{};
 };
 
 /// Water in a hold, level along a normal.
@@ -34,12 +44,12 @@ struct HoldFill {
 };
 
 /// Finds the level of water in a hold: Newton's method on V(h), whose derivative is the area of the
-/// level, between brackets, docs/theory.md eq. (136). Cost: two to four computeWetVolume() from a
-/// good guess; allocates nothing.
+/// level, between brackets, docs/theory.md eq. (136). Its last step, where it is small, moves the
+/// level without another clip. Cost: one to three computeWetVolume(); allocates nothing.
 /// @param shape the hold, in the frame of the normal
 /// @param normal unit, out of the water
 /// @param volume [m^3]; up to 1e-12 of the hold it is empty, from 1 - 1e-12 on full
-/// @param guess height to begin with, such as the last one [m]; NaN: the share of the hold's height
+/// @param guess height to begin with [m]; NaN: HoldShape::levelNear()
 HoldFill fillHold(const HoldShape& shape, const Vector3& normal, double volume,
                   double guess) noexcept;
 
@@ -50,7 +60,7 @@ HoldFill fillHold(const HoldShape& shape, const Vector3& normal, double volume,
 /// @param fill of the hold, by fillHold() along the same normal
 WetVolume withWaterInside(WetVolume wet, const SurfacePlane& plane, const HoldFill& fill) noexcept;
 
-/// First mode of sloshing of the water in a hold along one axis of its level: a pendulum, in F;
+/// First mode of sloshing of the water in a hold along one axis of its level: a pendulum;
 /// docs/theory.md eq. (149).
 struct SloshMode {
   Vector3 axis{0, 0, 0};   ///< e: unit, along the level
@@ -59,13 +69,26 @@ struct SloshMode {
   double volume = 0;       ///< that mass, per unit density [m^3]; 0: there is no mode
   double square = 0;       ///< omega^2 [1/s^2]
   double farthest = 0;     ///< way at which the surface meets the floor or the top of the hold [m]
+  double length = 0;       ///< l of the box with this level [m]
 };
+
+/// First mode of a box at its wall, over the plane with the same moment there [1].
+constexpr double kWavePerPlane = kPi * kPi / 12;
+/// Height over the level of a wave where it meets the wall, for a way q of its pendulum [m];
+/// docs/theory.md eq. (154a).
+inline double crestOf(const SloshMode& mode, double way, double gravity) noexcept {
+  return kWavePerPlane * mode.square / gravity * way * mode.length / 2;
+}
 
 /// Level of the water in a hold and its motion: its two modes, and its resistance to turning.
 struct HoldModes {
   SloshMode modes[2];
-  double height = 0;                  ///< HoldFill::height; without water of no meaning [m]
+  double height = 0;                  ///< HoldFill::height, in F; without water of no meaning [m]
+  Vector3 middle{0, 0, 0};            ///< of the level [m]
   Matrix3 turning = Matrix3::Zero();  ///< J about its centre, per unit density, eq. (151) [m^5]
+
+  /// Converts from F, all but the height. `frame`: pose of F in B.
+  HoldModes inB(const FrameOffset& frame) const noexcept;
 };
 
 /// Finds the modes along the principal axes of the level. Exact for boxes; of cylinders and half
@@ -76,7 +99,8 @@ HoldModes modesOf(const HoldShape& shape, const HoldFill& fill,
                   const SurfacePlane& plane_F) noexcept;
 
 /// Inertia of the water in a hold as it moves with the body, less that of its modes, per unit
-/// density, about F's origin; docs/theory.md eq. (150). Positive semidefinite.
+/// density, about the origin of the frame of both; docs/theory.md eq. (150). Positive semidefinite.
+/// Of the water only volume and moment count.
 Matrix6 carriedInertia(const WetVolume& water, const HoldModes& modes) noexcept;
 
 /// Lines in which a plane cuts a closed surface: pairs of points, each with the inside on its left

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
 
@@ -24,16 +25,18 @@ WaterSide waterSideOf(const HoldShape& shape, const HoldState& state, double lev
           std::max(0.0, std::min(shape.capacity() - state.filled(), change))};
 }
 
-/// The sea at an opening.
+/// An opening to the sea.
 struct SeaAt {
   const OpeningShape& opening;
   const SurfacePlane& plane_F;
-  const std::vector<double>* rises;  ///< at its edges [m]; null: none
+  const std::vector<double>* rises;             ///< of the sea at its edges [m]; null: none
+  const std::vector<double>* inside = nullptr;  ///< of the water in the hold there [m]; null: none
 
   const double* data() const { return rises ? rises->data() : nullptr; }
+  const double* dataInside() const { return inside ? inside->data() : nullptr; }
 };
 
-/// Whether an opening is above a height and the sea, so that nothing flows.
+/// Whether an opening is above a height, the sea and all waves, so that nothing flows.
 bool isClear(const SeaAt& sea, double height) {
   const auto& corners = sea.opening.corners();
   const double reach = std::max(height, sea.plane_F.height);
@@ -44,30 +47,65 @@ bool isClear(const SeaAt& sea, double height) {
     for (std::size_t i = 0; i < sea.rises->size(); ++i)
       is_clear =
           is_clear && !(sea.plane_F.depth(sea.opening.edges()[i].middle) + (*sea.rises)[i] > 0);
+  if (sea.inside)
+    for (std::size_t i = 0; i < sea.inside->size(); ++i)
+      is_clear = is_clear && !(sea.plane_F.normal.dot(sea.opening.edges()[i].middle) <
+                               height + (*sea.inside)[i]);
   return is_clear;
 }
 
-/// Height to which the level in a hold may go: that of the sea, of waves the highest if water comes
-/// in, else the lowest.
-double aimOf(const SeaAt& sea, double level) {
-  const double height = sea.plane_F.height;
-  if (!sea.rises) return height;
-  const double flow = flowThrough(sea.opening, {sea.plane_F.normal, sea.plane_F.gravity}, height,
-                                  level, sea.data());
-  const auto [low, high] = std::minmax_element(sea.rises->begin(), sea.rises->end());
-  return height + (flow > 0 ? *high : *low);
+/// Lowest and highest of the waves at an opening [m]; 0: none.
+std::pair<double, double> extentOf(const std::vector<double>* rises) {
+  if (!rises) return {0, 0};
+  const auto [low, high] = std::minmax_element(rises->begin(), rises->end());
+  return {*low, *high};
 }
 
-void exchangeWithSea(const HoldShape& shape, const SeaAt& sea, double duration, HoldState& state) {
+/// Height to which the level in a hold may go: that of the sea, of waves the highest over the
+/// lowest inside if water comes in, else the lowest over the highest inside.
+double aimOf(const SeaAt& sea, double level) {
+  const double height = sea.plane_F.height;
+  if (!sea.rises && !sea.inside) return height;
+  const double flow = flowThrough(sea.opening, {sea.plane_F.normal, sea.plane_F.gravity}, height,
+                                  level, sea.data(), sea.dataInside());
+  const auto outside = extentOf(sea.rises), inside = extentOf(sea.inside);
+  return height + (flow > 0 ? outside.second - inside.first : outside.first - inside.second);
+}
+
+/// Returns what comes in of a volume over waves inside, docs/theory.md eq. (154b): they lose the
+/// energy of what slops over their crests, and what lifts water from the lower level to the higher
+/// one. `available`: energy of the waves over rho g [m^4]; it becomes what is left.
+double sloppedIn(const HoldShape& shape, const SeaAt& sea, const HoldState& state, double in,
+                 double& available) {
+  HoldState after = state;
+  addWater(in, after);
+  const double lift =
+      std::max(0.0, in * (levelOf(shape, sea.plane_F.normal, after) - sea.plane_F.height));
+  const double share = lift > available ? available / lift : 1;
+  const double crest = std::max(0.0, extentOf(sea.inside).second);
+  const double lost = std::max(share * lift, std::max(0.0, -share * in) * crest);
+  available = std::max(0.0, available - lost);
+  return share * in;
+}
+
+void exchangeWithSea(const HoldShape& shape, const SeaAt& sea, const Passage& passage,
+                     HoldState& state, std::size_t hold) {
   const Vector3& normal = sea.plane_F.normal;
   if (!(state.volume > 0) && isClear(sea, kNoWater)) return;
   const double level = levelOf(shape, normal, state);
   if (isClear(sea, level)) return;
-  WaterSide outside{sea.plane_F.height};
+  WaterSide outside{sea.plane_F.height},
+      inside = waterSideOf(shape, state, level, aimOf(sea, level), normal);
   outside.rises = sea.data();
-  const double in =
-      volumeThrough(sea.opening, {normal, sea.plane_F.gravity}, outside,
-                    waterSideOf(shape, state, level, aimOf(sea, level), normal), duration);
+  inside.rises = sea.dataInside();
+  double in =
+      volumeThrough(sea.opening, {normal, sea.plane_F.gravity}, outside, inside, passage.duration);
+  if (sea.inside && in != 0) {
+    const double energy = passage.waves->energy[hold];
+    double available = energy - passage.waves->lost[hold];
+    in = sloppedIn(shape, sea, state, in, available);
+    passage.waves->lost[hold] = energy - available;
+  }
   addWater(in, state);
   state.inflow += in;
 }
@@ -101,9 +139,10 @@ void exchangeThrough(const HoldShapes& holds, const HoldShapes::Opening& opening
   if (!hasOneAir(opening, states)) {
     exchangeSealed(holds, opening, plane_F, passage, states);
   } else if (opening.to < 0) {
-    const SeaAt sea{opening.shape, plane_F, passage.rises ? &(*passage.rises)[number] : nullptr};
-    exchangeWithSea(holds.shapes[static_cast<std::size_t>(opening.from)], sea, passage.duration,
-                    states[opening.from]);
+    const SeaAt sea{opening.shape, plane_F, passage.rises ? &(*passage.rises)[number] : nullptr,
+                    passage.waves ? passage.waves->at(number) : nullptr};
+    const auto hold = static_cast<std::size_t>(opening.from);
+    exchangeWithSea(holds.shapes[hold], sea, passage, states[hold], hold);
   } else {
     exchangeBetween(holds, opening, plane_F, passage.duration, states);
     shareAir(holds, states[opening.from].air_group, states);
@@ -113,8 +152,8 @@ void exchangeThrough(const HoldShapes& holds, const HoldShapes::Opening& opening
 /// Whether the holds are empty and the sea is below their openings.
 bool areDryAndClear(const HoldShapes& holds, const SurfacePlane& plane_F, const Passage& passage,
                     const HoldState* states) {
-  bool are_clear = areEmpty(holds, states);
-  if (!are_clear) return false;
+  if (!areEmpty(holds, states)) return false;
+  bool are_clear = true;
   forEachOpening(
       holds, passage.changes, [&](const HoldShapes::Opening& opening, std::size_t number) {
         const auto* rises = passage.rises ? &(*passage.rises)[number] : nullptr;

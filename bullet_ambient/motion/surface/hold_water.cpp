@@ -26,13 +26,16 @@ HoldModes modesOfWater(const HoldState& state, HoldModes modes) {
   return modes;
 }
 
-/// Returns the inertia of the water alone. `below`: the level, with what floats there.
-Matrix6 inertiaOfWater(const HoldState& state, WetVolume below, const HoldModes& modes) {
-  if (state.displaced > 0) {
-    below.moment *= state.volume / below.volume;
-    below.volume = state.volume;
-  }
-  return carriedInertia(below, modes);
+/// Returns the inertia of the water alone, in B. `below`: the level in F, with what floats there;
+/// `modes`: in B.
+Matrix6 inertiaOfWater(const HoldState& state, const WetVolume& below, const FrameOffset& frame,
+                       const HoldModes& modes) {
+  const double volume = state.displaced > 0 ? state.volume : below.volume;
+  const double share = state.displaced > 0 ? volume / below.volume : 1;
+  WetVolume water;
+  water.volume = volume;
+  water.moment = frame.rotation * (share * below.moment) + volume * frame.translation;
+  return carriedInertia(water, modes);
 }
 
 }  // namespace
@@ -60,7 +63,8 @@ void VesselSloshing::resize(std::size_t count) {
 }
 
 WaterInside waterInside(const HoldShapes& holds, const HoldState* states,
-                        const SurfacePlane& plane_F, HoldModes* modes) noexcept {
+                        const SurfacePlane& plane_F, const HoldsInBody& body,
+                        HoldModes* modes) noexcept {
   WaterInside all;
   all.modes = modes;
   Matrix6 inertia = Matrix6::Zero();
@@ -68,14 +72,17 @@ WaterInside waterInside(const HoldShapes& holds, const HoldState* states,
     if (modes) modes[i].modes[0].volume = modes[i].modes[1].volume = 0;
     if (!(states[i].volume > 0)) continue;
     const HoldFill fill = levelIn(holds.shapes[i], states[i], plane_F);
-    const HoldModes found = modesOfWater(states[i], modesOf(holds.shapes[i], fill, plane_F));
+    const HoldModes found =
+        modesOfWater(states[i], modesOf(holds.shapes[i], fill, plane_F)).inB(body.fluid_frame);
     if (modes) modes[i] = found;
     all.below = withWaterInside(all.below, plane_F, fill);
     all.spread += fill.water.waterplane.spread;
-    inertia += inertiaOfWater(states[i], fill.water, found);
+    inertia += inertiaOfWater(states[i], fill.water, body.fluid_frame, found);
     all.is_any = true;
   }
-  if (all.is_any) all.inertia = SymmetricMatrix(inertia);
+  if (!all.is_any) return all;
+  all.inertia = SymmetricMatrix(inertia);
+  for (double& entry : all.inertia.entries) entry *= body.density;
   return all;
 }
 
@@ -116,7 +123,7 @@ void mixSloshing(const HoldState* states, const HoldModes* before, const Sloshin
     const double from_sea =
         state.change > 0 ? std::clamp(state.inflow / state.change, 0.0, 1.0) : 0;
     Sloshing joined;
-    joinVessel({after.fluid_frame, after.density, after.modes + i, 1, after.to_world}, x, &joined);
+    joinVessel({after.density, after.modes + i, 1, after.to_world}, x, &joined);
     sloshing[i].way_W *= kept;
     sloshing[i].velocity_W =
         kept * sloshing[i].velocity_W + (1 - kept) * (1 - from_sea) * joined.velocity_W;

@@ -78,6 +78,20 @@ struct HoldState {
   double filled() const { return volume + displaced; }
 };
 
+/// Waves of the water in the holds of a body where they reach its openings to the sea.
+struct WavesInside {
+  bool is_any = false;                ///< true: one reaches an opening
+  RimRises rises;                     ///< of those over the level in the hold
+  std::vector<std::uint8_t> reaches;  ///< of the openings; 1: `rises` counts
+  std::vector<double> energy;         ///< of the waves in each hold, over rho g [m^4]
+  std::vector<double> lost;           ///< the part of it that has gone with water [m^4]
+
+  /// Heights at the edges of an opening; null: the water is level there.
+  const std::vector<double>* at(std::size_t opening) const {
+    return reaches[opening] ? &rises[opening] : nullptr;
+  }
+};
+
 /// Air around the holds and a duration in which water flows.
 struct Passage {
   bool are_open = true;                     ///< false: nothing passes through openings
@@ -87,17 +101,17 @@ struct Passage {
   const RimRises* rises = nullptr;          ///< null: the sea is a plane at the openings
   /// Levels and modes of the holds at the plane, with their present water; null: not known.
   const HoldModes* modes = nullptr;
+  WavesInside* waves = nullptr;  ///< null: the water in the holds is level
 };
 
-/// Water in all holds of a body at one pose, in F: what it adds to the closed vessel.
+/// Water in all holds of a body at one pose: what it adds to the closed vessel.
 struct WaterInside {
   bool is_any = false;
-  /// Terms of V, S and W in docs/theory.md eq. (135): volume and moment are negative.
+  /// Terms of V, S and W in docs/theory.md eq. (135), in F: volume and moment are negative.
   WetVolume below;
-  Matrix3 spread = Matrix3::Zero();  ///< sum of Waterplane::spread of its levels [m^4]
-  /// Inertia of the water less that of its modes of sloshing, per unit density, about F's origin.
-  SymmetricMatrix inertia;
-  const HoldModes* modes = nullptr;  ///< of each hold; null: not kept
+  Matrix3 spread = Matrix3::Zero();  ///< sum of Waterplane::spread of its levels, in F [m^4]
+  SymmetricMatrix inertia;           ///< in B, of the water less that of its modes of sloshing
+  const HoldModes* modes = nullptr;  ///< of each hold, in B; null: not kept
 
   /// Returns the wet part of the closed vessel less the water; the waterplane is that outside.
   WetVolume with(WetVolume vessel) const noexcept {
@@ -112,7 +126,7 @@ struct WaterInside {
 struct VesselSloshing {
   std::vector<Sloshing> now;            ///< from step to step
   std::vector<Sloshing> moved;          ///< in a step
-  std::vector<HoldModes> modes, later;  ///< at the stand of the body; where a step comes to
+  std::vector<HoldModes> modes, later;  ///< in B at the stand of the body; where a step comes to
 
   /// For a number of holds.
   void resize(std::size_t count);
@@ -128,14 +142,22 @@ struct VesselWater {
   double damping = 0.03;               ///< HoldSettings::sloshing_damping
 };
 
-/// Finds the levels of the water in the holds and sums over it. Cost: four to six clips of each
+/// Body with holds: pose of F in B, and density of the water less that of the fluid above [kg/m^3].
+struct HoldsInBody {
+  const FrameOffset& fluid_frame;
+  double density;
+};
+
+/// Finds the levels of the water in the holds and sums over it. Cost: one to three clips of each
 /// hold with water.
 /// @param holds of the body
 /// @param states one of each hold
 /// @param plane_F of the water outside
+/// @param body whose frame and density the inertia has
 /// @param modes where those of each hold are kept; null: nowhere
 WaterInside waterInside(const HoldShapes& holds, const HoldState* states,
-                        const SurfacePlane& plane_F, HoldModes* modes = nullptr) noexcept;
+                        const SurfacePlane& plane_F, const HoldsInBody& body,
+                        HoldModes* modes = nullptr) noexcept;
 
 /// Tells if all holds are full of water.
 bool areFull(const HoldShapes& holds, const HoldState* states) noexcept;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/motion/body/one_body.h"
 
 namespace ambient {
 namespace {
@@ -17,11 +18,9 @@ struct Pendulum {
 };
 
 Pendulum pendulumOf(const SloshingAt& at, const SloshMode& mode) {
-  const FrameOffset& frame = at.fluid_frame;
-  const Vector3 axis = frame.rotation * mode.axis;
-  const Vector3 pivot = frame.rotation * mode.pivot + frame.translation;
   const double mass = at.density * mode.volume;
-  return {stack(pivot.cross(axis), axis), at.to_world * axis, mass, mass * mode.square};
+  return {stack(mode.pivot.cross(mode.axis), mode.axis), at.to_world * mode.axis, mass,
+          mass * mode.square};
 }
 
 /// Calls act(pendulum, mode, state) for each mode.
@@ -42,6 +41,8 @@ double dampingRatio(double least, double way, double farthest) {
 }  // namespace
 
 void joinVessel(const SloshingAt& at, const Vector6& x, Sloshing* states) noexcept {
+  if (std::all_of(states, states + at.count, [](const Sloshing& state) { return state.is_known; }))
+    return;
   for (std::size_t i = 0; i < at.count; ++i)
     if (!states[i].is_known) states[i] = {};
   forEachPendulum(at, states, [&](const Pendulum& pendulum, const SloshMode&, Sloshing& state) {
@@ -73,28 +74,29 @@ Momentum momentumOfSloshing(const SloshingAt& at, const Sloshing* states) noexce
   return {at.to_world * momentum.head<3>(), at.to_world * momentum.tail<3>()};
 }
 
-void projectOnModes(const SloshingAt& at, double energy, Sloshing* states) noexcept {
+double projectOnModes(const SloshingAt& at, double energy, Sloshing* states) noexcept {
   for (std::size_t i = 0; i < at.count; ++i) {
     const Sloshing before = states[i];
     states[i] = {};
     for (const SloshMode& mode : at.modes[i].modes) {
       if (!(mode.volume > 0)) continue;
-      const Vector3 axis_W = pendulumOf(at, mode).axis_W;
+      const Vector3 axis_W = at.to_world * mode.axis;
       states[i].is_known = true;
       states[i].way_W += axis_W.dot(before.way_W) * axis_W;
       states[i].velocity_W += axis_W.dot(before.velocity_W) * axis_W;
     }
   }
   const double after = energyOfSloshing(at, states).sum();
-  if (!(after > energy)) return;
+  if (!(after > energy)) return after;
   const double scale = std::sqrt(std::max(0.0, energy) / after);
   for (std::size_t i = 0; i < at.count; ++i) {
     states[i].way_W *= scale;
     states[i].velocity_W *= scale;
   }
+  return std::max(0.0, energy);
 }
 
-Vector6 exchangeSloshing(const SloshingAt& at, const Matrix6& inverse, double damping,
+Vector6 exchangeSloshing(const SloshingAt& at, const SymmetricMatrix& inverse, double damping,
                          double duration, const Vector6& x, Sloshing* states) noexcept {
   AMBIENT_ASSERT(duration >= 0 && damping >= 0);
   Vector6 end = x;
@@ -107,7 +109,7 @@ Vector6 exchangeSloshing(const SloshingAt& at, const Matrix6& inverse, double da
         const double loss =
             2 * dampingRatio(damping, q, mode.farthest) * pendulum.mass * std::sqrt(mode.square);
         const double stiffness = pendulum.stiffness;
-        const Vector6 answer = inverse * N;
+        const Vector6 answer = asEigen(inverse * plain(N));
         const double per_mass = 1 / pendulum.mass + N.dot(answer);
         const double rate = (u - N.dot(end) - half * per_mass * stiffness * q) /
                             (1 + half * per_mass * (loss + half * stiffness));

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bullet_ambient/force/surface/hold_shape.h"
+#include "bullet_ambient/motion/surface/symmetric_matrix.h"
 
 namespace ambient {
 
@@ -17,11 +18,10 @@ struct Sloshing {
 
 /// Modes of the water in the holds of a body at a pose.
 struct SloshingAt {
-  const FrameOffset& fluid_frame;  ///< pose of F in B
-  double density;                  ///< of the water less that of the fluid above [kg/m^3]
-  const HoldModes* modes;          ///< in F
-  std::size_t count;               ///< of holds
-  Matrix3 to_world;                ///< B to W
+  double density;          ///< of the water less that of the fluid above [kg/m^3]
+  const HoldModes* modes;  ///< in B
+  std::size_t count;       ///< of holds
+  Matrix3 to_world;        ///< B to W
 };
 
 /// Lets water that is not yet known move with a body of the twist x, in B relative to the water
@@ -39,14 +39,14 @@ SloshingEnergy energyOfSloshing(const SloshingAt& at, const Sloshing* states) no
 Momentum momentumOfSloshing(const SloshingAt& at, const Sloshing* states) noexcept;
 
 /// Takes the states to other modes, which never adds energy. Those of holds without modes become
-/// not known. `energy`: with the modes before [J].
-void projectOnModes(const SloshingAt& at, double energy, Sloshing* states) noexcept;
+/// not known. `energy`: with the modes before [J]. Returns the energy thereafter [J].
+double projectOnModes(const SloshingAt& at, double energy, Sloshing* states) noexcept;
 
 /// Lets pendulums and body act on each other for `duration` [s], docs/theory.md eq. (153): the sum
 /// of x.K x / 2 and the energy of the pendulums does not grow, whatever the duration. Returns the
 /// twist afterwards, in B, relative to the water around, as x is the one before. `inverse` is K^-1,
 /// `damping` HoldSettings::sloshing_damping.
-Vector6 exchangeSloshing(const SloshingAt& at, const Matrix6& inverse, double damping,
+Vector6 exchangeSloshing(const SloshingAt& at, const SymmetricMatrix& inverse, double damping,
                          double duration, const Vector6& x, Sloshing* states) noexcept;
 
 }  // namespace ambient

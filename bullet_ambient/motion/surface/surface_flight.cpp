@@ -179,10 +179,10 @@ class SurfaceFlights {
     for (int i = 0; i < count_; ++i) {
       const Progress& p = progress_[i];
       if (!isActive(i) || !p.hasWater()) continue;
-      const Vector6 x = exchangeSloshing(
-          waterAt(i).sloshing(), symmetricOf(lanes_.flight.inverse_inertia, i).full(),
-          p.flight->task.water.damping, lanes_.flight.kick_time[i] / 2,
-          twistOf(lanes_.flight.twist_B, i).vector(), p.sloshing());
+      const Vector6 x =
+          exchangeSloshing(waterAt(i).sloshing(), symmetricOf(lanes_.flight.inverse_inertia, i),
+                           p.flight->task.water.damping, lanes_.flight.kick_time[i] / 2,
+                           twistOf(lanes_.flight.twist_B, i).vector(), p.sloshing());
       setLane(lanes_.flight.twist_B, i, Twist::fromVector(x));
     }
   }

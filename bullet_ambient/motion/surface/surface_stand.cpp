@@ -18,23 +18,19 @@ SurfacePlace placeAt(const SurfaceModel& model, const SurfacePlane& plane_B,
   SurfacePlace place;
   place.plane = plane_B;
   place.immersion_F = immersionOf(model, plane_B);
-  const Matrix6 inertia = inertiaAt(model, place.immersion_F);
-  if (water.states) {
-    *water.inside = waterInside(*model.holds, water.states, place.immersion_F.plane, water.modes);
-    if (water.inside->is_any) place.inside_F = water.inside;
-  }
-  place.inertia = SymmetricMatrix(
-      place.inside_F ? Matrix6(inertia + inertiaInside(model, place.inside_F)) : inertia);
+  place.inertia = SymmetricMatrix(inertiaAt(model, place.immersion_F));
+  if (!water.states) return place;
+  *water.inside = waterInside(*model.holds, water.states, place.immersion_F.plane,
+                              {model.fluid_frame, model.excess_density}, water.modes);
+  if (!water.inside->is_any) return place;
+  place.inside_F = water.inside;
+  for (int i = 0; i < kSymmetricEntries; ++i)
+    place.inertia.entries[i] += water.inside->inertia.entries[i];
   return place;
 }
 
-Matrix6 inertiaInside(const SurfaceModel& model, const WaterInside* inside_F) noexcept {
-  if (!inside_F) return Matrix6::Zero();
-  return model.excess_density * model.fluid_frame.inertiaToB(inside_F->inertia.full());
-}
-
 WaterLeft::WaterLeft(const WaterAt& at, const Sloshing* states) noexcept
-    : inertia(inertiaInside(at.model, at.place.inside_F)),
+    : inertia(at.place.inside_F->inertia),
       momentum_W(momentumOfSloshing(at.sloshing(), states)),
       energy(energyOfSloshing(at.sloshing(), states).sum()),
       position_W(at.position_W) {}
@@ -56,16 +52,16 @@ Vector6 givenMomentum(const WaterLeft& before, const WaterAt& after, const Slosh
 
 Vector6 shiftWater(const WaterLeft& before, const WaterAt& after, const Vector6& x,
                    SymmetricMatrix& inertia, Sloshing* states) noexcept {
-  projectOnModes(after.sloshing(), before.energy, states);
-  const Matrix6 K_before = inertia.full();
-  const Matrix6 K_after =
-      K_before - before.inertia.full() + inertiaInside(after.model, after.place.inside_F);
+  const double sloshing = projectOnModes(after.sloshing(), before.energy, states);
+  SymmetricMatrix changed = inertia;
+  for (int i = 0; i < kSymmetricEntries; ++i)
+    changed.entries[i] += after.place.inside_F->inertia.entries[i] - before.inertia.entries[i];
+  const Matrix6 K_after = changed.full();
   const Cholesky<6> factors(K_after);
   if (!factors.isPositive()) return x;
-  inertia = SymmetricMatrix(K_after);
-  const Vector6 own = K_before * x, momentum = own + givenMomentum(before, after, states);
-  const double twice_most =
-      x.dot(own) + 2 * (before.energy - energyOfSloshing(after.sloshing(), states).sum());
+  const Vector6 own = inertia.full() * x, momentum = own + givenMomentum(before, after, states);
+  const double twice_most = x.dot(own) + 2 * (before.energy - sloshing);
+  inertia = changed;
   Vector6 end = factors.solve(momentum);
   // A torque along the tilt: the part of the spin across the normal.
   const Vector3& normal = after.place.plane.normal;

@@ -21,9 +21,6 @@ struct SurfacePlace {
 SurfacePlace placeAt(const SurfaceModel& model, const SurfacePlane& plane_B,
                      const VesselWater& water = {}) noexcept;
 
-/// Returns the part of K that is water in the holds, in B. `inside_F`: null: none.
-Matrix6 inertiaInside(const SurfaceModel& model, const WaterInside* inside_F) noexcept;
-
 /// A body with water in its holds at a place. @pre inside_F of the place, with its modes
 struct WaterAt {
   const SurfaceModel& model;
@@ -32,8 +29,7 @@ struct WaterAt {
   Vector3 position_W;  ///< of the centre of mass, in a frame that moves with the water [m]
 
   SloshingAt sloshing() const {
-    return {model.fluid_frame, model.excess_density, place.inside_F->modes,
-            model.holds->shapes.size(), to_world};
+    return {model.excess_density, place.inside_F->modes, model.holds->shapes.size(), to_world};
   }
 };
 /// Water in the holds at a place that the body has left: its part of K, in B, and its sloshing.

@@ -38,12 +38,27 @@ std::optional<Eigen::Vector3d> parseOrigin(const std::string& text) {
   return origin;
 }
 
+/// Holds that are found and given.
+HoldSearch holdsOf(const BuildArguments& arguments) {
+  constexpr std::size_t kNumbers = 7;  // x, y, z, area, normal
+  HoldSearch search = holdsOf(arguments.options);
+  search.tanks.assign(arguments.tanks.begin(), arguments.tanks.end());
+  const std::vector<double>& numbers = arguments.openings;
+  if (numbers.size() % kNumbers != 0)
+    raiseUsageError("--opening", numbers.size(), " numbers are not X Y Z AREA NX NY NZ");
+  for (std::size_t i = 0; i < numbers.size(); i += kNumbers) {
+    const Eigen::Map<const Eigen::Matrix<double, kNumbers, 1>> opening(&numbers[i]);
+    search.openings.push_back({opening.head<3>(), opening.tail<3>(), opening[3]});
+  }
+  return search;
+}
+
 ShapeBuildSettings settingsOf(const BuildArguments& arguments) {
   ShapeBuildSettings settings;
   settings.name = fs::path(arguments.input).stem().string();
   settings.origin = parseOrigin(arguments.origin);
   settings.scale = arguments.options.scale;
-  settings.holds = holdsOf(arguments.options);
+  settings.holds = holdsOf(arguments);
   settings.least_faces = arguments.least_faces;
   settings.flow.max_panels = arguments.panels;
   settings.flow.threads = arguments.threads;
@@ -172,6 +187,16 @@ void addBodyOptions(CLI::App& command, BuildArguments& arguments) {
       command, "--wings", arguments.wings, "none|auto|FILE",
       "Parts that lift where they are: by the names of nodes in the mesh file, else found; or "
       "as a JSON file lists them (default none)");
+  addOption(command, "--tank", arguments.tanks, "FILE",
+            "A closed mesh in the walls or in a cavity that is a hold without openings; may be "
+            "repeated")
+      ->allow_extra_args(false);
+  addOption(command, "--opening", arguments.openings, "X Y Z AREA NX NY NZ",
+            "A hole in the nearest wall of a hold: place [m], area [m^2], direction out of the "
+            "hold; may be repeated")
+      ->type_size(7)
+      ->expected(1, CLI::detail::expected_max_vector_size)
+      ->allow_extra_args(false);
   addOption(command, "--drag", arguments.drag, "C[,C,C]",
             "Measured drag coefficients along the axes, on the frontal areas, that the drag of the "
             "form law is scaled to (default none)")

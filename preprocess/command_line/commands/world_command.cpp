@@ -358,6 +358,8 @@ void requireFolder(const fs::path& output) {
 }
 
 CollisionShapeSettings shapeSettingsOf(const BuildArguments& arguments) {
+  if (!arguments.tanks.empty() || !arguments.openings.empty())
+    raiseUsageError(arguments.tanks.empty() ? "--opening" : "--tank", "a world has no use for it");
   CollisionShapeSettings settings;
   settings.flow.max_panels = arguments.panels;
   settings.flow.threads = arguments.threads;

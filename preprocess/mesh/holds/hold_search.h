@@ -1,18 +1,30 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "preprocess/mesh/holds/vessel.h"
 #include "preprocess/mesh/triangle_mesh.h"
 
 namespace ambient {
 
-/// How the holds of a mesh are found.
+/// A hole in the wall of a hold that its mesh does not have, in the frame of the mesh.
+struct GivenOpening {
+  Vector3 place{0, 0, 0};   ///< [m]
+  Vector3 normal{0, 0, 0};  ///< out of the hold
+  double area = 0;          ///< [m^2]
+};
+
+/// How the holds of a mesh are found, and what a user gives beside them.
 struct HoldSearch {
   bool is_wanted = true;              ///< false: a bowl is the body of its walls
   std::optional<Eigen::Vector3d> up;  ///< which way the mesh stands; none: see findHolds()
   double unit = 1;                    ///< a length of 1 of the mesh in metres, for the lines
+  std::vector<std::filesystem::path> tanks = {};  ///< meshes that are holds without openings
+  double tank_scale = 1;                          ///< from these files to the mesh
+  std::vector<GivenOpening> openings = {};
 };
 
 /// Finds the holds of a mesh: rooms that hold water as the mesh stands. From its pools and from

@@ -76,6 +76,29 @@ class DoorsTest(unittest.TestCase):
                         self.assertAlmostEqual(hold["capacity"], 0.96 * 0.56 * 0.38, delta=1e-7)
                         self.assertEqual(hold["volume"], 0)
 
+    def test_holds_are_given_by_hand_or_refused_in_a_sentence(self):
+        def block(x, y, z):
+            corners = np.array([[a * x, b * y, c * z] for c in (-1, 1) for b in (-1, 1) for a in (-1, 1)], float)
+            return corners, np.array([[0, 2, 3], [0, 3, 1], [4, 5, 7], [4, 7, 6], [0, 1, 5], [0, 5, 4], [2, 6, 7], [2, 7, 3], [0, 4, 6], [0, 6, 2], [1, 3, 7], [1, 7, 5]])
+
+        with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            corners, faces = block(0.5, 0.3, 0.125)
+            tank = Path(folder) / "tank.obj"
+            tank.write_text("".join(f"v {x} {y} {z}\n" for x, y, z in corners) + "".join(f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in faces))
+            hull = block(1, 0.5, 0.25)
+            body = ba.FluidBody.from_mesh(*hull, panels=0, tanks=[tank], openings=[([0, 0, -0.125], [0, 0, -1], 0.001)])
+            (hold,) = body.holds
+            self.assertAlmostEqual(hold["volume"], 0.15, delta=1e-7)  # the file has the rounding of float
+            for given, words in (
+                ({"holds": 1}, 'holds must be "auto" or "none", not 1'),
+                ({"holds": "some"}, "holds must be \"auto\" or \"none\", not 'some'"),
+                ({"tanks": "tank.obj"}, "tanks must be a list of files"),
+                ({"openings": [1]}, "openings must be a list of"),
+                ({"openings": [([0, 0, 0], [0, 0, 1], 1)]}, "mesh: opening 1: there is no hold that it could open"),
+            ):
+                with self.subTest(given=given), self.assertRaisesRegex(ValueError, words):
+                    ba.FluidBody.from_mesh(*hull, panels=0, **given)
 
     def test_a_cup_of_staves_of_many_heights_holds_water_up_to_the_lowest(self):
         """As convex hulls that came out of a decomposition: a lid along the rim would cut the staves, or have faces without area."""

@@ -711,6 +711,40 @@ class FloatingTest(CommandTest):
             self.assertNotIn("holds", self.build(Path(mesh).read_text(), "out.ambient", *option)[0])
             self.assertEqual(self.floating(file, 60), [])
 
+    def test_tanks_and_openings_are_given_by_hand(self):
+        hull, tank = obj_text(box((1, 0.5, 0.25))), self.write("tank.obj", obj_text(box((0.5, 0.3, 0.125))))
+        hole = ["--opening", 0.1, 0, -0.125, 0.001, 0, 0, -2]
+        for more, openings in (([], []), (hole, [-0.125]), (hole + ["--opening", 0.5, 0, 0, 0.002, 1, 0, 0], [-0.125, 0])):
+            facts = self.build(hull, "out.ambient", "--tank", tank, *more)[0]
+            self.expect_close(facts["volume"], 1, 1e-7)
+            (hold,) = facts["holds"]
+            self.assertEqual(hold["name"], "tank")
+            self.expect_close(hold["volume"], 0.15, 1e-7)
+            self.assertEqual([round(opening["centre"][2], 9) for opening in hold.get("openings", [])], openings)
+        # The same in JSON, in its own units; another tank makes another body.
+        self.write("hull.obj", hull)
+        shape = {"type": "mesh", "file": "hull.obj", "scale": 2, "tanks": ["tank.obj"],
+                 "openings": [{"place": [0.2, 0, -0.25], "normal": [0, 0, -1], "area": 0.004}]}
+        self.expect_close(self.build(shape)[0]["holds"][0]["volume"], 8 * 0.15, 1e-7)
+        self.write("tank.obj", obj_text(box((0.5, 0.3, 0.1))))
+        self.expect_close(self.build(shape)[0]["holds"][0]["volume"], 8 * 0.12, 1e-7)
+
+    def test_tanks_and_openings_that_make_no_sense_are_refused(self):
+        hull, far = self.write("hull.obj", obj_text(box((1, 0.5, 0.25)))), self.write("far.obj", obj_text(box((0.5, 0.3, 0.3))))
+        tank, lidless = self.write("tank.obj", obj_text(box((0.5, 0.3, 0.125)))), self.write("lidless.obj", obj_text(LIDLESS))
+        self.assertEqual(self.build_refusal(hull, "--tank", far), f"{far}: the tank is not wholly inside {hull}")
+        self.assertIn(lidless + ": ", self.build_refusal(hull, "--tank", lidless))
+        self.assertIn("nowhere.obj: ", self.build_refusal(hull, "--tank", self.path("nowhere.obj")))
+        self.assertEqual(self.build_refusal(hull, "--tank", tank, "--tank", tank), f"{tank}: the tank reaches into the tank of {hull}")
+        for numbers, words in (((0, 0, 0, -1, 0, 0, 1), "its area of -1 m^2 is not positive and finite"),
+                               ((0, 0, 0.125, 0.1, 0, 0, 0), "its normal (0 0 0) is no direction"),
+                               ((0, 0, 0.5, 0.1, 0, 0, 1), "it is 0.375 m from the nearest wall of a hold, more than 0.119"),
+                               ((0, 0, 0.125, 10, 0, 0, 1), "its area of 10 m^2 is above that of the walls of the tank")):
+            self.assertIn(f"{hull}: opening 1: {words}", self.build_refusal(hull, "--tank", tank, "--opening", *numbers))
+        self.assertEqual(self.build_refusal(hull, "--opening", 0, 0, 0, 1, 0, 0, 1), f"{hull}: opening 1: there is no hold that it could open")
+        ball = self.write("ball.json", BALL)
+        self.assertEqual(self.build_refusal(ball, "--tank", tank), f"{ball}: a tank or an opening needs a closed mesh or a compound")
+
 
 ATTACK, SIDE_SLIP, LIFT, DRAG, SIDE, ROLL, PITCH, YAW = range(8)
 

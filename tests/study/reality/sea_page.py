@@ -27,8 +27,7 @@ REMARKS = {
     "early, for the parts of its added mass are those of its full breadth ([slamming](water_validation.md#slamming))",
     "driven under water: drag": "the measured drags of two such vehicles differ by a factor of 5 to 8; a box of their size lies between",
     "driven under water: added mass": "a solid box holds more water than an open frame",
-    "sloshing: heights": "the water's surface is a plane, which stands 1.22 times as high at a wall as the cosine with the same moment; crests are higher than troughs are deep, "
-    "here they are alike",
+    "sloshing: heights": "the first mode alone is there; crests are higher than troughs are deep, here they are alike",
     "sloshing: times": "right; in boxes half of their length deep and more the measured waves are 5 to 6 % slower than those of linear theory",
     "capsizing": "closed form, not measured: hydrostatics are exact",
 }
@@ -73,7 +72,7 @@ SLOSHING = """\
 ## Water in a tank
 
 A tank with water in its [hold](vessels.md#water-that-sloshes) is moved to and fro along its length, faster than its first mode, whose period is 1.67 s: the water
-beats. The library has this mode alone, and its surface is a plane.
+beats. The library has this mode alone.
 """
 
 CASES = """\
@@ -90,7 +89,9 @@ NOT = """\
   were seen together with the hull.
 - Measured righting arms, swimmers and manipulators under water: none was found with all sizes.
 - The flooding of damaged ships, such as the box-shaped barge of Ruponen (Helsinki 2006), and the roll of ships with a free-surface
-  tank: nothing was found with all sizes and measured numbers. [Vessels](vessels.md) has closed forms.
+  tank: nothing was found with all sizes and measured numbers. Looked for were "Ruponen", "box-shaped barge", "progressive flooding", "flooding benchmark",
+  "damaged ship section" in stored pages, documentation and repositories; what came up were titles and summaries, among them of the thesis of Dankowski (Hamburg 2013), which compares with three of the barge's tests, and of
+  10.3390/jmse12081367. None had the measured courses in numbers. [Vessels](vessels.md) has closed forms.
 - The water's depth and the walls of the tanks: the library's water is deep and without bounds here.
 
 ## Sources

@@ -101,7 +101,7 @@ def surface_in_tank(scene, moved):
     """Times [s] and heights [m], over the level at rest, of the water in the first hold of a first body that is moved along x.
 
     The body is at `amplitude` cos(2 pi t / `period`), and from the time `still` on, if that is given, where it is then: times count from there.
-    `probe`: x of the place in the body's frame [m]; the surface is the plane that HoldWater gives.
+    `probe`: x of the place in the body's frame [m], near a wall; the surface is the plane that HoldWater gives.
     """
     still = moved.get("still", math.inf)
     rate, start = 2 * math.pi / moved["period"], 0 if math.isinf(still) else still

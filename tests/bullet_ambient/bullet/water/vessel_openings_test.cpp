@@ -57,6 +57,92 @@ double overRim(const WaveComponent& wave, double freeboard, double time) {
   return 0.6 * std::sqrt(2 * kGravity) * 2 / 3 * sum * time / kSteps;
 }
 
+/// A tray on a shaking table far above the sea, the water in it 8 cm below its rim, after ten
+/// seconds: what has gone over the rim [m^3].
+double shakenOut(double hertz, double amplitude) {
+  constexpr double kFilled = 0.75;
+  const double k = kPi / 1.96, depth = kFilled / (1.96 * 0.96);
+  const double rate = std::sqrt(kGravity * k * std::tanh(k * depth));  // of the water
+  Sea sea;
+  Start start;
+  start.position.z() = 5;
+  start.mass = 1e6;
+  btRigidBody& tray = sea.add({}, start, {true, {kFilled}});
+  double gone = 0;
+  for (int i = 0; i < 10 * hertz; ++i) {
+    const double speed = amplitude * rate * std::cos(rate * (i + 0.5) / hertz);
+    tray.setLinearVelocity({bt(speed), 0, bt(kGravity / hertz / 2)});
+    tray.setAngularVelocity({0, 0, 0});
+    sea.scene.step(1 / hertz);
+    gone -= sea.of(tray).vessel->holds[0].inflow;
+  }
+  EXPECT_NEAR(sea.water(tray) + gone, kFilled, 1e-12 * kCapacity) << hertz;
+  return gone;
+}
+
+TEST(Vessel, TrayThatIsShakenSlopsOver) {
+  for (const double hertz : {30.0, 60.0, 240.0}) {
+    EXPECT_GT(shakenOut(hertz, 0.07), 1e-3) << hertz;
+    EXPECT_EQ(shakenOut(hertz, 0.035), 0) << hertz;
+  }
+}
+
+/// Gives the water of a barge a way along x and y [m].
+void sway(Sea& sea, const btRigidBody& body, double x, double y) {
+  membersOf(sea.scene.fluid).find(&body)->vessel->sloshing.now[0] = {true, {x, y, 0}, {0, 0, 0}};
+}
+
+// The waves inside lift water over a rim that is above both levels, also where that inside is the
+// lower one.
+TEST(Vessel, EnergyNeverGrowsWhereWaterSlopsOver) {
+  for (const double hertz : {30.0, 60.0, 240.0})
+    for (const double mass : {200.0, 500.0}) {
+      SCOPED_TRACE(hertz);
+      Sea sea;
+      Start start;
+      start.mass = mass;
+      start.position.z() = 0.25 - (mass / 1000 + 0.4) / 2;
+      start.twist.angular = {0.2, 0.1, 0};
+      btRigidBody& body = sea.add({}, start, {true, {0.4}});
+      sway(sea, body, 0.8, 0.4);
+      expectEnergyNeverGrows(sea, body, mass, hertz);
+      const HoldWater hold = sea.scene.fluid.find(body)->holds().at(0);
+      EXPECT_GT(hold.drained, 1e-4);
+      EXPECT_NEAR(hold.volume - 0.4, hold.flooded - hold.drained, 1e-12 * kCapacity);
+    }
+}
+
+// A box as heavy as the water in a barge goes on through it, and takes the barge along.
+TEST(Vessel, DragOfABodyInAHoldMovesTheVessel) {
+  constexpr double kMass = 4;
+  for (const double hertz : {60.0, 240.0}) {
+    Sea sea;
+    Start start;
+    start.position.z() = 0.25 - (kBarge + kMass + 400) / 2000;
+    btRigidBody& barge = sea.add({}, start, {true, {0.4}});
+    BodyDef def{kMass, kMass * Vector3(0.005, 0.005, 0.007), {}, nullptr};
+    def.start.position = {-0.6, 0, -0.18};
+    def.start.twist.linear = {0.5, 0, 0};
+    btRigidBody& box = sea.scene.add(def, floatingBox({0.2, 0.2, 0.1}, 1), Medium{});
+    const auto speed = [](const btRigidBody& body) {
+      return static_cast<double>(body.getLinearVelocity().x());
+    };
+    // Of the box past the water, with what moves round it, and of the rest.
+    const auto momentum = [&] {
+      RigidState state = readState(box);
+      state.twist.linear -= state.orientation.conjugate() * Vector3(speed(barge), 0, 0);
+      const Vector6 past = sea.of(box).stand().inertia.full() * state.twist.vector();
+      return Sea::Water(sea, barge).momentum_W().x() + kMass * speed(barge) +
+             (state.orientation * Vector3(past.tail<3>())).x();
+    };
+    sea.scene.step(1 / hertz, 3);
+    const double before = momentum();
+    sea.scene.step(1 / hertz, static_cast<int>(hertz));
+    EXPECT_LT(speed(box), 0.4) << hertz;
+    EXPECT_NEAR(momentum(), before, 0.02 * before) << hertz;
+  }
+}
+
 // Waves half as long as a barge that is held slop over its rim, where it meets them.
 TEST(Vessel, WavesShorterThanTheHullComeOverItsRim) {
   for (const double length : {1.0, 2.0}) {
