@@ -536,6 +536,13 @@ class LoadsTest(CommandTest):
                 twist = [2 if i == 3 + k else 0 for i in range(6)]
                 self.expect_close(self.loads(measured, twist)["total"][3 + k], -drag * 0.5 * 3 * 2 * 2, 1e-12)
 
+    def test_inspect_tells_where_the_drag_falls_where_it_does_alone(self):
+        egg = {"type": "ellipsoid", "semi_axes": [2, 1, 1], "faces": 320}
+        for more, share in ((), 1), (("--drag", "0.2"), 0):  # measured drag knows no layers
+            _, file = self.build(egg, "egg.ambient", *more)
+            for axis in self.result_of("inspect", file, "--json")["viscous_flow"]["separation"]:
+                self.assertEqual((axis["smooth_share"], "drag_falls_at" in axis, "leaves_at" in axis), (share, share > 0, share > 0))
+
     def test_print_a_table_and_end_where_numbers_end(self):
         _, file = self.build(BALL)
         output = self.run_well("loads", file, "--twist", 0, 0, 0, 1, 0, 0, "--density", 1).output
