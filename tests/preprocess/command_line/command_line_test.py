@@ -549,6 +549,8 @@ class LoadsTest(CommandTest):
         self.assertRegex(output, "^pressure (.|\n)*\ntotal ")
         fast = "loads", file, "--twist", 0, 0, 0, "1e200", 0, 0, "--density", 1
         self.assertIn("beyond the largest number", self.refusal(*fast))
+        dense = "loads", file, "--twist", 0, 0, 0, 1, 0, 0, "--density", 1e150, "--viscosity", 1e-3
+        self.assertIn("Reynolds number beyond 1e+60", self.refusal(*dense))
 
 
 class ExportTest(CommandTest):
@@ -796,6 +798,10 @@ class PolarTest(CommandTest):
         _, flat = self.build({"type": "sheet", "size": [2, 3], "faces": 200})
         self.assertEqual(self.refusal("polar", flat, "--reynolds", "1:10", "--roughness", "1e-4"),
                          flat + ": has no area seen along --forward: give --reference-area")
+
+    def test_a_drag_table_that_is_refused_begins_with_nothing(self):
+        _, file = self.build({"type": "sphere", "radius": 3, "faces": 80})
+        self.assertIn("roughness [m] is 100, must be from 0 to 10.6", self.refusal("polar", file, "--reynolds", "1:10", "--roughness", 100))
 
     def test_coefficients_that_are_not_finite_are_refused(self):
         _, file = self.build(obj_text(CUBE))
