@@ -171,7 +171,7 @@ BodyLoads::BodyLoads(const std::shared_ptr<const FluidBody>& body, const Medium&
   if (flow.law == PressureLaw::kForm && !flow.own_law) viscosity_ = medium.viscosity;
 }
 
-// What is beyond is dropped or bounded by the laws, as a world wants it.
+// Laws drop or bound what is beyond, as a world wants it.
 bool BodyLoads::isKnownAt(const Twist& x) const {
   const double turning = diameter_ * x.angular.norm();
   const double speed = std::sqrt(x.linear.squaredNorm() + turning * turning);
