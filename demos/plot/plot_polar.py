@@ -20,8 +20,7 @@ MOST_LINES = 12
 def read(file):
     kind = "a table of ambient_preprocess polar"
     rows = read_table(file, kind, ["C_D"])
-    if "Re" not in rows[0]:
-        rows = read_table(file, kind, [*ANGLES, *LABELS])
+    rows = read_table(file, kind, ["Re", *DRAGS] if "Re" in rows[0] else [*ANGLES, *LABELS])
     with reading(file, kind):
         return [{key: float(value) for key, value in row.items()} for row in rows]
 

@@ -8,10 +8,12 @@
 #include <functional>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <stdexcept>
 #include <typeinfo>
 #include <utility>
 
+#include "bullet_ambient/force/loads/surface_loads.h"
 #include "bullet_ambient/reading.h"
 #include "bullet_ambient/robot_dynamics.h"
 #include "demos/pybullet/world_fluid.h"
@@ -138,10 +140,18 @@ WorldFluid& FluidPlugin::requireCurrent() {
   return requireFluid();
 }
 
+// The limit of the roughness hangs on the body. Bodies that are in the fluid have passed.
+void FluidPlugin::checkOnBodies(const FlowSettings& flow, const std::string& folder) {
+  if (!(flow.roughness > 0)) return;
+  meetWorld();
+  if (fluid_ && !fluid_->hasBodies()) fluid_->check(flow, *sharedShapes(folder));
+}
+
 std::string FluidPlugin::setRegion(const Command& command) {
   const std::string name = command.values.value("name", command.name);
   FluidRegion region = makeRegion(command);
   meetWorld();
+  checkOnBodies(flow_, folder_);
   const auto ours = regions_.find(name);
   const RegionId id = ours == regions_.end() ? RegionId::kNone : ours->second.id;
   if (fluid_ && id != RegionId::kNone) fluid_->fluid().setRegion(id, region);
@@ -162,10 +172,19 @@ std::string FluidPlugin::removeRegion(const Command& command) {
 std::string FluidPlugin::setSettings(const Command& command) {
   if (fluid_ && fluid_->hasBodies())
     command.fail("comes too late: bodies are in the fluid; give it before the first step");
-  flow_.law = lawOr(command.values, flow_.law);
-  flow_.roughness = command.values.value("roughness", flow_.roughness);
-  flow_.separation_angle = command.values.value("separation", flow_.separation_angle);
+  FlowSettings flow = flow_;
+  flow.law = lawOr(command.values, flow.law);
+  flow.roughness = command.values.value("roughness", flow.roughness);
+  flow.separation_angle = command.values.value("separation", flow.separation_angle);
+  if (const auto fault = faultOf(flow)) {
+    std::ostringstream sentence;
+    sentence << fault->quantity << " [" << fault->unit << "] is " << fault->value << "; must be "
+             << fault->limit;
+    command.fail(sentence.str());
+  }
   const std::string folder = command.values.value("folder", folder_);
+  checkOnBodies(flow, folder);
+  flow_ = flow;
   if (folder != folder_) shapes_.reset();
   folder_ = folder;
   return "";

@@ -47,6 +47,8 @@ class FluidPlugin {
   void meetWorld();
   void forgetWorld();
   FluidBodyCache& shapes();
+  // Throws if a body of the world cannot have these settings, with shapes from this folder.
+  void checkOnBodies(const FlowSettings& flow, const std::string& folder);
   // Return the fluid of the present world, or throw refusal_; requireCurrent() adds new bodies
   // first.
   WorldFluid& requireFluid();

@@ -20,6 +20,7 @@
 
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/fluid_body.h"
+#include "bullet_ambient/force/loads/surface_loads.h"
 #include "bullet_ambient/spatial/rotation.h"
 #include "demos/scene/scene_parts.h"
 #include "preprocess/polar/polar.h"
@@ -284,10 +285,32 @@ void WorldFluid::choose(int body, int link, const ChosenBody& chosen, FluidBodyC
   }
   AttachDef def = definitionOf(chosen, std::move(made), found.mass);
   if (found.collider) def.name = nameOf(*found.collider);
+  checkFlow(*def.fluid_body, def.flow);
   exclude(body, link);  // from what is added by its collision shape
   const Immersed member = found.rigid ? fluid_.add(*found.rigid, std::move(def))
                                       : fluid_.add(*found.multi_body, link, std::move(def));
   store({body, link}, member, shapes);
+}
+
+void WorldFluid::check(const FlowSettings& flow, FluidBodyCache& shapes) const {
+  const btCollisionObjectArray& objects = world_.getCollisionObjectArray();
+  for (int i = 0; i < objects.size(); ++i) {
+    const btCollisionObject& object = *objects[i];
+    const auto* link = btMultiBodyLinkCollider::upcast(&object);
+    const int body = link ? link->m_multiBody->getUserIndex2() : object.getUserIndex2();
+    if (object.isStaticOrKinematicObject() || !isWanted(body, link ? link->m_link : -1)) continue;
+    std::shared_ptr<const FluidBody> made;
+    try {
+      made = shapes.fluidBody(*object.getCollisionShape());
+    } catch (const std::exception&) {
+      continue;  // said when it is added
+    }
+    try {
+      checkFlow(*made, flow);
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument("settings: body '" + nameOf(object) + "': " + error.what());
+    }
+  }
 }
 
 void WorldFluid::forget(int body) {
@@ -346,6 +369,7 @@ ChosenBody readChosenBody(const Command& command, const FlowSettings& flow) {
   chosen.drag = vectorOr(values, "drag", Vector3::Zero());
   chosen.medium = values.value("medium", "");
   chosen.flow.law = lawOr(values, flow.law);
+  chosen.flow.roughness = values.value("roughness", flow.roughness);
   return chosen;
 }
 

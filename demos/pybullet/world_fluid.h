@@ -74,6 +74,9 @@ class WorldFluid {
   /// With `has_news`, also adds all bodies that are in the world and not yet in the fluid. @throws
   /// std::invalid_argument, in one sentence, if a multibody has another layout than the plugin's
   void prepare(const Settings& settings, bool has_news);
+  /// Checks settings on the collision shapes of all that moves in the world.
+  /// @throws std::invalid_argument, in one line that names the first body that cannot have them
+  void check(const FlowSettings& flow, FluidBodyCache& shapes) const;
   /// Removes a body that PyBullet has destroyed. Its number may be given to a new body.
   void forget(int body);
   /// Gives a body or link a fluid body that the user has chosen, in place of the one that it has.

@@ -2,11 +2,13 @@
 
 #include <array>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 
 #include "bullet_ambient/base/plain_text.h"
+#include "bullet_ambient/force/loads/surface_loads.h"
 #include "bullet_ambient/wind.h"
 #include "demos/python/arrays.h"
 #include "demos/python/bindings.h"
@@ -29,6 +31,14 @@ void requireClass(const py::object& settings, const char* name) {
     throw py::type_error(py::repr(settings).cast<std::string>() + " is no " + name);
 }
 
+void refuse(const char* who, const std::optional<NumberFault>& fault) {
+  if (!fault) return;
+  std::ostringstream sentence;
+  sentence << who << fault->quantity << " [" << fault->unit << "] is " << fault->value
+           << "; must be " << fault->limit;
+  throw std::invalid_argument(sentence.str());
+}
+
 Vector3 vectorAt(const py::object& settings, const char* name) {
   const auto numbers = settings.attr(name).cast<std::array<double, 3>>();
   return {numbers[0], numbers[1], numbers[2]};
@@ -41,12 +51,8 @@ Medium mediumFrom(const py::object& settings) {
   const Medium medium{settings.attr("density").cast<double>(),
                       settings.attr("viscosity").cast<double>(), vectorAt(settings, "velocity"),
                       vectorAt(settings, "acceleration")};
-  const auto fault = faultOf(medium);
-  if (!fault) return medium;
-  std::ostringstream sentence;
-  sentence << "Medium: " << fault->quantity << " [" << fault->unit << "] is " << fault->value
-           << "; must be " << fault->limit;
-  throw std::invalid_argument(sentence.str());
+  refuse("Medium: ", faultOf(medium));
+  return medium;
 }
 
 FlowSettings flowFrom(const py::object& settings) {
@@ -62,6 +68,7 @@ FlowSettings flowFrom(const py::object& settings) {
   flow.skin_friction = settings.attr("skin_friction").cast<bool>();
   flow.maximum_load_error = settings.attr("maximum_load_error").cast<double>();
   flow.stall_lag = settings.attr("stall_lag").cast<double>();
+  refuse("FlowSettings: ", faultOf(flow));
   return flow;
 }
 

@@ -87,11 +87,18 @@ void checkMotion(const BodyDef& body, const Checker& check) {
                 "separation_angle", angle, "from pi/2 to pi");
 }
 
+// Returns the place of a body in the file, of a link that of its robot.
+std::string placeOf(const Scene& scene, std::size_t body) {
+  const auto& link = scene.bodies[body].link;
+  return link ? "robots[" + std::to_string(link->robot) + "]"
+              : "bodies[" + std::to_string(body) + "]";
+}
+
 void checkNames(const Scene& scene) {
   std::set<std::string> names;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const std::string& name = scene.bodies[i].name;
-    const Checker check(scene, "bodies[" + std::to_string(i) + "].");
+    const Checker check(scene, placeOf(scene, i) + ".");
     check.require(name.find_first_of(",\"\n\r") == std::string::npos,
                   "name contains a comma, a quote or a line break");
     check.require(names.insert(name).second, "name \"" + name + "\" is used twice");
@@ -139,7 +146,7 @@ void checkScene(const Scene& scene) {
   checkFluids(scene);
   checkNames(scene);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    const Checker check(scene, "bodies[" + std::to_string(i) + "] (" + scene.bodies[i].name + ") ");
+    const Checker check(scene, placeOf(scene, i) + " (" + scene.bodies[i].name + ") ");
     checkMass(scene.bodies[i], check);
     checkInertia(scene.bodies[i], check);
     checkMotion(scene.bodies[i], check);

@@ -105,6 +105,7 @@ BodyDef toBody(const Scene& scene, const RobotDef& robot, std::size_t index,
   if (body.mass == 0) body.inertia.reset();
   if (!link.fluid) return body;
   if (link.fluid->law) body.attach.flow.law = *link.fluid->law;
+  if (link.fluid->roughness) body.attach.flow.roughness = *link.fluid->roughness;
   if (const auto medium = namedMedium(link.fluid->medium)) body.attach.medium = *medium;
   return body;
 }

@@ -106,6 +106,12 @@ std::string notFinite(const std::string& scene, const std::string& body, double 
   return text.str();
 }
 
+/// Says what is wrong without the name of the fluid body: that of the first body of its shape.
+std::string withoutName(const FluidBody& shape, const std::invalid_argument& error) {
+  const std::string text = error.what(), name = "fluid body '" + shape.name + "': ";
+  return text.compare(0, name.size(), name) == 0 ? text.substr(name.size()) : text;
+}
+
 /// Makes Bullet's pools of contacts fit the scene, beyond which Bullet allocates. Its own have room
 /// for 4096, 7 MB.
 btDefaultCollisionConstructionInfo poolsFor(const Scene& scene) {
@@ -146,9 +152,16 @@ Simulation::Simulation(const Scene& scene, const std::vector<PreparedBody>& prep
 Simulation::~Simulation() {
   for (const auto& joint : joints_) bullet_.world->removeConstraint(joint.get());
   fluid_.clear();
-  for (const WorldBody& body : bodies_)
-    if (body.body) bullet_.world->removeRigidBody(body.body.get());
-  robots_.reset();
+  removeFrom(0, 0);
+}
+
+void Simulation::removeFrom(std::size_t body, std::size_t robot) {
+  for (std::size_t i = body; i < bodies_.size(); ++i) {
+    if (bodies_[i].immersed) bodies_[i].immersed->remove();
+    if (bodies_[i].body) bullet_.world->removeRigidBody(bodies_[i].body.get());
+  }
+  bodies_.erase(bodies_.begin() + static_cast<std::ptrdiff_t>(body), bodies_.end());
+  if (robots_) robots_->removeFrom(robot);
 }
 
 void Simulation::add(const Scene& scene, const BodyDef& def, const PreparedBody& prepared) {
@@ -170,7 +183,8 @@ void Simulation::add(const Scene& scene, const BodyDef& def, const PreparedBody&
     added.immersed = added.link ? fluid_.add(multiBodyOf(added), added.linkNumber(), attach)
                                 : fluid_.add(*added.body, attach);
   } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(inputMessage(file_, "body \"", def.name, "\": ", error.what()));
+    throw std::invalid_argument(
+        inputMessage(file_, "body \"", def.name, "\": ", withoutName(*prepared.fluid_body, error)));
   }
 }
 
@@ -189,15 +203,21 @@ bool Simulation::takesRobots() const { return bullet_.multi_body_world != nullpt
 
 // Links are the last bodies of a scene.
 void Simulation::addRobots(const Scene& scene, const std::vector<PreparedBody>& prepared) {
-  if (robots_) {
-    const std::size_t had = robots_->count();
-    for (std::size_t i = had; i < scene.robots.size(); ++i)
-      robots_->add(scene.robots[i], *bullet_.multi_body_world);
-    // Adds all motors to the world now: restoring a saved state requires the same constraints.
-    robots_->prepareStep(had, time(), time_step_);
+  const std::size_t bodies = bodies_.size(), robots = robots_ ? robots_->count() : 0;
+  const std::size_t said = warning_.size();
+  try {
+    if (robots_) {
+      for (std::size_t i = robots; i < scene.robots.size(); ++i)
+        robots_->add(scene.robots[i], *bullet_.multi_body_world);
+      // Adds all motors to the world now: restoring a saved state requires the same constraints.
+      robots_->prepareStep(robots, time(), time_step_);
+    }
+    for (std::size_t i = bodies; i < prepared.size(); ++i) add(scene, scene.bodies[i], prepared[i]);
+  } catch (...) {
+    removeFrom(bodies, robots);
+    warning_.resize(said);
+    throw;
   }
-  for (std::size_t i = bodies_.size(); i < prepared.size(); ++i)
-    add(scene, scene.bodies[i], prepared[i]);
 }
 
 void Simulation::step() {

@@ -65,6 +65,8 @@ class Simulation {
   bool takesRobots() const;
   /// Adds the robots that `scene` has more than the simulation, with their links. `bodies`: results
   /// of prepareBodies() for `scene`. @pre takesRobots(), and the rest of the scene is the same
+  /// @throws std::invalid_argument or std::runtime_error in one line if a link or its settings are
+  /// refused; then nothing was added
   void addRobots(const Scene& scene, const std::vector<PreparedBody>& bodies);
   /// A robot, in the order of the scene.
   SceneRobot& robot(std::size_t index) const { return robots_->robot(index); }
@@ -181,6 +183,8 @@ class Simulation {
 
  private:
   void add(const Scene& scene, const BodyDef& def, const PreparedBody& prepared);
+  /// Takes bodies and robots from these numbers on out of the fluid and out of Bullet's world.
+  void removeFrom(std::size_t body, std::size_t robot);
   void add(const JointDef& def);
   /// @throws std::runtime_error if no rigid body has this name.
   btRigidBody& find(const std::string& name) const;

@@ -7,6 +7,7 @@
 
 #include "bullet_ambient/base/fnv1a.h"
 #include "bullet_ambient/base/plain_text.h"
+#include "bullet_ambient/force/law/viscous_law.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "preprocess/mesh/holds/vessel.h"
 #include "preprocess/resistance/separation.h"
@@ -42,6 +43,7 @@ const std::map<std::string, const char*, std::less<>> kUnits{
     {"rotation_resistance", "m^3"},
     {"seconds", "s"},
     {"size", "m"},
+    {"smooth_share", "of the base; where it is 0, no boundary layer changes the drag"},
     {"span", "m"},
     {"smallest_angle", "rad"},
     {"thickness", "m"},
@@ -178,15 +180,21 @@ ViscousForm viscousFormOf(const FluidBody& body) {
   return form;
 }
 
-/// What there is along axis j of separation; R about the centre of reaction.
-ordered_json axisJson(const ViscousForm& form, const Matrix6& R, int j) {
+/// Shares of the base whose wake the layers shrink, by axis.
+Vector3 sharesOf(const FluidBody& body) {
+  return body.sphere_radius > 0 ? Vector3(1, 1, 1) : smoothShares(body, body.form.shape);
+}
+
+/// What there is along axis j of separation; R about the centre of reaction. `share`: of the base,
+/// by the law.
+ordered_json axisJson(const ViscousForm& form, const Matrix6& R, double share, int j) {
   const Separation& separation = form.separation;
   const Vector3 q = separation.axes.col(j);
   ordered_json facts{{"axis", vectorJson(q)},
                      {"translation_resistance", q.dot(R.bottomRightCorner<3, 3>() * q)},
                      {"rotation_resistance", q.dot(R.topLeftCorner<3, 3>() * q)},
-                     {"smooth_base", separation.smooth_base[j]}};
-  if (separation.smooth_base[j] == 0) return facts;
+                     {"smooth_share", share}};
+  if (share == 0) return facts;
   // Where Re_theta is 205, half of the layers are turbulent when they leave a smooth wall.
   constexpr double kTransition = 205;
   for (std::size_t way = 2 * static_cast<std::size_t>(j), side = 0; side < 2; ++side) {
@@ -197,10 +205,11 @@ ordered_json axisJson(const ViscousForm& form, const Matrix6& R, int j) {
   return facts;
 }
 
-ordered_json viscousJson(const ViscousForm& form) {
+ordered_json viscousJson(const FluidBody& body, const ViscousForm& form) {
+  const Vector3 shares = sharesOf(body);
   ordered_json axes = ordered_json::array();
   const Matrix6 R = shiftOrigin(form.resistance, form.centre_of_reaction);
-  for (int j = 0; j < 3; ++j) axes.push_back(axisJson(form, R, j));
+  for (int j = 0; j < 3; ++j) axes.push_back(axisJson(form, R, shares[j], j));
   return {{"resistance", matrixJson(form.resistance)},
           {"centre_of_reaction", vectorJson(form.centre_of_reaction)},
           {"separation", axes}};
@@ -253,7 +262,7 @@ ordered_json bodyFacts(const FluidBody& body) {
     facts["waterline_table"] = {{"subdivisions", body.waterline.subdivisions},
                                 {"immersions", body.waterline.immersions.size()}};
   if (const ViscousForm form = viscousFormOf(body); form.isKnown())
-    facts["viscous_flow"] = viscousJson(form);
+    facts["viscous_flow"] = viscousJson(body, form);
   return facts;
 }
 

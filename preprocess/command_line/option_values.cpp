@@ -44,6 +44,12 @@ void requireNotNegative(const char* option, double value, const char* unit) {
   raiseUsageError(option, value, unit, " must be finite and not negative");
 }
 
+void requireMedium(const Medium& medium) {
+  if (const auto fault = faultOf(medium))
+    raiseUsageError(std::string("--") + fault->quantity, fault->value, " ", fault->unit,
+                    " must be ", fault->limit);
+}
+
 void requireThreads(int threads) {
   constexpr int kMostThreads = 256;
   if (threads < 0) raiseUsageError("--threads", threads, " is below 0 (0: all cores)");

@@ -9,6 +9,7 @@
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/force/law/flow_settings.h"
+#include "bullet_ambient/force/medium/medium.h"
 #include "preprocess/mesh/holds/hold_search.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/potential_flow/results/potential_flow.h"
@@ -45,6 +46,8 @@ inline void addJson(CLI::App& command, bool& json) {
 
 void requirePositive(const char* option, double value, const char* unit = "");
 void requireNotNegative(const char* option, double value, const char* unit = "");
+/// Requires density and viscosity that a world takes, faultOf().
+void requireMedium(const Medium& medium);
 /// Requires 0 (all cores) to 256.
 void requireThreads(int threads);
 /// Requires 0 (no division) to kMostDivisions.

@@ -60,8 +60,9 @@ void checkAxes(const FluidBody& body, const ExportSettings& settings) {
 void checkSettings(const FluidBody& body, const ExportSettings& settings) {
   requirePositive(body, "density of the fluid [kg/m^3]", settings.medium.density);
   requirePositive(body, "gravity [m/s^2]", settings.gravity);
-  if (!(settings.medium.viscosity >= 0) || !std::isfinite(settings.medium.viscosity))
-    reject(body, "viscosity [Pa s]", settings.medium.viscosity, "finite and not negative");
+  if (const auto fault = faultOf(settings.medium))
+    reject(body, std::string(fault->quantity) + " [" + fault->unit + "]", fault->value,
+           fault->limit);
   if (settings.mass) requirePositive(body, "mass [kg]", *settings.mass);
   if (settings.draught) requirePositive(body, "draught [m]", *settings.draught);
   if (settings.speed) requirePositive(body, "speed [m/s]", *settings.speed);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/force/law/viscous_law.h"
 #include "bullet_ambient/spatial/inertia.h"
 
 namespace ambient {
@@ -164,12 +166,27 @@ BodyLoads::BodyLoads(const std::shared_ptr<const FluidBody>& body, const Medium&
   in_double.precision = LoadPrecision::kDouble;
   loads_ = makeSurfaceLoads(body, medium, in_double);
   if (loads_) frame_ = loads_->frame({});
+  density_ = medium.density;
+  diameter_ = std::sqrt(body->area / kPi);
+  if (flow.law == PressureLaw::kForm && !flow.own_law) viscosity_ = medium.viscosity;
+}
+
+// Laws drop or bound what is beyond, as a world wants it.
+bool BodyLoads::isKnownAt(const Twist& x) const {
+  const double turning = diameter_ * x.angular.norm();
+  const double speed = std::sqrt(x.linear.squaredNorm() + turning * turning);
+  const double size = std::max(1.0, diameter_);
+  if (!std::isfinite(density_ * speed * speed * speed * size * size)) return false;
+  return !(viscosity_ > 0) || density_ * diameter_ * speed <= kMostReynolds * viscosity_;
 }
 
 FaceLoads BodyLoads::at(const Twist& x) const {
   if (!loads_) return {};
   const FaceLoads loads = loads_->parts(frame_.toF(x));
-  return {frame_.toB(loads.pressure), frame_.toB(loads.friction)};
+  const FaceLoads in_F{frame_.toB(loads.pressure), frame_.toB(loads.friction)};
+  if (isKnownAt(x) && in_F.total().vector().allFinite()) return in_F;
+  const Vector3 unknown = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
+  return {{unknown, unknown}, {unknown, unknown}};
 }
 
 }  // namespace ambient

@@ -27,12 +27,17 @@ class BodyLoads {
   BodyLoads(FluidBody body, const Medium& medium, const FlowSettings& flow)
       : BodyLoads(std::make_shared<const FluidBody>(std::move(body)), medium, flow) {}
 
-  /// Computes the loads about the origin of F, for a twist relative to the fluid.
+  /// Computes the loads about the origin of F, for a twist relative to the fluid. NaN if its power
+  /// is beyond the largest number, or its Reynolds number beyond 1e60.
   FaceLoads at(const Twist& relative_twist) const;
 
  private:
+  bool isKnownAt(const Twist& relative_twist) const;
+
   std::shared_ptr<const SurfaceLoads> loads_;  ///< null: none
   FrameOffset frame_;                          ///< pose in F of the frame of the loads
+  double density_ = 0, viscosity_ = 0;         ///< viscosity 0: the law has no Reynolds number
+  double diameter_ = 0;                        ///< D_A [m]
 };
 
 /// Units of coefficients: C_F = F / (1/2 rho V^2 area), C_M = M / (1/2 rho V^2 area

@@ -322,6 +322,7 @@ AttachDef linkDef(const Robot& robot, int number, FluidBodySource& source, Attac
   if (own && own->medium == "water") def.medium = water();
   if (own && own->medium == "air") def.medium = air();
   if (own && own->law) def.flow.law = *own->law;
+  if (own && own->roughness) def.flow.roughness = *own->roughness;
   def.fluid_body = own && !own->fluid_body.empty()
                        ? std::make_shared<const FluidBody>(readPrepared(own->fluid_body.string()))
                        : source.fluidBody(*robot.shape(number).in_link);

@@ -63,6 +63,7 @@ struct LinkFluid {
   std::string medium;                ///< "water", "air", "none"; empty: the robot's
   std::filesystem::path fluid_body;  ///< .ambient file in the link's frame; empty: of its collision
   std::optional<PressureLaw> law;    ///< none: the robot's
+  std::optional<double> roughness;   ///< FlowSettings::roughness [m]; none: the robot's
 };
 
 /// A rigid part of a robot; without a mass it moves nothing by itself.
@@ -137,7 +138,7 @@ std::filesystem::path resolveReference(const std::string& reference,
 /// and three elements of our own, which other programs pass over:
 ///
 ///     <link name="blade">
-///       <ambient medium="water" fluid_body="blade.ambient" law="form"/>
+///       <ambient medium="water" fluid_body="blade.ambient" law="form" roughness="3e-5"/>
 ///       <collision><geometry><capsule radius="0.1" length="0.5"/></geometry></collision>
 ///       <collision><geometry><ellipsoid semi_axes="0.1 0.2 0.3"/></geometry></collision>
 ///

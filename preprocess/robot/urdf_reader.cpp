@@ -285,6 +285,8 @@ class UrdfReader {
 
   LinkFluid readFluid(const Part& from) const {
     if (from.element->NextSiblingElement("ambient")) refusePart(from, "is there twice");
+    if (const XMLElement* inner = from.element->FirstChildElement())
+      refusePart(from, "holds <", inner->Name(), ">; it has attributes alone");
     const std::string element = from.owner + ": <ambient>";
     LinkFluid fluid;
     for (auto* a = from.element->FirstAttribute(); a; a = a->Next()) {
@@ -296,11 +298,15 @@ class UrdfReader {
       } else if (key == "law") {
         fluid.law = valueOf(kPressureLawNames, value);
         if (!fluid.law) refuse(element, " law is \"", value, "\"; must be published or form");
+      } else if (key == "roughness") {
+        fluid.roughness = number(from, "roughness");
+        require(*fluid.roughness >= 0, element, "roughness", *fluid.roughness, ">= 0");
       } else if (key == "fluid_body") {
         fluid.fluid_body =
             resolveReference(value, file_, packages_, model_.source + ": " + element);
       } else {
-        refusePart(from, "has the attribute \"", key, "\"; known are: fluid_body, law, medium");
+        refusePart(from, "has the attribute \"", key,
+                   "\"; known are: fluid_body, law, medium, roughness");
       }
     }
     return fluid;

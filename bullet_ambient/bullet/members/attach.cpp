@@ -197,11 +197,11 @@ void warnOfDoubts(const AmbientBody& ambient, Complaints& complaints) {
     complaints.say(Complaint::kInertia, text.c_str());
   }
   const FlowSettings& flow = ambient.def->flow;
-  if (flow.law == PressureLaw::kForm && flow.separation_angle != FlowSettings{}.separation_angle) {
-    const std::string text =
-        who +
-        "has a separation angle, which the form law does not read: where the "
-        "flow leaves a body follows from its shape and FlowSettings::roughness";
+  if (flow.law == PressureLaw::kForm && !flow.own_law &&
+      flow.separation_angle != FlowSettings{}.separation_angle) {
+    const std::string text = who +
+                             "has a separation angle, which the form law does not read: where the "
+                             "flow leaves a body follows from its shape and its roughness";
     complaints.say(Complaint::kAngle, text.c_str());
   }
   if (ambient.isInFluid() && flow.law == PressureLaw::kForm && !flow.own_law &&

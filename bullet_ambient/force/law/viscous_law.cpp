@@ -27,7 +27,6 @@ constexpr double kPlate = 0.06, kDisc = 0.0377;  // turbulent over laminar frict
 constexpr double kLiftDrag = 0.7;
 constexpr double kMostSpin = 2;
 constexpr double kTailLost = 0.15, kTailPlace = 1.5;
-constexpr double kMostReynolds = 1e60;  // keeps powers finite
 
 /// The ball's numbers: Thwaites' and Buri's integrals, docs/theory.md section 18.
 constexpr double kBallThickness = 0.3578988, kBallBubble = 0.5920629, kBallSmooth = 0.6556696,
@@ -93,6 +92,13 @@ LayerState layerState(double thickness, double reynolds, double relative_roughne
   return state;
 }
 
+// Measured drag knows where the flow leaves.
+Vector3 smoothShares(const FluidBody& body, const FormShape& shape) {
+  if (!body.drag.isZero(0)) return {0, 0, 0};
+  const double edges = body.viscous.is_primitive ? 1 : std::max(0.0, 1 - 2 * shape.edges);
+  return edges * (1 - shape.wing) * body.viscous.separation.smooth_base;
+}
+
 ViscousLaw::ViscousLaw(const FluidBody& body, const FormShape& shape, const Vector3& own_drag,
                        const ViscousFluid& fluid)
     : density_(fluid.density),
@@ -107,11 +113,9 @@ ViscousLaw::ViscousLaw(const FluidBody& body, const FormShape& shape, const Vect
   resistance_ = {fluid.viscosity * at_reaction, viscous.centre_of_reaction};
   drag_ = at_reaction.bottomRightCorner<3, 3>() / (3 * kPi * diameter_);
   turn_drag_ = drag_.trace() / 3;
-  const double edges = viscous.is_primitive ? 1 : std::max(0.0, 1 - 2 * shape.edges);
   Smooth smooth;
-  smooth.share = edges * (1 - shape.wing) * viscous.separation.smooth_base;
-  // Measured drag knows where the flow leaves.
-  if (smooth.share.isZero(0) || !body.drag.isZero(0)) return;
+  smooth.share = smoothShares(body, shape);
+  if (smooth.share.isZero(0)) return;
   const Matrix3& q = smooth.axes = viscous.separation.axes;
   for (int j = 0; j < 3; ++j) smooth.projections[j] = q.col(j) * q.col(j).transpose();
   setTurning(body, smooth);

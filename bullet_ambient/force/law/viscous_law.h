@@ -40,6 +40,13 @@ struct LayerState {
 /// Computes the state. `thickness`: N; Re on D_A; relative_roughness: k/D_A.
 LayerState layerState(double thickness, double reynolds, double relative_roughness) noexcept;
 
+/// Largest Reynolds number that the law reads; beyond it loads are those at this one.
+constexpr double kMostReynolds = 1e60;  // keeps powers finite
+
+/// Returns chi_j of eq. (107) along the axes q_j: share of the base whose wake the layers shrink;
+/// 0: the drag falls nowhere.
+Vector3 smoothShares(const FluidBody& body, const FormShape& shape);
+
 /// What scales the loads on a body in one motion, docs/theory.md eq. (102) to (112), and the loads
 /// of section 19 that are no sum over faces. About O, the centre of volume, in the axes of F.
 class ViscousLaw {

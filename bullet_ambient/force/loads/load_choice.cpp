@@ -192,25 +192,6 @@ void checkFaces(const FluidBody& body) {
   }
 }
 
-void checkFlow(const FluidBody& body, const FlowSettings& flow) {
-  constexpr double kRounding = 1e-9;  // tolerance for angles typed with few digits
-  if (!(flow.separation_angle >= kPi / 2 * (1 - kRounding)) ||
-      !(flow.separation_angle <= kPi * (1 + kRounding))) {
-    reject(body, "separation angle [rad]", flow.separation_angle, "between pi/2 and pi");
-  }
-  constexpr double kLongestLag = 1e6;  // keeps its products with the motion finite
-  if (!(flow.stall_lag >= 0) || !(flow.stall_lag <= kLongestLag))
-    reject(body, "stall lag [lengths over speed]", flow.stall_lag, "from 0 to 1e6");
-  const double roughest = std::sqrt(body.area);
-  if (!(flow.roughness >= 0) || (flow.roughness > 0 && !(flow.roughness <= roughest))) {
-    std::ostringstream limit;
-    limit << "from 0 to " << roughest << ", the root of its area";
-    reject(body, "roughness [m]", flow.roughness, limit.str().c_str());
-  }
-  if (!(flow.maximum_load_error >= 0))
-    reject(body, "largest error of its loads", flow.maximum_load_error, "zero or positive");
-}
-
 using Body = std::shared_ptr<const FluidBody>;
 
 bool hasFaces(const FluidBody& body) { return body.faces.size() > 0 || body.omits_faces; }
@@ -332,6 +313,34 @@ std::shared_ptr<const SurfaceLoads> makeLoads(const Body& body, const Medium& me
 }
 
 }  // namespace
+
+std::optional<NumberFault> faultOf(const FlowSettings& flow) noexcept {
+  constexpr double kRounding = 1e-9;  // tolerance for angles typed with few digits
+  if (!(flow.separation_angle >= kPi / 2 * (1 - kRounding)) ||
+      !(flow.separation_angle <= kPi * (1 + kRounding)))
+    return NumberFault{"separation angle", "rad", flow.separation_angle, "between pi/2 and pi"};
+  constexpr double kLongestLag = 1e6;  // keeps its products with the motion finite
+  if (!(flow.stall_lag >= 0) || !(flow.stall_lag <= kLongestLag))
+    return NumberFault{"stall lag", "lengths over speed", flow.stall_lag, "from 0 to 1e6"};
+  if (!(flow.roughness >= 0) || !std::isfinite(flow.roughness))
+    return NumberFault{"roughness", "m", flow.roughness, "zero or positive and finite"};
+  if (!(flow.maximum_load_error >= 0))
+    return NumberFault{"largest error of its loads", "1", flow.maximum_load_error,
+                       "zero or positive"};
+  return {};
+}
+
+void checkFlow(const FluidBody& body, const FlowSettings& flow) {
+  const double roughest = std::sqrt(body.area);
+  if (!(flow.roughness >= 0) || (flow.roughness > 0 && !(flow.roughness <= roughest))) {
+    std::ostringstream limit;
+    limit << "from 0 to " << roughest << ", the root of its area";
+    reject(body, "roughness [m]", flow.roughness, limit.str().c_str());
+  }
+  if (const auto fault = faultOf(flow))
+    reject(body, std::string(fault->quantity) + " [" + fault->unit + "]", fault->value,
+           fault->limit);
+}
 
 LoadSettings loadSettings(const Medium& medium, const FlowSettings& flow) {
   const bool is_form = flow.law == PressureLaw::kForm;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "bullet_ambient/force/law/flow_settings.h"
 #include "bullet_ambient/force/law/surface_load.h"
@@ -64,6 +65,12 @@ class SurfaceLoads {
 
 /// Combines medium and flow settings.
 LoadSettings loadSettings(const Medium& medium, const FlowSettings& flow);
+
+/// Finds the first fault of settings on whatever body: a number outside of its limits.
+std::optional<NumberFault> faultOf(const FlowSettings& flow) noexcept;
+/// Checks the settings for a body, on which the roughness is at most the root of its area.
+/// @throws std::invalid_argument in one line, naming body, value and limit
+void checkFlow(const FluidBody& body, const FlowSettings& flow);
 
 /// Makes the loads by the law of the settings, evaluated in the cheapest way that body, medium and
 /// settings allow; null if the body has no surface or the density is 0. docs/theory.md eq. (13) to

@@ -4,18 +4,18 @@
 
 namespace ambient {
 
-std::optional<MediumFault> faultOf(const Medium& medium) noexcept {
+std::optional<NumberFault> faultOf(const Medium& medium) noexcept {
   constexpr const char* kNotNegative = "zero or positive and finite";
   const auto is_wrong = [](double value) { return !(value >= 0) || !std::isfinite(value); };
   if (is_wrong(medium.density))
-    return MediumFault{"density", "kg/m^3", medium.density, kNotNegative};
+    return NumberFault{"density", "kg/m^3", medium.density, kNotNegative};
   constexpr double kStiffest = 1e24;  // the mantle has some 1e21
   if (!(medium.viscosity >= 0) || !(medium.viscosity <= kStiffest))
-    return MediumFault{"viscosity", "Pa s", medium.viscosity, "from 0 to 1e24"};
+    return NumberFault{"viscosity", "Pa s", medium.viscosity, "from 0 to 1e24"};
   if (!medium.velocity.allFinite())
-    return MediumFault{"speed", "m/s", medium.velocity.norm(), "finite"};
+    return NumberFault{"speed", "m/s", medium.velocity.norm(), "finite"};
   if (!medium.acceleration.allFinite())
-    return MediumFault{"acceleration", "m/s^2", medium.acceleration.norm(), "finite"};
+    return NumberFault{"acceleration", "m/s^2", medium.acceleration.norm(), "finite"};
   return {};
 }
 

@@ -19,8 +19,8 @@ inline Medium air() { return {1.204, 1.82e-5, {0, 0, 0}, {0, 0, 0}}; }
 /// Fresh water at 20 C.
 inline Medium water() { return {998.0, 1.002e-3, {0, 0, 0}, {0, 0, 0}}; }
 
-/// A number of a medium that no fluid has.
-struct MediumFault {
+/// A number of a medium or of flow settings that is beyond its limits.
+struct NumberFault {
   const char* quantity;
   const char* unit;
   double value;
@@ -29,6 +29,6 @@ struct MediumFault {
 
 /// Finds the first fault of a medium; none: density and viscosity are finite and not negative,
 /// nothing is stiffer than the Earth's mantle, velocity and acceleration are finite.
-std::optional<MediumFault> faultOf(const Medium& medium) noexcept;
+std::optional<NumberFault> faultOf(const Medium& medium) noexcept;
 
 }  // namespace ambient

@@ -26,6 +26,7 @@ __all__ = ["Fluid", "Spectrum", "Wave", "plugin_path"]
 
 _PIECE = 1000  # largest number of bytes sent at once; PyBullet takes at most 1023
 _SPECTRUM = ("significant_height", "peak_period", "direction", "peak_enhancement", "components", "seed")  # of scenes
+_OF_LINKS = ("fluid_body", "law", "medium", "roughness")  # attributes of <ambient>
 _Vector = Sequence[float]
 _Flows = Sequence[Mapping[str, Any]]
 
@@ -133,16 +134,16 @@ class Fluid:
 
     def body(self, body: int, link: int = -1, source: Union[str, Path, FluidBody, Mapping[str, Any], None] = None, *,
              density: Optional[float] = None, drag: Optional[_Vector] = None, medium: Optional[str] = None,
-             law: Optional[str] = None) -> None:
+             law: Optional[str] = None, roughness: Optional[float] = None) -> None:
         """Gives a body (link -1: its base) or link a fluid body of your choice; call it anew to change it.
 
         `source`: an .ambient file, a FluidBody, or a shape as in scenes, {"type": "mesh", "file": "catamaran.stl"}, each in
         the frame of the URDF's link; None: the collision shape. `density`: the body is scaled about its centre of volume
         until it displaces the link's mass over this density [kg/m^3]: for what is mostly air, such as a drone. `drag`:
         measured drag coefficients along x, y, z, on the frontal areas. `medium`, "water" or "air", counts where no region
-        is; `law` is that of settings().
+        is; `law` and `roughness` [m] are those of settings().
         """
-        more: dict[str, Any] = {"density": density, "drag": drag, "medium": medium, "law": law}
+        more: dict[str, Any] = {"density": density, "drag": drag, "medium": medium, "law": law, "roughness": roughness}
         if source is None:
             self._give("body", body=body, link=link, **more)
             return
@@ -173,13 +174,17 @@ class Fluid:
             name = str(element.get("name"))
             if name not in names:
                 raise ValueError(f"{file}: link {name} has an element <ambient>, and body {body} has no such link")
+            odd = [f"<{inner.tag}>" for inner in own] + [key for key in own.keys() if key not in _OF_LINKS]
+            if odd:
+                raise ValueError(f"{file}: link {name}: <ambient> has {odd[0]}; known are: {', '.join(_OF_LINKS)}")
             link = names.index(name) - 1
             if own.get("medium") == "none":
                 self.exclude(body, link)
             else:
                 source = own.get("fluid_body")
+                roughness = own.get("roughness")
                 self.body(body, link, Path(file).parent / source if source else None, medium=own.get("medium"),
-                          law=own.get("law"))
+                          law=own.get("law"), roughness=None if roughness is None else float(roughness))
 
     def exclude(self, body: int, link: Optional[int] = None) -> None:
         """Removes a body, or one link of it (-1: the base), from the fluid for good; it then moves as in stock PyBullet."""
@@ -189,7 +194,8 @@ class Fluid:
                  separation: Optional[float] = None, folder: Optional[str] = None) -> None:
         """Changes settings of all bodies; call before the first step.
 
-        `law`, "form" or "published". `roughness` of all surfaces [m]. `separation`: separation angle of the law
+        `law`, "form" or "published". `roughness` of all surfaces [m]: at most the root of the area of each body, or this
+        and the first region are refused; a smaller body that is loaded later stays out of the fluid, which is said then. `separation`: separation angle of the law
         "published" [rad]. `folder`: all computed shapes are stored there for other runs; default: those that took long, in
         the user's folder.
         """

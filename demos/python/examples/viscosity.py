@@ -60,8 +60,9 @@ def golf(axes):
     for name in ("golf_smooth", "golf_dimpled", "golf_smooth_spin", "golf_dimpled_spin"):
         scene = ba.Scene(name)
         flight = ba.World(scene).run(scene.duration).position[:, 0]
-        above = flight[flight[:, 2] >= 0]
-        axes.plot(above[:, 0], above[:, 2], label=f"{name}: {above[-1, 0]:.0f} m")
+        above = np.count_nonzero(flight[:, 2] >= 0)
+        carry = np.interp(0, flight[above:above - 2:-1, 2], flight[above:above - 2:-1, 0])
+        axes.plot([*flight[:above, 0], carry], [*flight[:above, 2], 0], label=f"{name}: {carry:.1f} m")
     axes.set(xlabel="distance [m]", ylabel="height [m]", title="golf balls, 53 m/s")
     axes.legend(fontsize=7)
 

@@ -19,6 +19,10 @@ class SceneRobots : public RobotsInWorld {
     robots_.back()->robot().addTo(world);
   }
 
+  void removeFrom(std::size_t first) override {
+    while (robots_.size() > first) robots_.pop_back();
+  }
+
   void prepareStep(std::size_t first, double time, double time_step) override {
     for (std::size_t i = first; i < robots_.size(); ++i) robots_[i]->prepareStep(time, time_step);
   }

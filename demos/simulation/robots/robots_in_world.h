@@ -25,6 +25,8 @@ class RobotsInWorld {
   virtual SceneRobot& robot(std::size_t index) const = 0;
   /// @throws std::runtime_error as the constructor of Robot
   virtual void add(const RobotDef& def, btMultiBodyDynamicsWorld& world) = 0;
+  /// Takes the robots from `first` on out of their world.
+  virtual void removeFrom(std::size_t first) = 0;
   /// Sets the motors' targets for the step from `time` to time + time_step [s], of the robots from
   /// `first` on.
   virtual void prepareStep(std::size_t first, double time, double time_step) = 0;

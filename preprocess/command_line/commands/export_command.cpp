@@ -28,7 +28,7 @@ ExportFormat formatOf(const ExportArguments& arguments) {
 ExportSettings settingsOf(const ExportArguments& arguments, ExportFormat format) {
   ExportSettings settings = arguments.settings;
   requirePositive("--density", settings.medium.density, " kg/m^3");
-  requireNotNegative("--viscosity", settings.medium.viscosity, " Pa s");
+  requireMedium(settings.medium);
   requirePositive("--gravity", settings.gravity, " m/s^2");
   if (settings.mass) requirePositive("--mass", *settings.mass, " kg");
   if (settings.draught) requirePositive("--draught", *settings.draught, " m");

@@ -122,7 +122,7 @@ void warnOfMass(const FloatingBody& body, const ordered_json& attitudes) {
 void addLayerPlaces(const FluidBody& body, ordered_json& axes) {
   constexpr Eigen::Index kMostTriangles = 5000;  // takes a second
   const TriangleMesh mesh = meshOf(body.surface);
-  const auto is_smooth = [](const ordered_json& axis) { return axis["smooth_base"] > 0; };
+  const auto is_smooth = [](const ordered_json& axis) { return axis["smooth_share"] > 0; };
   if (std::none_of(axes.begin(), axes.end(), is_smooth) || mesh.triangleCount() > kMostTriangles)
     return;
   const MeshSeparation found = computeSeparation(

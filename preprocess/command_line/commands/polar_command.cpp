@@ -11,6 +11,7 @@
 
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/force/law/viscous_law.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/fluid_body_report.h"
 #include "preprocess/command_line/option_values.h"
@@ -31,9 +32,9 @@ struct LoadsArguments {
 };
 
 Medium mediumOf(const LoadsArguments& arguments) {
-  requireNotNegative("--density", arguments.density, " kg/m^3");
-  requireNotNegative("--viscosity", arguments.viscosity, " Pa s");
-  return {arguments.density, arguments.viscosity, Vector3::Zero(), Vector3::Zero()};
+  const Medium medium{arguments.density, arguments.viscosity, Vector3::Zero(), Vector3::Zero()};
+  requireMedium(medium);
+  return medium;
 }
 
 Twist twistOf(const LoadsArguments& arguments) {
@@ -53,11 +54,10 @@ void runLoads(const LoadsArguments& arguments) {
   flow.skin_friction = !arguments.no_friction;
   const Twist twist = twistOf(arguments);
   const FaceLoads loads = BodyLoads(readPrepared(arguments.file), medium, flow).at(twist);
-  const double dynamic_pressure = medium.density * twist.vector().squaredNorm();
-  if (!std::isfinite(dynamic_pressure) || !loads.total().vector().allFinite()) {
+  if (!loads.total().vector().allFinite())
     raiseInputError(arguments.file, "the loads of this motion are beyond the largest number, ",
-                    std::numeric_limits<double>::max());
-  }
+                    std::numeric_limits<double>::max(), ", or its Reynolds number beyond ",
+                    kMostReynolds);
   std::cout << factsText({{"pressure", vectorJson(loads.pressure.vector())},
                           {"friction", vectorJson(loads.friction.vector())},
                           {"total", vectorJson(loads.total().vector())}},
@@ -181,8 +181,6 @@ void printDrag(const PolarArguments& arguments, const Matrix3& axes, const FlowS
   if (arguments.reference_area == 0) flight.reference.area = frontalArea(*body, axes.col(0));
   if (!(flight.reference.area > 0))
     raiseInputError(arguments.file, "has no area seen along --forward: give --reference-area");
-  std::fprintf(stderr, "Reynolds number on D_A = sqrt(area/pi) = %.9g m, C_D on %.9g m^2\n",
-               2 * ball->sphere_radius, flight.reference.area);
   std::string text = "Re,C_D,C_D_of_ball\n";
   for (const double reynolds : numbers) {
     char row[80];
@@ -190,13 +188,15 @@ void printDrag(const PolarArguments& arguments, const Matrix3& axes, const FlowS
                   dragAt(reynolds, body, flow, flight), dragAt(reynolds, ball, {}, ball_flight));
     text += row;
   }
+  std::fprintf(stderr, "Reynolds number on D_A = sqrt(area/pi) = %.9g m, C_D on %.9g m^2\n",
+               2 * ball->sphere_radius, flight.reference.area);
   std::cout << text;
 }
 
 void checkNumbers(const PolarArguments& arguments) {
   requirePositive("--density", arguments.density);
   requirePositive("--speed", arguments.speed);
-  requireNotNegative("--viscosity", arguments.viscosity);
+  requireMedium({arguments.density, arguments.viscosity, Vector3::Zero(), Vector3::Zero()});
   requireNotNegative("--reference-area", arguments.reference_area);
   requireNotNegative("--reference-length", arguments.reference_length);
 }

@@ -102,6 +102,10 @@ class PolarTest(unittest.TestCase):
             self.run_script(file, "-o", self.folder / "polar.png")
         self.assertEqual(end.exception.code, f"{file}: is not a table of ambient_preprocess polar")
         self.assertFalse((self.folder / "polar.png").exists())
+        file.write_text("Re,C_D\n1,24\n")  # without the ball
+        with self.assertRaises(SystemExit) as end:
+            self.run_script(file, "-o", self.folder / "polar.png")
+        self.assertEqual(end.exception.code, f"{file}: is not a table of ambient_preprocess polar")
 
 
 if __name__ == "__main__":

@@ -344,6 +344,29 @@ TEST_F(PyBulletPlugin, RefusesInOneLineWhatItDoesNotUnderstand) {
   expectRefusal(R"({"settings": {"law": "published"}})", "too late");
 }
 
+TEST_F(PyBulletPlugin, RefusesSettingsThatNoBodyCanHave) {
+  expectRefusal(R"({"settings": {"separation": 1}})",
+                "settings: separation angle [rad] is 1; must be between pi/2 and pi");
+  EXPECT_EQ(server.command(R"({"settings": {"roughness": 100}})"), "0 ");  // there are no bodies
+  const int body = server.add(0.1, 4);
+  expectRefusal(kWater, "roughness [m] is 100, must be from 0 to 0.489");
+  EXPECT_EQ(server.command(R"({"settings": {"roughness": 0}})"), "0 ");
+  for (const char* rough : {"100", "1e300"})
+    expectRefusal(R"({"settings": {"roughness": )" + std::string(rough) + "}}",
+                  "settings: body 'PyBullet 0");
+  expectRefusal(R"({"settings": {"roughness": 1}})", "must be from 0 to 0.489");
+  EXPECT_EQ(server.command(R"({"settings": {"roughness": 1e-3}})"), "0 ");
+  server.command(kWater);
+  EXPECT_TRUE(server.floats());
+  expectRefusal(R"({"body": {"body": )" + std::to_string(body) + R"(, "roughness": 1}})",
+                "roughness [m] is 1, must be from 0 to 0.489");
+  EXPECT_TRUE(server.floats()) << "a refusal takes nothing out of the fluid";
+  EXPECT_GT(massAlongX(body), 4.1);
+  EXPECT_EQ(
+      server.command(R"({"body": {"body": )" + std::to_string(body) + R"(, "roughness": 0.01}})"),
+      "0 ");
+}
+
 TEST_F(PyBulletPlugin, SaysThatTheDefaultLawDoesNotReadAnAngle) {
   const std::string angle = R"({"settings": {"separation": 2}})", status = R"({"status": {}})";
   EXPECT_EQ(server.command(angle), "0 ");

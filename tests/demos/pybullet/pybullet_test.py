@@ -462,6 +462,24 @@ class LifeTest(Case):
         with self.assertRaisesRegex(ValueError, "no such file"):
             self.fluid.body(body, -1, "nothing.ambient")
 
+    def test_elements_of_links_say_how_rough_they_are(self):
+        self.fluid.water(level=0, density=1000)
+        box = p.createCollisionShape(p.GEOM_BOX, halfExtents=[0.1] * 3, physicsClientId=self.client)
+        body = p.createMultiBody(4, box, physicsClientId=self.client)
+        base = p.getBodyInfo(body, physicsClientId=self.client)[0].decode()
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "box.urdf"
+            for inside, error in (('roughness="0.01"/>', None), ('roughness="9"/>', "roughness .m. is 9, must be from 0 to 0.489"),
+                                  ("><roughness/></ambient>", "<ambient> has <roughness>; known are: fluid_body, law, medium, roughness"),
+                                  ('rough="1"/>', "<ambient> has rough; known are")):
+                file.write_text(f'<robot name="r"><link name="{base}"><ambient {inside}</link></robot>')
+                if error is None:
+                    self.fluid.read_urdf(body, file)
+                    continue
+                with self.assertRaisesRegex(ValueError, error):
+                    self.fluid.read_urdf(body, file)
+        self.assertEqual(len(self.fluid.status()["bodies"]), 1)
+
     def test_a_hull_without_mass_floats_the_link_that_has_it(self):
         self.fluid.water(level=0, density=1000)
         self.gravity()

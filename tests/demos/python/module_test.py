@@ -73,7 +73,14 @@ class SettingsTest(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, r"Medium: density \[kg/m\^3\] is nan; must be zero or positive"):
             ba.Medium(density=float("nan"))
         self.assertEqual(ba.FlowSettings(law="form").law, "form")
-
+        for quantity, wrong in (
+            (r"roughness \[m\] is -1; must be zero or positive and finite", {"roughness": -1}),
+            (r"roughness \[m\] is nan", {"roughness": float("nan")}),
+            (r"separation angle \[rad\] is nan; must be between pi/2 and pi", {"separation_angle": float("nan"), "law": "published"}),
+            (r"stall lag \[lengths over speed\] is -1; must be from 0 to 1e6", {"stall_lag": -1}),
+        ):
+            with self.assertRaisesRegex(ValueError, "^FlowSettings: " + quantity):
+                ba.FlowSettings(**wrong)
 
     def test_an_angle_that_the_law_does_not_read_is_a_warning(self):
         with self.assertWarnsRegex(UserWarning, 'separation_angle: only the law "published" reads it') as caught:
@@ -138,6 +145,18 @@ class FluidBodyTest(Temporary):
             self.assertGreater(abs(body.loads(twists, ba.water(), ba.FlowSettings(**setting)) - wrenches).max(), 0, setting)
         with self.assertRaisesRegex(ValueError, r"must be of shape \(N, 6\) or \(6,\), not \(2, 3\)"):
             body.loads(np.zeros((2, 3)), ba.water())
+
+    def test_loads_beyond_the_numbers_are_none(self):
+        box_body = ba.FluidBody.from_shape({"type": "box", "size": [1, 1, 1], "faces": 200}, panels=0)
+        ball = ba.FluidBody.from_shape({"type": "sphere", "radius": 1})
+        thin = ba.Medium(density=1, viscosity=1e-3)
+        loads = box_body.loads([[1e200] * 6, [1] * 6], thin)
+        self.assertTrue(np.isnan(loads[0]).all())
+        self.assertSameBits(loads[1], box_body.loads([1] * 6, thin))
+        for medium, twist in ((thin, [1e160, 0, 0, 0, 0, 0]), (ba.Medium(density=1e150, viscosity=1e-3), [1] * 6), (ba.Medium(density=1), [1e200] * 6)):
+            self.assertTrue(np.isnan(ball.loads(twist, medium)).all(), medium)
+        fast = ball.loads([0, 0, 0, 1e90, 0, 0], ba.Medium(density=1))
+        np.testing.assert_allclose(fast[3], 1e180 * ball.loads([0, 0, 0, 1, 0, 0], ba.Medium(density=1))[3], rtol=1e-12)
 
     def test_stall_lag_matters_to_what_turns_by_the_form_law(self):
         wing = ba.FluidBody.from_shape({"type": "box", "size": [1, 2, 0.1], "faces": 200}, panels=0)
@@ -323,7 +342,11 @@ class WorldTest(Temporary):
         def world(angle, law="form"):
             return ba.World(ba.Scene(STILL, {"medium": {"density": 1}, "law": law, "bodies.0.separation_angle": angle}))
 
-        with self.assertWarnsRegex(UserWarning, "body 'ball' has a separation angle, which the form law does not read"):
+        for model in ("vacuum", "ideal", "uwrbd", "gwtf"):  # without this law
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                ba.World(ba.Scene(STILL, {"medium": {"density": 1}, "model": model, "bodies.0.separation_angle": 2}))
+        with self.assertWarnsRegex(UserWarning, "body 'ball' has a separation angle, which the form law does not read.* its shape and its roughness"):
             world(2).step()
         with warnings.catch_warnings():
             warnings.simplefilter("error")
@@ -731,8 +754,22 @@ class RobotTest(Temporary):
         ):
             with self.assertRaisesRegex(error, text):
                 call()
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            for name, more, limit in (("a", {"roughness": 9}, r"roughness \[m\] is 9, must be from 0 to"),
+                                      ("b", {"roughness": 9}, r"roughness \[m\] is 9, must be from 0 to"),
+                                      ("c", {"medium": {"density": 1, "viscosity": 1e25}}, r"viscosity of the medium \[Pa s\] is 1e\+25")):
+                with self.assertRaisesRegex(ValueError, rf'body "{name}/turntable": {limit}'):
+                    self.world.load_urdf(self.ARM, name=name, fixed_base=True, position=[0, 3, 0], **more)
+                self.assertEqual((len(self.world.position), list(self.world.bodies)[1:]),
+                                 (4, ["arm/turntable", "arm/upper_arm", "arm/forearm"]))
+        self.world.restore(state)  # of as many bodies and constraints as before
         self.assertEqual(list(self.world.robots), ["arm"])
-        self.world.load_urdf(self.ARM, name="other", fixed_base=True, position=[0, 3, 0])
+        self.world.load_urdf(self.ARM, name="other", fixed_base=True, position=[0, 3, 0], medium={"density": 1000})
+        forearm = self.world.bodies["other/forearm"]
+        forearm.read_wrench()
+        self.world.step()
+        self.assertGreater(abs(forearm.wrench["buoyancy"]).max(), 1)
         with self.assertRaises(ValueError):
             self.world.restore(state)  # of a world with one robot
 

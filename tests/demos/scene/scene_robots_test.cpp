@@ -17,7 +17,7 @@ const char* const kTwoLinks = R"(<robot name="r">
     <collision><geometry><sphere radius="0.1"/></geometry></collision></link>
   <link name="arm"><inertial><mass value="1"/>
     <inertia ixx="0.1" iyy="0.2" izz="0.25" ixy="0" ixz="0" iyz="0"/></inertial>
-    <ambient medium="air" law="form"/>
+    <ambient medium="air" law="form" roughness="3e-5"/>
     <collision><geometry><sphere radius="0.1"/></geometry></collision></link>
   <link name="lamp"><inertial><mass value="1"/>
     <inertia ixx="0.1" iyy="0.2" izz="0.25" ixy="0" ixz="0" iyz="0"/></inertial></link>
@@ -60,6 +60,8 @@ TEST(SceneRobots, LinksThatCollideAreBodies) {
   EXPECT_EQ(hull.attach.flow.law, PressureLaw::kForm);
   EXPECT_EQ(arm.attach.flow.law, PressureLaw::kForm);
   EXPECT_EQ(hull.attach.flow.separation_angle, 2);
+  EXPECT_EQ(hull.attach.flow.roughness, 0);
+  EXPECT_EQ(arm.attach.flow.roughness, 3e-5);
 }
 
 TEST(SceneRobots, MotorsFollowASine) {

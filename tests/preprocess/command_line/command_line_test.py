@@ -536,12 +536,21 @@ class LoadsTest(CommandTest):
                 twist = [2 if i == 3 + k else 0 for i in range(6)]
                 self.expect_close(self.loads(measured, twist)["total"][3 + k], -drag * 0.5 * 3 * 2 * 2, 1e-12)
 
+    def test_inspect_tells_where_the_drag_falls_where_it_does_alone(self):
+        egg = {"type": "ellipsoid", "semi_axes": [2, 1, 1], "faces": 320}
+        for more, share in ((), 1), (("--drag", "0.2"), 0):  # measured drag knows no layers
+            _, file = self.build(egg, "egg.ambient", *more)
+            for axis in self.result_of("inspect", file, "--json")["viscous_flow"]["separation"]:
+                self.assertEqual((axis["smooth_share"], "drag_falls_at" in axis, "leaves_at" in axis), (share, share > 0, share > 0))
+
     def test_print_a_table_and_end_where_numbers_end(self):
         _, file = self.build(BALL)
         output = self.run_well("loads", file, "--twist", 0, 0, 0, 1, 0, 0, "--density", 1).output
         self.assertRegex(output, "^pressure (.|\n)*\ntotal ")
         fast = "loads", file, "--twist", 0, 0, 0, "1e200", 0, 0, "--density", 1
         self.assertIn("beyond the largest number", self.refusal(*fast))
+        dense = "loads", file, "--twist", 0, 0, 0, 1, 0, 0, "--density", 1e150, "--viscosity", 1e-3
+        self.assertIn("Reynolds number beyond 1e+60", self.refusal(*dense))
 
 
 class ExportTest(CommandTest):
@@ -823,6 +832,10 @@ class PolarTest(CommandTest):
         _, flat = self.build({"type": "sheet", "size": [2, 3], "faces": 200})
         self.assertEqual(self.refusal("polar", flat, "--reynolds", "1:10", "--roughness", "1e-4"),
                          flat + ": has no area seen along --forward: give --reference-area")
+
+    def test_a_drag_table_that_is_refused_begins_with_nothing(self):
+        _, file = self.build({"type": "sphere", "radius": 3, "faces": 80})
+        self.assertIn("roughness [m] is 100, must be from 0 to 10.6", self.refusal("polar", file, "--reynolds", "1:10", "--roughness", 100))
 
     def test_coefficients_that_are_not_finite_are_refused(self):
         _, file = self.build(obj_text(CUBE))

@@ -236,7 +236,7 @@ TEST(ExportRefusal, NumbersThatAreNotPhysicalAreNamed) {
   EXPECT_EQ(exportRefusal([](auto& s) { s.medium.density = NAN; }),
             begin + "density of the fluid [kg/m^3] is nan" + positive);
   EXPECT_EQ(exportRefusal([](auto& s) { s.medium.viscosity = -1; }),
-            begin + "viscosity [Pa s] is -1, must be finite and not negative");
+            begin + "viscosity [Pa s] is -1, must be from 0 to 1e24");
   EXPECT_EQ(exportRefusal([](auto& s) { s.gravity = HUGE_VAL; }),
             begin + "gravity [m/s^2] is inf" + positive);
   EXPECT_EQ(exportRefusal([](auto& s) { s.mass = 0; }), begin + "mass [kg] is 0" + positive);

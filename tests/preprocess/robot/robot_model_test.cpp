@@ -148,7 +148,7 @@ TEST(UrdfReader, TurnsTheInertiaIntoTheLinksAxes) {
 TEST(UrdfReader, ReadsCollisionsAndOwnElements) {
   const RobotModel robot = parseRobot(
       R"(<link name="a"><visual><geometry><nonsense/></geometry></visual>
-         <ambient medium="water" law="form" fluid_body="a.ambient"/>
+         <ambient medium="water" law="form" fluid_body="a.ambient" roughness="3e-5"/>
          <collision><geometry><box size="1 2 3"/></geometry></collision>
          <collision><geometry><capsule radius="0.5" length="2"/></geometry></collision>
          <collision><origin xyz="0 0 7"/><geometry><ellipsoid semi_axes="1 2 3"/></geometry></collision>
@@ -168,6 +168,7 @@ TEST(UrdfReader, ReadsCollisionsAndOwnElements) {
   EXPECT_EQ(robot.links[0].fluid->medium, "water");
   EXPECT_EQ(robot.links[0].fluid->law, PressureLaw::kForm);
   EXPECT_EQ(robot.links[0].fluid->fluid_body, "a.ambient");
+  EXPECT_EQ(robot.links[0].fluid->roughness, 3e-5);
 }
 
 TEST(UrdfReader, KindsOfJoints) {

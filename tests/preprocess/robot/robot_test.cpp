@@ -281,6 +281,20 @@ TEST(RobotFluid, LinksGetTheAddedMassOfTheirShapes) {
   in.fluid.clear();
 }
 
+TEST(RobotFluid, RoughnessIsThatOfTheLink) {
+  const RobotModel model =
+      parseRobot(ellipsoidLink("a") + ellipsoidLink("b", "<ambient roughness=\"9\"/>") +
+                 joint("ab", "continuous", "a", "b"));
+  FluidRobotWorld in;
+  Robot robot(model);
+  FluidBodyCache shapes;
+  AttachDef def;
+  def.medium = water();
+  const std::string said = test::refusalOf([&] { attachRobot(in.fluid, robot, shapes, def); });
+  EXPECT_NE(said.find("link \"b\": "), std::string::npos) << said;
+  EXPECT_NE(said.find("roughness [m] is 9"), std::string::npos) << said;
+}
+
 TEST(RobotFluid, RefusalNamesTheLinkAndLeavesNothing) {
   const RobotModel model = parseRobot(
       ellipsoidLink("a") + ellipsoidLink("b", "<ambient fluid_body=\"no/such.ambient\"/>") +
