@@ -37,14 +37,14 @@ AMBIENT_BEGIN
 class AmbientBodies;
 
 /// Handle of a rigid body, or of a link of a btMultiBody, that Fluid::add() has put into a fluid.
-/// Copies refer to the same member. Use it between steps.
+/// Copies refer to the same body or link. Use it between steps.
 ///
-/// All functions but isValid() and remove() throw std::logic_error, in one line, if the member was
-/// removed, or if the Fluid was destroyed. They need the body to be alive. A body that is destroyed
-/// without remove() leaves an unused entry, which the next body at its address replaces.
+/// All functions but isValid() and remove() throw std::logic_error, in one line, if the body or
+/// link was removed, or if the Fluid was destroyed. They need the body to be alive. A body that is
+/// destroyed without remove() leaves an unused entry, which the next body at its address replaces.
 class Immersed {
  public:
-  /// True if the member is still in the fluid. Does not access the body.
+  /// True if the body or link is still in the fluid. Does not access the body.
   bool isValid() const noexcept;
 
   /// Changes the fluid around the body, AttachDef::medium. The velocity of the body stays; the body
@@ -124,7 +124,7 @@ class Immersed {
   /// @throws std::invalid_argument if the mass properties of the body are not physical.
   void applyImpulse(const Wrench& impulse) const;
 
-  /// Removes the member from its fluid; the body then moves as in stock Bullet. Returns false if it
+  /// Removes the body or link from its fluid; it then moves as in stock Bullet. Returns false if it
   /// was removed before. Does not access the body, which may have been destroyed.
   bool remove() const;
 
@@ -133,10 +133,11 @@ class Immersed {
   friend class WorldAttachment;
   Immersed(AmbientBodies& bodies, const AmbientBody& ambient);
 
-  /// Members of the fluid while it exists, and the one of this handle; null: it was removed.
+  /// What is in the fluid while it exists, and the body or link of this handle; null: it was
+  /// removed.
   struct Access {
     std::shared_ptr<AmbientBodies> bodies;
-    AmbientBody* member;
+    AmbientBody* ambient;
   };
   Access lock() const noexcept;
   Access require(const char* function) const;
@@ -170,7 +171,7 @@ class Fluid {
   /// @throws std::invalid_argument, in one sentence, if this kind of world is not supported or has
   /// another solver; the world is then unchanged.
   explicit Fluid(btDynamicsWorld& world, SolverOwner owner = SolverOwner::kKeepsPointer);
-  /// Removes all members, and gives the world its own solver back.
+  /// Removes all bodies and links, and gives the world its own solver back.
   ~Fluid();
   Fluid(const Fluid&) = delete;
   Fluid& operator=(const Fluid&) = delete;
@@ -232,8 +233,8 @@ class Fluid {
   /// Copies the state of the world and its fluids between two steps; saveState() lists what is
   /// included.
   WorldState save() const;
-  /// Restores a saved state, see restoreState(). Adds and removes members as needed; the Immersed
-  /// of a member that is in the fluid before and after stays valid.
+  /// Restores a saved state, see restoreState(). Adds and removes bodies as needed; the Immersed
+  /// of one that is in the fluid before and after stays valid.
   /// @throws std::invalid_argument as restoreState(); the world is then unchanged.
   void restore(const WorldState& state);
 
@@ -265,12 +266,12 @@ class Fluid {
   void setTaskRunner(TaskRunner runner);
 
  private:
-  friend AmbientBodies& membersOf(const Fluid& fluid);
+  friend AmbientBodies& ambientBodiesOf(const Fluid& fluid);
   friend void stepTogether(Fluid* const* fluids, int count, const std::function<void(int)>& step);
   template <class Base, class... Args>
   friend std::unique_ptr<FluidSolver<Base>> makeSolver(Fluid& fluid, Args&&... args);
 
-  const std::shared_ptr<AmbientBodies> members_;
+  const std::shared_ptr<AmbientBodies> bodies_;
   const std::unique_ptr<FluidAction> action_;
   const std::unique_ptr<WorldConnection> connection_;
 };
@@ -282,10 +283,10 @@ class Fluid {
 ///     world.setConstraintSolver(solver.get());
 template <class Base, class... Args>
 std::unique_ptr<FluidSolver<Base>> makeSolver(Fluid& fluid, Args&&... args) {
-  return std::make_unique<FluidSolver<Base>>(fluid.members_, std::forward<Args>(args)...);
+  return std::make_unique<FluidSolver<Base>>(fluid.bodies_, std::forward<Args>(args)...);
 }
 
-AmbientBodies& membersOf(const Fluid& fluid);
+AmbientBodies& ambientBodiesOf(const Fluid& fluid);
 
 /// Makes one step of each of several worlds, with the bits that it has alone. Bodies of all worlds
 /// that touch nothing fly side by side, up to eight at a time, as those of one world do; cost of a

@@ -24,7 +24,7 @@ WorldState saveState(const btDynamicsWorld& world, const AmbientBodies& members)
 
 /// Restores a saved state; docs/bullet_step.md says when the world then continues bit for bit. The
 /// world must have the same bodies, multibodies and joints in the same order: it is the same one,
-/// or was built by the same code, or loaded from a file. Adds and removes members as needed. Runs
+/// or was built by the same code, or loaded from a file. Adds and removes bodies as needed. Runs
 /// Bullet's collision detection once, with its callbacks, to make contact manifolds.
 /// @throws std::invalid_argument if the numbers of bodies, links or joints differ, a value is
 /// invalid, a fluid body is missing or a medium is not physical; the world is then unchanged.

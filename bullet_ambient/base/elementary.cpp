@@ -323,8 +323,8 @@ ReducedExponential reduceExponent(const Sum& x) {
                                        1.0 / 120,        1.0 / 720,         1.0 / 5040,
                                        1.0 / 40320,      1.0 / 362880,      1.0 / 3628800,
                                        1.0 / 39916800.0, 1.0 / 479001600.0, 1.0 / 6227020800.0};
-  constexpr double kPerLog2 = 0x1.71547652b82fep+0;
-  const double power = nearest(x.high * kPerLog2);
+  constexpr double kLog2E = 0x1.71547652b82fep+0;
+  const double power = nearest(x.high * kLog2E);
   const Sum left = exactSum(x.high - power * kLog2, x.low - power * kLog2Low);
   const double r = left.high;
   const double rest = r * r * polynomial(kSeries, r) + (left.low + left.low * r);

@@ -68,7 +68,7 @@ class PartFinder {
 
   /// Returns the number of parts that equal the image of one.
   std::ptrdiff_t count(const AddedMassPart& part, int turned) const {
-    const Vector3 centre = placeOf(part.centre, turned);
+    const Vector3 centre = mirrored(part.centre, turned);
     auto at = std::lower_bound(
         sorted_.begin(), sorted_.end(), centre,
         [](const AddedMassPart* a, const Vector3& place) { return isBefore(a->centre, place); });
@@ -80,7 +80,7 @@ class PartFinder {
   }
 
  private:
-  static Vector3 placeOf(Vector3 centre, int turned) {
+  static Vector3 mirrored(Vector3 centre, int turned) {
     for (int axis = 0; axis < 3; ++axis) centre[axis] *= signIn(turned, 1 << axis);
     return centre;
   }

@@ -57,7 +57,7 @@ struct alignas(64) FaceBlock {
 };
 
 /// Bounds of the places of all faces of a block, for sixteen blocks, rounded outwards.
-struct alignas(64) FacePlaces {
+struct alignas(64) FaceBoxes {
   static constexpr int kBlocks = 16;
   float centre[3][kBlocks], half[3][kBlocks];  ///< box around the centroids: centre, half sides
   float radius[kBlocks];                       ///< of the largest disc with the area of a face
@@ -66,7 +66,7 @@ struct alignas(64) FacePlaces {
 /// Bounds of the 6-vectors (c x n, n) of all faces of a block, whose product with the twist is the
 /// normal velocity of a face, for sixteen blocks, rounded outwards.
 struct alignas(64) FaceBounds {
-  static constexpr int kBlocks = FacePlaces::kBlocks;
+  static constexpr int kBlocks = FaceBoxes::kBlocks;
   float middle[6][kBlocks];
   float reach[6][kBlocks];  ///< largest distance from the middle
 };
@@ -83,7 +83,7 @@ struct FaceBlocks {
   static constexpr std::size_t kFewestChosen = 12;
 
   const FaceBlock* blocks;
-  const FacePlaces* places;
+  const FaceBoxes* boxes;
   std::size_t count;                      ///< number of blocks
   const FaceBounds* bounds = nullptr;     ///< null: the blocks are too few
   const FaceColumn* sharpness = nullptr;  ///< one per block; null: the published law

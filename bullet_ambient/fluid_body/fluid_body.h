@@ -110,11 +110,11 @@ struct WaterlineTable {
 
 /// Place in a fluid body for the tables that loads make of it: made on first use, shared by all
 /// worlds of the process, freed with the fluid body. A copy of the fluid body begins without.
-class TablesPlace {
+class TablesSlot {
  public:
-  TablesPlace() = default;
-  TablesPlace(const TablesPlace&) {}
-  TablesPlace& operator=(const TablesPlace&) {
+  TablesSlot() = default;
+  TablesSlot(const TablesSlot&) {}
+  TablesSlot& operator=(const TablesSlot&) {
     tables_ = nullptr;
     return *this;
   }
@@ -299,7 +299,7 @@ struct FluidBody {
   /// The part of each triangle of the surface, 0 or the number of its wing from 1 on; empty without
   /// wings. Both sides of a sheet are one part.
   std::vector<std::uint8_t> part_of_triangle;
-  TablesPlace tables;  ///< of the loads; a fluid body that loads were made of must not change
+  TablesSlot tables;  ///< of the loads; a fluid body that loads were made of must not change
 };
 
 /// Slip matrix U (3F x 6) of docs/theory.md eq. (12), for the relative twist x in F: U x stacks the

@@ -38,7 +38,8 @@ Vector3 OctahedralLattice::direction(int node) const noexcept {
   return Vector3(x, y, z).normalized();
 }
 
-OctahedralLattice::Place OctahedralLattice::placeOf(const Vector3& direction) const noexcept {
+OctahedralLattice::Corners OctahedralLattice::cornersAround(
+    const Vector3& direction) const noexcept {
   const Vector3 point = direction.cwiseAbs() * (n_ / direction.cwiseAbs().sum());
   const int x = std::min(static_cast<int>(point.x()), n_ - 1);
   const int y = std::min(static_cast<int>(point.y()), n_ - 1 - x);

@@ -18,13 +18,13 @@ class OctahedralLattice {
   Vector3 direction(int node) const noexcept;
 
   /// Corners of the lattice triangle that a direction meets, and their interpolation weights
-  /// (`share`, sum 1). Weights are continuous in the direction and linear on the octahedron.
-  struct Place {
+  /// (`weight`, sum 1). Weights are continuous in the direction and linear on the octahedron.
+  struct Corners {
     std::array<int, 3> node;
-    std::array<double, 3> share;
+    std::array<double, 3> weight;
   };
   /// Locates a direction of any length. @pre the direction is not 0
-  Place placeOf(const Vector3& direction) const noexcept;
+  Corners cornersAround(const Vector3& direction) const noexcept;
 
  private:
   /// Number of nodes with a larger z.

@@ -46,20 +46,20 @@ void followWake(AmbientBody& ambient, const Twist& twist_W, double duration) noe
   const double by_wake = loads ? loads->wakeShare() : 0;
   AMBIENT_ASSERT(by_wake >= 0 && by_wake <= 1);
   const double factor = ambient.def->load_factor;
-  ambient.load_share = factor;
+  ambient.load_scale = factor;
   if (by_wake > 0 && ambient.wake) {
     const Twist motion{twist_W.angular, twist_W.linear - ambient.medium.velocity};
     const FluidBody& shape = *ambient.def->fluid_body;
     const double developed = developWake(motion, shape.area, shape.volume, duration, *ambient.wake);
-    ambient.load_share = factor * (1 - by_wake + by_wake * developed);
+    ambient.load_scale = factor * (1 - by_wake + by_wake * developed);
   }
 }
 
-void takePlace(AmbientBody& ambient, const AmbientBody* before) {
+void setHandle(AmbientBody& ambient, const AmbientBody* before) {
   ambient.handle = before ? before->handle : std::make_shared<AmbientBody*>();
   *ambient.handle = &ambient;
   if (!before) return;
-  ambient.reading = before->reading;
+  ambient.sensor = before->sensor;
   const std::string& name = before->def->name;  // no state has it
   if (name.empty() || !ambient.def->name.empty()) return;
   AttachDef named = *ambient.def;
@@ -121,12 +121,12 @@ void addRises(std::size_t edges, VesselState& vessel) {
 
 }  // namespace
 
-void takeHolds(AmbientBody& ambient) {
+void setHolds(AmbientBody& ambient) {
   const AttachDef& def = *ambient.def;
   const std::vector<Hold>& holds = def.fluid_body->holds;
   if (ambient.vessel && ambient.vessel->shape == def.fluid_body) return;
   if (ambient.vessel && ambient.floating) {
-    ambient.floating->stand.inside_F = nullptr;  // goes with the vessel
+    ambient.floating->flotation.inside_F = nullptr;  // goes with the vessel
     ambient.floating->is_valid = false;
   }
   ambient.vessel = nullptr;

@@ -16,7 +16,7 @@
 #include "bullet_ambient/motion/flight/flight.h"
 #include "bullet_ambient/motion/lanes/surface_lanes.h"
 #include "bullet_ambient/motion/rows/row_velocity.h"
-#include "bullet_ambient/motion/surface/surface_stand.h"
+#include "bullet_ambient/motion/surface/flotation.h"
 
 class btMultiBody;
 class btRigidBody;
@@ -116,7 +116,7 @@ class StepErrors {
   bool was_large_ = false;
 };
 
-struct FluidReading;
+struct WrenchSensor;
 
 /// Body that a water surface may cut: its state there, from step to step.
 struct FloatingState {
@@ -129,16 +129,16 @@ struct FloatingState {
   SurfacePlane plane_before_rows;   ///< surface in B at the pose that rows start from
   Vector6 brake = Vector6::Zero();  ///< mean wrench in B by docs/theory.md eq. (68c), in a step in
                                     ///< which rows may move the body [N m, N]
-  /// Last result of standAt(). Its plane is that of the surface in B at the exact pose where the
-  /// last flight or step with rows ended, before Bullet rounded it.
-  SurfaceStand stand;
-  bool has_plane = false;  ///< true: the plane of `stand` is known
-  bool is_valid = false;   ///< true: `stand` belongs to its plane, and to the present models and
-                           ///< surface
+  /// Last result of updateFlotations(). Its plane is that of the surface in B at the exact pose
+  /// where the last flight or step with rows ended, before Bullet rounded it.
+  Flotation flotation;
+  bool has_plane = false;  ///< true: the plane of `flotation` is known
+  bool is_valid = false;  ///< true: `flotation` belongs to its plane, and to the present models and
+                          ///< surface
 
   void forgetPlane() noexcept { has_plane = false; }
   void setPlane(const SurfacePlane& plane_B) noexcept {
-    stand.plane = plane_B;
+    flotation.plane = plane_B;
     has_plane = true;
     is_valid = false;
   }
@@ -154,7 +154,7 @@ struct VesselState {
   bool has_waves = false;        ///< true: `rises` counts
   WavesInside waves_inside;      ///< of the water in the holds at the openings in this step
   OpeningChanges changes;        ///< of openings while the body is in its fluid
-  WaterInside inside;            ///< at FloatingState::stand
+  WaterInside inside;            ///< at FloatingState::flotation
   VesselSloshing sloshing;
   double sloshing_energy = 0;  ///< of VesselSloshing::now [J]
   WaterLeft before_rows;       ///< after it has sloshed for a step in which rows move the body
@@ -177,8 +177,8 @@ struct AmbientBody {
   int instance = 0;                    ///< instanceNumber() of the body that was attached
   int surface_media = -1;  ///< index into FluidModels::surfaces; -1: no surface is near the body
   std::shared_ptr<const MediumModel> in_medium;  ///< that of `medium`
-  std::shared_ptr<FluidReading>
-      reading;                  ///< record for Immersed::wrench(); null: the wrench is not read
+  std::shared_ptr<WrenchSensor>
+      sensor;                   ///< record for Immersed::wrench(); null: the wrench is not read
   bool may_rest = true;         ///< true: nothing around the body changes with time
   bool has_own_models = false;  ///< true: `models` are of this body alone, as its mass has changed;
                                 ///< false: equal bodies share them
@@ -192,9 +192,9 @@ struct AmbientBody {
   std::shared_ptr<const AttachDef> def;  ///< equal bodies without a name share it
   Medium medium;          ///< medium around the body now: its own, or that of its region; where no
                           ///< acceleration is given, with the one that FlowMemory tells
-  double load_share = 1;  ///< factor on the surface loads in this step, docs/theory.md eq. (51d),
+  double load_scale = 1;  ///< factor on the surface loads in this step, docs/theory.md eq. (51d),
                           ///< times AttachDef::load_factor
-  RegionPlace place;      ///< kNone: the body is in its own medium
+  RegionLocation location;  ///< kNone: the body is in its own medium
   FlowMemory flow;
   AmbientCounters counters;
   std::unique_ptr<FloatingState> floating;  ///< null: the body meets no surface
@@ -216,8 +216,8 @@ struct AmbientBody {
     if (surface_media < 0) return nullptr;
     return &models->surfaces[static_cast<std::size_t>(surface_media)].model;
   }
-  /// Stand at that surface: the last result of standAt().
-  const SurfaceStand& stand() const { return floating->stand; }
+  /// Flotation at that surface: the last result of updateFlotations().
+  const Flotation& flotation() const { return floating->flotation; }
   /// Model whose inertia K defines the norm sqrt(x.K x) of velocity changes.
   const BodyModel& metric() const { return surface() ? surface()->below : model(); }
 };
@@ -226,8 +226,8 @@ struct AmbientBody {
 inline const HoldState* waterOf(const AmbientBody& ambient) noexcept {
   return ambient.vessel ? ambient.vessel->holds.data() : nullptr;
 }
-/// Returns the same with the place for what is inside at the stand of the body.
-inline VesselWater waterAtStand(AmbientBody& ambient) noexcept {
+/// Returns the same with the place for what is inside at the flotation of the body.
+inline VesselWater waterAtFlotation(AmbientBody& ambient) noexcept {
   if (!ambient.vessel) return {};
   VesselState& vessel = *ambient.vessel;
   return {vessel.holds.data(), &vessel.inside, vessel.sloshing.modes.data(), &vessel.sloshing,
@@ -235,7 +235,7 @@ inline VesselWater waterAtStand(AmbientBody& ambient) noexcept {
 }
 /// Gives a body the holds of its definition, and the water from the start; it keeps what it has if
 /// they are the same.
-void takeHolds(AmbientBody& ambient);
+void setHolds(AmbientBody& ambient);
 /// Gives a vessel a hole that its shape has not.
 void addHole(const AddedHole& hole, VesselState& vessel);
 
@@ -271,11 +271,11 @@ void addFlowAlong(const AmbientBody& ambient, const Quaternion& orientation,
 inline Surroundings surroundingsOf(const AmbientBody& ambient, const Vector3& gravity,
                                    const Wrench& applied) {
   return {gravity, applied, ambient.medium.velocity, ambient.medium.acceleration,
-          ambient.load_share};
+          ambient.load_scale};
 }
 
 /// Lets the wake of a smooth body follow its motion over a step of `duration` [s], and sets
-/// `load_share`; docs/theory.md eq. (51c), (51d).
+/// `load_scale`; docs/theory.md eq. (51c), (51d).
 void followWake(AmbientBody& ambient, const Twist& twist_W, double duration) noexcept;
 
 /// Lets the next flight of a body begin without memory of the last one, and in a wake of its own.
@@ -287,7 +287,7 @@ void forgetSurface(AmbientBody& ambient) noexcept;
 
 /// Gives a body a handle, once it is where it is kept: that of the entry that it replaces (null:
 /// none), whose name and reading it keeps, too.
-void takePlace(AmbientBody& ambient, const AmbientBody* before);
+void setHandle(AmbientBody& ambient, const AmbientBody* before);
 
 /// Gives a body other models, of its present mass or an earlier one. It stays in its medium, and at
 /// its surface unless they lack that.

@@ -13,8 +13,8 @@
 namespace ambient {
 namespace {
 
-// Returns the way of the water since the step began, after a time.
-Vector3 wayOfWater(const AmbientBody& ambient, double time) {
+// Returns the displacement of the water since the step began, after a time.
+Vector3 displacementOfWater(const AmbientBody& ambient, double time) {
   const Medium& water = ambient.medium;
   return time * water.velocity + time * time / 2 * water.acceleration;
 }
@@ -22,7 +22,7 @@ Vector3 wayOfWater(const AmbientBody& ambient, double time) {
 // Returns the plane in W after a time since the step began: it moves with the water.
 SurfacePlane movedPlane(const AmbientBody& ambient, double time) {
   SurfacePlane plane = ambient.floating->plane_W;
-  plane.height += plane.normal.dot(wayOfWater(ambient, time));
+  plane.height += plane.normal.dot(displacementOfWater(ambient, time));
   return plane;
 }
 
@@ -31,39 +31,38 @@ SurfacePlane movedPlane(const AmbientBody& ambient, double time) {
 StepModel::StepModel(const AmbientBody& ambient, double duration) noexcept {
   if (ambient.surface()) {
     freeze(ambient);
-    stiffen(ambient.stand(), ambient.stand().modes, duration);
+    stiffen(ambient.flotation(), ambient.flotation().modes, duration);
   } else {
     model_ = &ambient.model();
   }
 }
 
-StepModel::AtSurface::AtSurface(const SurfaceModel& at, const SurfaceStand& stand)
-    : model(modelAtStand(at, stand)) {}
+StepModel::AtSurface::AtSurface(const SurfaceModel& at, const Flotation& flotation)
+    : model(modelAtFlotation(at, flotation)) {}
 
 void StepModel::freeze(const AmbientBody& ambient) noexcept {
-  model_ = &at_surface_.emplace(*ambient.surface(), ambient.stand()).model;
+  model_ = &at_surface_.emplace(*ambient.surface(), ambient.flotation()).model;
 }
 
-void StepModel::stiffen(const SurfaceStand& stand, const FloatingModes& modes,
+void StepModel::stiffen(const Flotation& flotation, const FloatingModes& modes,
                         double duration) noexcept {
-  if (!(duration * stand.frequency > kLongestPhase)) return;
-  const Matrix6 stiff = stiffInertia(stand, modes, duration);
+  if (!(duration * flotation.frequency > kLongestPhase)) return;
+  const Matrix6 stiff = stiffInertia(flotation, modes, duration);
   const Cholesky<6> factors(stiff);
   if (!factors.isPositive()) return;
   at_surface_->model.inertia = stiff;
   at_surface_->model.inverse_inertia = factors.inverse();
 }
 
-void warnOfShortPeriod(const AmbientBody& ambient, double duration,
-                       Complaints& complaints) noexcept {
-  const double frequency = ambient.stand().frequency;
+void warnOfShortPeriod(const AmbientBody& ambient, double duration, Warnings& warnings) noexcept {
+  const double frequency = ambient.flotation().frequency;
   if (duration * frequency > kLongestPhase && duration * frequency > kPi / 2)
-    complaints.sayShortPeriod(*ambient.def, frequency, duration);
+    warnings.warnOfShortPeriod(*ambient.def, frequency, duration);
 }
 
 Vector6 kickByWavesAndWind(AmbientBody& ambient, const RigidState& now, double duration) noexcept {
   const SurfaceModel& model = *ambient.surface();
-  const SurfaceStand& stand = ambient.stand();
+  const Flotation& flotation = ambient.flotation();
   const Matrix3 R = now.orientation.toRotationMatrix();
   const Vector6 x = twistInWater(ambient, now);
   ambient.floating->twist_before_rows = x;
@@ -71,14 +70,14 @@ Vector6 kickByWavesAndWind(AmbientBody& ambient, const RigidState& now, double d
   ambient.floating->brake.setZero();
   WaveMemory& waves = ambient.floating->waves_with_rows;
   waves = ambient.floating->waves;
-  Vector6 end = exchangeWaves(stand.modes, R, stand.inverse, duration, x, waves);
+  Vector6 end = exchangeWaves(flotation.modes, R, flotation.inverse, duration, x, waves);
   end.head<3>() = x.head<3>() + model.withoutStill(end.head<3>() - x.head<3>());
   if (model.loads_above.loads) {
     const Vector3 wind_W = ambient.medium.velocity - ambient.floating->velocity_above;
-    end = takeWind(model, stand, R.transpose() * wind_W, duration, end);
+    end = kickByWind(model, flotation, R.transpose() * wind_W, duration, end);
     countLoads(ambient, 1);
   }
-  if (stand.inside_F) end = sloshForRows(ambient, now, duration, end);
+  if (flotation.inside_F) end = sloshForRows(ambient, now, duration, end);
   return end - x;
 }
 
@@ -117,11 +116,11 @@ BoundedTwist withinPotential(const BeforeRows& before, const HydrostaticLoad& af
   const double rate = along.dot(x);
   if (!(excess > 0) || rate == 0) return {x};
   const Vector6 response = before.response * along;
-  const double per_part = along.dot(response), square = rate * rate - 2 * per_part * excess;
-  if (!(per_part > 0)) return {x};
+  const double mobility = along.dot(response), square = rate * rate - 2 * mobility * excess;
+  if (!(mobility > 0)) return {x};
   const double part =
-      square > 0 ? 2 * excess / (std::abs(rate) + std::sqrt(square)) : std::abs(rate) / per_part;
-  const double removed = part * (std::abs(rate) - part / 2 * per_part);
+      square > 0 ? 2 * excess / (std::abs(rate) + std::sqrt(square)) : std::abs(rate) / mobility;
+  const double removed = part * (std::abs(rate) - part / 2 * mobility);
   return {x - std::copysign(part, rate) * response, removed};
 }
 
@@ -135,60 +134,60 @@ HydrostaticLoad hydrostaticsAt(const SurfaceModel& model, const SurfacePlane& pl
   return {plane_B, wet, weighingMass(model)};
 }
 
-// Returns weight and buoyancy of a body at its last stand.
+// Returns weight and buoyancy of a body at its last flotation.
 HydrostaticLoad hydrostaticsOf(const AmbientBody& ambient) {
   const SurfaceModel& model = *ambient.surface();
-  const SurfaceStand& stand = ambient.stand();
-  return hydrostaticsAt(model, stand.plane, wetVolume(model, stand));
+  const Flotation& flotation = ambient.flotation();
+  return hydrostaticsAt(model, flotation.plane, wetVolume(model, flotation));
 }
 
-// Returns the same with the energy at a plane in B that differs from that of the stand by the
+// Returns the same with the energy at a plane in B that differs from that of the flotation by the
 // rounding of Bullet's poses.
 HydrostaticLoad hydrostaticsOf(const AmbientBody& ambient, const SurfacePlane& plane) {
   const SurfaceModel& model = *ambient.surface();
-  const SurfaceStand& stand = ambient.stand();
+  const Flotation& flotation = ambient.flotation();
   HydrostaticLoad hydrostatics = hydrostaticsOf(ambient);
   hydrostatics.potential +=
-      energyOfRounding(model, stand, plane) -
-      weighingMass(model) * plane.gravity * (plane.height - stand.plane.height);
+      energyOfRounding(model, flotation, plane) -
+      weighingMass(model) * plane.gravity * (plane.height - flotation.plane.height);
   return hydrostatics;
 }
 
-// Returns K_eff^-1 of eq. (30) for a body at a stand, in B.
-Matrix6 responseOf(const SurfaceStand& stand, const RowPassage& passage) {
-  if (passage.factors.areFree()) return stand.inverse.full();
-  const Matrix3& R = passage.pose.rotation;
-  return rotateAxes(lockedInverse(rotateAxes(stand.inertia.full(), R), passage.factors),
+// Returns K_eff^-1 of eq. (30) for a body at a flotation, in B.
+Matrix6 responseOf(const Flotation& flotation, const BodyMovedByRows& moved) {
+  if (moved.factors.areFree()) return flotation.inverse.full();
+  const Matrix3& R = moved.pose.rotation;
+  return rotateAxes(lockedInverse(rotateAxes(flotation.inertia.full(), R), moved.factors),
                     R.transpose());
 }
 
-// Returns where a body is before its passage.
-BeforeRows beforeRows(const RowPassage& passage) {
-  const AmbientBody& ambient = *passage.body;
-  const SurfaceStand& stand = ambient.stand();  // since standNow()
-  BeforeRows before{stand, hydrostaticsOf(ambient, ambient.floating->plane_before_rows),
-                    responseOf(stand, passage)};
-  if (passage.hydrostatics) before.hydrostatics.wrench = *passage.hydrostatics;
+// Returns where a body is before its added mass changes.
+BeforeRows beforeRows(const BodyMovedByRows& moved) {
+  const AmbientBody& ambient = *moved.body;
+  const Flotation& flotation = ambient.flotation();  // since flotationNow()
+  BeforeRows before{flotation, hydrostaticsOf(ambient, ambient.floating->plane_before_rows),
+                    responseOf(flotation, moved)};
+  if (moved.hydrostatics) before.hydrostatics.wrench = *moved.hydrostatics;
   before.hydrostatics.wrench += ambient.floating->brake;
   return before;
 }
 
-// Lets a body pass from `before` to its present stand, over a time [s].
-void passFrom(const BeforeRows& before, RowPassage& passage, double duration) {
-  AmbientBody& ambient = *passage.body;
-  const SurfaceStand& after = ambient.stand();
+// Changes the added mass of a body from `before` to its present flotation, over a time [s].
+void changeFrom(const BeforeRows& before, BodyMovedByRows& moved, double duration) {
+  AmbientBody& ambient = *moved.body;
+  const Flotation& after = ambient.flotation();
   SurfacePlace place = before.place;
-  BoundedTwist& end = passage.twist;
+  BoundedTwist& end = moved.twist;
   end = withinPotential(before, hydrostaticsOf(ambient), duration,
                         ambient.floating->twist_before_rows, end.twist);
   const double removed = end.energy_removed;
   Vector6 x = end.twist;
   if (after.inside_F)
-    x = arriveWithWater(ambient, passage.pose.rotation,
-                        passage.pose.translation - wayOfWater(ambient, duration),
-                        passage.keeps_momentum, x, place.inertia);
-  end = passage.keeps_momentum
-            ? passSurface(*ambient.surface(), place, after, duration, x)
+    x = arriveWithWater(ambient, moved.pose.rotation,
+                        moved.pose.translation - displacementOfWater(ambient, duration),
+                        moved.keeps_momentum, x, place.inertia);
+  end = moved.keeps_momentum
+            ? applyAddedMassChange(*ambient.surface(), place, after, duration, x)
             : scaledWithin(x, x.dot(after.inertia.full() * x), x.dot(place.inertia.full() * x));
   end.energy_removed += removed;
 }
@@ -206,8 +205,8 @@ Vector6 StepModel::floatAt(const AmbientBody& ambient, const FrameOffset& pose,
 
 double errorOfBuoyancy(const SurfaceModel& model, const SurfacePlane& plane, double speed,
                        double duration) noexcept {
-  const double way = duration * speed;
-  return kPi / 2 * plane.density * plane.gravity * model.radius * model.radius * way * way;
+  const double path = duration * speed;
+  return kPi / 2 * plane.density * plane.gravity * model.radius * model.radius * path * path;
 }
 
 namespace {
@@ -215,11 +214,11 @@ namespace {
 // True if a body at the twist `end` in B may come to a place of more energy than it had in all.
 bool mayReachTooFar(const AmbientBody& ambient, double duration, const Vector6& end) {
   const SurfaceModel& model = *ambient.surface();
-  const SurfaceStand& stand = ambient.stand();
-  if (duration * stand.frequency > kLongestPhase) return true;
+  const Flotation& flotation = ambient.flotation();
+  if (duration * flotation.frequency > kLongestPhase) return true;
   const double speed = end.tail<3>().norm() + model.radius * end.head<3>().norm();
-  return end.dot(stand.inertia.full() * end) <
-         2 * errorOfBuoyancy(model, stand.plane, speed, duration);
+  return end.dot(flotation.inertia.full() * end) <
+         2 * errorOfBuoyancy(model, flotation.plane, speed, duration);
 }
 
 }  // namespace
@@ -244,7 +243,7 @@ double reachWithRows(AmbientBody& ambient, const RigidState& start, const Surrou
     return hydrostaticsAt(model, plane_B, wet).potential - t * velocity_W.dot(pushed_W);
   };
   const Vector6& x = floating.twist_before_rows;
-  const double kinetic = x.dot(ambient.stand().inertia.full() * x) / 2;
+  const double kinetic = x.dot(ambient.flotation().inertia.full() * x) / 2;
   const double before = energyAt(0);
   const double most =
       before + kinetic + floating.waves.energy() - floating.waves_with_rows.energy();
@@ -255,22 +254,23 @@ double reachWithRows(AmbientBody& ambient, const RigidState& start, const Surrou
 }
 
 void brakeWithRows(AmbientBody& ambient, const Vector6& x, double part, double duration) noexcept {
-  ambient.floating->brake = (part - 1) / duration * (ambient.stand().inertia.full() * x);
+  ambient.floating->brake = (part - 1) / duration * (ambient.flotation().inertia.full() * x);
 }
 
-void passWithRows(RowPassage* passages, int count, double duration) noexcept {
+void applyAddedMassChanges(BodyMovedByRows* moved, int count, double duration) noexcept {
   AMBIENT_ASSERT(count > 0 && count <= kFlightsTogether);
   std::optional<BeforeRows> before[kFlightsTogether];
   AmbientBody* bodies[kFlightsTogether] = {};
   for (int i = 0; i < count; ++i) {
-    bodies[i] = passages[i].body;
-    before[i] = beforeRows(passages[i]);
-    moveStandTo(seenFrom(movedPlane(*bodies[i], duration), passages[i].pose), *bodies[i]->floating);
+    bodies[i] = moved[i].body;
+    before[i] = beforeRows(moved[i]);
+    moveFlotationTo(seenFrom(movedPlane(*bodies[i], duration), moved[i].pose),
+                    *bodies[i]->floating);
   }
-  completeStandsOf(bodies, count);
+  completeFlotationsOf(bodies, count);
   for (int i = 0; i < count; ++i) {
     bodies[i]->floating->plane_W = movedPlane(*bodies[i], duration);
-    passFrom(*before[i], passages[i], duration);
+    changeFrom(*before[i], moved[i], duration);
   }
 }
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/motion/surface/stand_lanes.h"
+#include "bullet_ambient/motion/surface/flotation_lanes.h"
 
 namespace ambient {
 namespace {
@@ -23,56 +23,56 @@ bool isSame(const SurfacePlane& a, const SurfacePlane& b) {
 
 }  // namespace
 
-void moveStandTo(const SurfacePlane& plane_B, FloatingState& floating) noexcept {
-  if (floating.is_valid && isSame(floating.stand.plane, plane_B)) {
+void moveFlotationTo(const SurfacePlane& plane_B, FloatingState& floating) noexcept {
+  if (floating.is_valid && isSame(floating.flotation.plane, plane_B)) {
     floating.has_plane = true;
   } else {
     floating.setPlane(plane_B);
   }
 }
 
-void completeStandsOf(AmbientBody* const* bodies, int count) noexcept {
+void completeFlotationsOf(AmbientBody* const* bodies, int count) noexcept {
   const SurfaceModel* models[kFlightsTogether] = {};
-  SurfaceStand* stands[kFlightsTogether] = {};
+  Flotation* flotations[kFlightsTogether] = {};
   int made = 0;
   for (int i = 0; i < count; ++i) {
     FloatingState& floating = *bodies[i]->floating;
     if (floating.is_valid) continue;
     const SurfaceModel& model = *bodies[i]->surface();
-    static_cast<SurfacePlace&>(floating.stand) =
-        placeAt(model, floating.stand.plane, waterAtStand(*bodies[i]));
+    static_cast<SurfacePlace&>(floating.flotation) =
+        placeAt(model, floating.flotation.plane, waterAtFlotation(*bodies[i]));
     floating.is_valid = true;
     models[made] = &model;
-    stands[made++] = &floating.stand;
+    flotations[made++] = &floating.flotation;
   }
-  if (made > 0) completeStands(models, stands, made);
+  if (made > 0) completeFlotations(models, flotations, made);
 }
 
-BodyModel modelAtStand(const SurfaceModel& at, const SurfaceStand& stand) {
-  BodyModel model = frozenAt(at, stand);
+BodyModel modelAtFlotation(const SurfaceModel& at, const Flotation& flotation) {
+  BodyModel model = frozenAt(at, flotation);
   const PartLoads& below = at.loads_below;
   if (!below.loads) return model;
   model.loads = below.loads;
   model.load_frame = below.frame;
-  model.wet =
-      WetPart{seenFrom(stand.plane, below.frame), wetShare(stand.immersion_F, at.shape->volume)};
+  model.wet = WetPart{seenFrom(flotation.plane, below.frame),
+                      wetShare(flotation.immersion_F, at.shape->volume)};
   giveResistance(model, below.resistance);
   return model;
 }
 
 namespace {
 
-// Sets the plane of the stand to that at a pose, unless they differ by the rounding of the pose
+// Sets the plane of the flotation to that at a pose, unless they differ by the rounding of the pose
 // only.
-void takePlane(AmbientBody& ambient, const RigidState& state, double rounding) {
+void updatePlane(AmbientBody& ambient, const RigidState& state, double rounding) {
   constexpr double kRoundings = 64;
   FloatingState& floating = *ambient.floating;
   const SurfacePlane plane_B = planeAt(ambient, state);
   const double size = ambient.surface()->radius + state.position.norm();
   if (floating.has_plane &&
-      isSameButRounding(floating.stand.plane, plane_B, size, kRoundings * rounding))
+      isSameButRounding(floating.flotation.plane, plane_B, size, kRoundings * rounding))
     return;
-  moveStandTo(plane_B, floating);
+  moveFlotationTo(plane_B, floating);
 }
 
 }  // namespace
@@ -148,50 +148,51 @@ SurfaceSide enterSurface(AmbientBody& ambient, const NearSurface& near, const Re
   if (!is_cut) return SurfaceSide::kAt;
   ambient.flow_along->sides_F = sides_F;
   floating.plane_W.sides_F = &ambient.flow_along->sides_F;
-  ambient.floating->has_plane = ambient.floating->is_valid = false;  // its stand had other sides
+  ambient.floating->has_plane = ambient.floating->is_valid =
+      false;  // its flotation had other sides
   return SurfaceSide::kAt;
 }
 
-void standAt(AmbientBody* const* bodies, const RigidState* states, int count,
-             double rounding) noexcept {
+void updateFlotations(AmbientBody* const* bodies, const RigidState* states, int count,
+                      double rounding) noexcept {
   AMBIENT_ASSERT(count > 0 && count <= kFlightsTogether);
-  for (int i = 0; i < count; ++i) takePlane(*bodies[i], states[i], rounding);
-  completeStandsOf(bodies, count);
+  for (int i = 0; i < count; ++i) updatePlane(*bodies[i], states[i], rounding);
+  completeFlotationsOf(bodies, count);
 }
 
 BodyModel modelNow(const AmbientBody& ambient, const MotionView& now) {
   const SurfaceModel* surface = ambient.surface();
   if (!surface) return ambient.model();
   WaterInside inside;
-  return modelAtStand(
-      *surface, standAtSurface(*surface, planeAt(ambient, now.state), {waterOf(ambient), &inside}));
+  return modelAtFlotation(
+      *surface, flotationAt(*surface, planeAt(ambient, now.state), {waterOf(ambient), &inside}));
 }
 
-const SurfaceStand& standNow(AmbientBody& ambient, const MotionView& now) noexcept {
+const Flotation& flotationNow(AmbientBody& ambient, const MotionView& now) noexcept {
   AmbientBody* const body = &ambient;
-  standAt(&body, &now.state, 1, now.rounding);
-  return ambient.stand();
+  updateFlotations(&body, &now.state, 1, now.rounding);
+  return ambient.flotation();
 }
 
 std::optional<SurfacePlane> lastPlane(const AmbientBody& ambient) noexcept {
   if (!ambient.floating || !ambient.floating->has_plane) return std::nullopt;
-  return ambient.stand().plane;
+  return ambient.flotation().plane;
 }
 
 void restoreFloating(AmbientBody& ambient, const RigidState& now, int media) noexcept {
   FloatingState& floating = *ambient.floating;
   AMBIENT_ASSERT(ambient.floating->has_plane);
   ambient.surface_media = media;
-  const SurfacePlane met = ambient.stand().plane;
+  const SurfacePlane met = ambient.flotation().plane;
   const Vector3 normal_W = now.orientation * met.normal;
   floating.plane_W = {normal_W, met.height + normal_W.dot(now.position), met.density, met.gravity};
   ambient.floating->setPlane(met);
   AmbientBody* const body = &ambient;
-  completeStandsOf(&body, 1);
+  completeFlotationsOf(&body, 1);
 }
 
 bool mayRestAtSurface(AmbientBody& ambient, const MotionView& now) noexcept {
-  return isStable(*ambient.surface(), standNow(ambient, now));
+  return isStable(*ambient.surface(), flotationNow(ambient, now));
 }
 
 }  // namespace ambient

@@ -51,13 +51,13 @@ bool isWaterAt(const Vector3& point_W, const AmbientBody& ambient, const FluidRe
 
 // True if a body outside of a pool, at the height of its bounds, reaches over its rim.
 bool reachesOver(const MotionView& now, const FluidRegion& pool, const SurfaceModel& model) {
-  const Vector3 way = pointIn(pool, now.centre()) - now.centre();
+  const Vector3 offset = pointIn(pool, now.centre()) - now.centre();
   const Matrix3 to_body = now.rotation().transpose();
   for (int axis = 0; axis < 3; ++axis) {
-    if (way[axis] == 0) continue;
+    if (offset[axis] == 0) continue;
     if (!areUpright(now, axis)) return false;
-    const Vector3 in_B = to_body * (std::copysign(1, way[axis]) * Vector3::Unit(axis));
-    if (!(reachAlong(model, in_B) > std::abs(way[axis]))) return false;
+    const Vector3 in_B = to_body * (std::copysign(1, offset[axis]) * Vector3::Unit(axis));
+    if (!(reachAlong(model, in_B) > std::abs(offset[axis]))) return false;
   }
   return true;
 }
@@ -115,16 +115,16 @@ PoolSides findSides(const AmbientBody& ambient, const MotionView& now, const Flu
     if (!areUpright(now, axis)) continue;
     const RegionBounds& bounds = *pool.region.bounds;
     const double place = (out < 0 ? bounds.lowest : bounds.highest)[axis];
-    const double way = out * (place - centre[axis]);
-    if (!(way < model->radius)) continue;
+    const double offset = out * (place - centre[axis]);
+    if (!(offset < model->radius)) continue;
     const Vector3 out_B = to_body * (out * Vector3::Unit(axis));
     const double high = reachAlong(*model, out_B);
-    if (!(way < high)) continue;
+    if (!(offset < high)) continue;
     Vector3 beyond = pointIn(pool.region, centre);
-    beyond[axis] = place + out * (high - way) / 2;
+    beyond[axis] = place + out * (high - offset) / 2;
     if (isWaterAt(beyond, ambient, regions, pool.region)) continue;
     sides.of[sides.count++] = {frame.rotation.transpose() * out_B,
-                               frame.rotation.transpose() * (way * out_B - frame.translation)};
+                               frame.rotation.transpose() * (offset * out_B - frame.translation)};
   }
   return sides;
 }
@@ -141,11 +141,11 @@ Wrench resistanceOfGrowth(const AmbientBody& ambient, const RigidState& state, d
     PoolSides::Side& side = before.of[i];
     side.point += duration * velocity_F.dot(side.normal) * side.normal;
   }
-  SurfacePlane plane_B = ambient.stand().plane;
+  SurfacePlane plane_B = ambient.flotation().plane;
   plane_B.sides_F = &before;
   WaterInside inside;
   const SurfacePlace at = placeAt(model, plane_B, {waterOf(ambient), &inside});
-  const Matrix6 growth = ambient.stand().inertia.full() - at.inertia.full();
+  const Matrix6 growth = ambient.flotation().inertia.full() - at.inertia.full();
   Twist relative = state.twist;
   relative.linear -= state.orientation.conjugate() * ambient.medium.velocity;
   const Vector6 x = relative.vector(), momentum = growth * x;
@@ -156,7 +156,7 @@ Wrench resistanceOfGrowth(const AmbientBody& ambient, const RigidState& state, d
 
 void findSidePush(AmbientBody& ambient, const MotionView& now, double duration) noexcept {
   const SurfaceModel& model = *ambient.surface();
-  const SurfacePlane& plane_F = standNow(ambient, now).immersion_F.plane;
+  const SurfacePlane& plane_F = flotationNow(ambient, now).immersion_F.plane;
   const Quaternion& q = now.state.orientation;
   const auto inWorld = [&q](const Wrench& f) { return Wrench{q * f.torque, q * f.force}; };
   FlowAlongBody& flow = *ambient.flow_along;
@@ -210,7 +210,7 @@ double halfHeight(const AmbientBody& ambient, const MotionView& now,
   if (!region.flow_above || !region.surface) return 0;
   const BodyStations& of_body = ambient.models->stations;
   const Vector3 up_B = now.state.orientation.conjugate() * region.surface->up();
-  return (of_body.ways_B.transpose() * up_B).cwiseAbs().sum() / std::sqrt(0.6);
+  return (of_body.offsets_B.transpose() * up_B).cwiseAbs().sum() / std::sqrt(0.6);
 }
 
 StationSamples::StationSamples(const AmbientBody& ambient, const MotionView& now,
@@ -226,16 +226,17 @@ StationSamples::StationSamples(const AmbientBody& ambient, const MotionView& now
   const BodyStations& of_body = ambient.models->stations;
   for (int axis = 0; axis < kPairs; ++axis) {
     if (!isTaken(around, of_body.lengths[axis])) continue;
-    const Vector3 way_W = to_world_ * of_body.ways_B.col(axis);
-    stations_[2 * axis].way_W = way_W;
-    stations_[2 * axis + 1].way_W = -way_W;
-    for (int side = 0; side < 2; ++side) take(ambient, regions, around, stations_[2 * axis + side]);
+    const Vector3 offset_W = to_world_ * of_body.offsets_B.col(axis);
+    stations_[2 * axis].offset_W = offset_W;
+    stations_[2 * axis + 1].offset_W = -offset_W;
+    for (int side = 0; side < 2; ++side)
+      sampleAt(ambient, regions, around, stations_[2 * axis + side]);
   }
 }
 
-void StationSamples::take(const AmbientBody& ambient, const FluidRegions& regions,
-                          const RegionsAround& around, Station& station) noexcept {
-  const Vector3 point_W = centre_W_ + station.way_W;
+void StationSamples::sampleAt(const AmbientBody& ambient, const FluidRegions& regions,
+                              const RegionsAround& around, Station& station) noexcept {
+  const Vector3 point_W = centre_W_ + station.offset_W;
   long long asked = 0;
   const RegionEntry* entry = around.is_alone ? around.entry : regions.index().find(point_W, asked);
   if (!entry) {
@@ -283,14 +284,14 @@ void StationSamples::fitSurface(const Vector3& gravity, RegionSample& sample) co
   for (int i = 0; i < 2 * kPairs; ++i) {
     const Station& station = stations_[i];
     if (!isUsed(i / 2) || !station.has_surface) continue;
-    const double rise = up.dot(station.way_W);
-    const Vector3 way = station.way_W - rise * up;
+    const double rise = up.dot(station.offset_W);
+    const Vector3 offset = station.offset_W - rise * up;
     const double above =
-        station.sample.height - centre_.height + rise - slope.dot(way);  // that plane
+        station.sample.height - centre_.height + rise - slope.dot(offset);  // that plane
     sample.height += kWeight * above;
-    sum += kWeight * above * way;
-    squares += kWeight * way * way.transpose();
-    squares += kUpright * kWeight * station.way_W.squaredNorm() * Matrix3::Identity();
+    sum += kWeight * above * offset;
+    squares += kWeight * offset * offset.transpose();
+    squares += kUpright * kWeight * station.offset_W.squaredNorm() * Matrix3::Identity();
   }
   if (squares.trace() > 0) sample.tilt = squares.inverse() * sum;
 }
@@ -300,7 +301,7 @@ StationSamples::AxisFlow StationSamples::alongAxis(int axis, Medium RegionSample
   const Vector3 ahead = to_body * difference(2 * axis, side, &Medium::velocity);
   const Vector3 behind = to_body * difference(2 * axis + 1, side, &Medium::velocity);
   AxisFlow flow;
-  flow.way_B = to_body * stations_[2 * axis].way_W;
+  flow.offset_B = to_body * stations_[2 * axis].offset_W;
   for (int i = 0; i < 3; ++i) flow.even_B[i] = lesserOf(ahead[i], -behind[i]);
   flow.ahead_B = ahead - flow.even_B;
   flow.behind_B = behind + flow.even_B;
@@ -317,8 +318,9 @@ Vector3 StationSamples::turning(const AxisFlow (&axes)[kPairs], Vector3 AxisFlow
   Matrix3 moments = Matrix3::Zero();
   Vector3 sum = Vector3::Zero();
   for (const AxisFlow& axis : axes) {
-    moments += axis.way_B.squaredNorm() * Matrix3::Identity() - axis.way_B * axis.way_B.transpose();
-    sum += axis.way_B.cross(axis.*ahead_B);
+    moments += axis.offset_B.squaredNorm() * Matrix3::Identity() -
+               axis.offset_B * axis.offset_B.transpose();
+    sum += axis.offset_B.cross(axis.*ahead_B);
   }
   if (sum.isZero(0)) return sum;
   moments.diagonal().array() += kThin * moments.trace();
@@ -328,11 +330,11 @@ Vector3 StationSamples::turning(const AxisFlow (&axes)[kPairs], Vector3 AxisFlow
 void StationSamples::divide(const AxisFlow& axis, FlowAlongBody& flow) {
   const Vector3 mean = kWeight * (axis.ahead_B + axis.behind_B);
   const Vector3 rest_B[] = {-mean, axis.ahead_B - mean, axis.behind_B - mean};
-  const Vector3 ways_B[] = {Vector3::Zero(), axis.way_B, -axis.way_B};
+  const Vector3 offsets_B[] = {Vector3::Zero(), axis.offset_B, -axis.offset_B};
   flow.stations = 3;
   for (int i = 0; i < 3; ++i) {
     flow.twists_B[i] = {flow.twists_B[0].angular, rest_B[i]};
-    flow.places_B[i] = ways_B[i];
+    flow.places_B[i] = offsets_B[i];
     flow.weights[i] = i == 0 ? 1 - 2 * kWeight : kWeight;
   }
 }
@@ -366,28 +368,29 @@ double displacedFluid(const AmbientBody& ambient) {
   const SurfaceModel* surface = ambient.surface();
   if (!surface) return ambient.model().displaced_mass;
   return surface->above.displaced_mass +
-         surface->excess_density * ambient.stand().immersion_F.wet.volume;
+         surface->excess_density * ambient.flotation().immersion_F.wet.volume;
 }
 
 // Returns the wrench in B by which fluid that is spun up takes a body along, eq. (88).
 Wrench pushBySpinUp(AmbientBody& ambient, const MotionView& now) {
   const SurfaceModel* const surface = ambient.surface();
-  Matrix6 inertia = surface ? standNow(ambient, now).inertia.full() : ambient.model().inertia;
-  if (surface && ambient.stand().inside_F) inertia -= ambient.stand().inside_F->inertia.full();
+  Matrix6 inertia = surface ? flotationNow(ambient, now).inertia.full() : ambient.model().inertia;
+  if (surface && ambient.flotation().inside_F)
+    inertia -= ambient.flotation().inside_F->inertia.full();
   const Vector3& rate = ambient.flow_along->spin_up_B;
   Wrench push = Wrench::fromVector(inertia.leftCols<3>() * rate);
   push.torque -= ambient.models->inverse_mass.moments().cwiseProduct(rate);
   const double mass = 2 * kWeight * displacedFluid(ambient);
-  const Matrix3& ways = ambient.models->stations.ways_B;
-  push.torque += mass * (ways.squaredNorm() * rate - ways * (ways.transpose() * rate));
+  const Matrix3& offsets = ambient.models->stations.offsets_B;
+  push.torque += mass * (offsets.squaredNorm() * rate - offsets * (offsets.transpose() * rate));
   return push;
 }
 
 // Returns the layers around a body; null: there are none.
 const DensityLayers* layersAround(const AmbientBody& ambient, const FluidRegions& regions) {
-  if (!regions.haveLayers() || ambient.place.is_above || ambient.in_hold >= 0) return nullptr;
+  if (!regions.haveLayers() || ambient.location.is_above || ambient.in_hold >= 0) return nullptr;
   if (!(ambient.def->fluid_body->volume > 0)) return nullptr;
-  const auto entry = regions.all().find(ambient.place.region);
+  const auto entry = regions.all().find(ambient.location.region);
   return entry == regions.all().end() ? nullptr : entry->second.region.layers.get();
 }
 
@@ -399,7 +402,7 @@ double surfaceAt(const AmbientBody& ambient, const Vector3& up, const Vector3& c
 }
 
 // Finds what buoyancy in layers adds to that in a fluid of constant density, in the middle of the
-// way that the velocity leads the body in the step, and multiplies AmbientBody::load_share by the
+// way that the velocity leads the body in the step, and multiplies AmbientBody::load_scale by the
 // density there over that of the medium; eq. (180).
 void findLayerPush(AmbientBody& ambient, const MotionView& now, const DensityLayers& layers,
                    double duration) {
@@ -417,7 +420,7 @@ void findLayerPush(AmbientBody& ambient, const MotionView& now, const DensityLay
   const Vector3 lift = ambient.medium.acceleration - now.gravity;
   ambient.flow_along->layers_W = {moment_W.cross(lift), excess.mass * lift};
   const double height = up.dot(centre + R * ambient.model().centre_of_volume);
-  ambient.load_share *= layers.density(std::min(height, surface)) / reference;
+  ambient.load_scale *= layers.density(std::min(height, surface)) / reference;
 }
 
 }  // namespace
@@ -437,8 +440,9 @@ void findPushes(AmbientBody& ambient, const MotionView& now, const FluidRegions&
   }
   const SurfaceModel* surface = ambient.surface();
   flow.at_rest_B =
-      surface ? loadBelow(*surface, standNow(ambient, now), {}, ambient.load_share, &flow).wrench
-              : computeSurfaceLoad(ambient.model(), {}, ambient.load_share, &flow).wrench;
+      surface
+          ? loadBelow(*surface, flotationNow(ambient, now), {}, ambient.load_scale, &flow).wrench
+          : computeSurfaceLoad(ambient.model(), {}, ambient.load_scale, &flow).wrench;
   countLoads(ambient, 1);
 }
 

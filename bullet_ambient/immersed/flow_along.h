@@ -68,19 +68,19 @@ class StationSamples {
  private:
   static constexpr int kPairs = 3;
   struct Station {
-    Vector3 way_W{0, 0, 0};
+    Vector3 offset_W{0, 0, 0};
     RegionSample sample;
     bool has_surface = false;  // of StationSamples::surface_
   };
 
-  void take(const AmbientBody& ambient, const FluidRegions& regions, const RegionsAround& around,
-            Station& station) noexcept;
-  bool isUsed(int axis) const { return !stations_[2 * axis].way_W.isZero(0); }
+  void sampleAt(const AmbientBody& ambient, const FluidRegions& regions,
+                const RegionsAround& around, Station& station) noexcept;
+  bool isUsed(int axis) const { return !stations_[2 * axis].offset_W.isZero(0); }
   Vector3 difference(int station, Medium RegionSample::*side, Vector3 Medium::*what) const;
   Vector3 meanDifference(Medium RegionSample::*side, Vector3 Medium::*what) const;
   // Velocities at the stations of an axis less that at the centre, in B [m/s].
   struct AxisFlow {
-    Vector3 way_B{0, 0, 0};
+    Vector3 offset_B{0, 0, 0};
     Vector3 even_B{0, 0, 0};  // what grows evenly along the axis, at the station ahead
     Vector3 ahead_B{0, 0, 0}, behind_B{0, 0, 0};  // the rest
     Vector3 acceleration_B{0, 0, 0};              // odd part, at the station ahead [m/s^2]

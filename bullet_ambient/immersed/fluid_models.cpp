@@ -36,9 +36,9 @@ BodyStations makeBodyStations(const AttachDef& def) {
   for (int axis = 0; axis < 3; ++axis) {
     if (!(lengths[axis] > kShort * lengths.maxCoeff())) continue;
     stations.lengths[axis] = lengths[axis];
-    const double way = std::sqrt(0.6) / 2 * lengths[axis];
-    stations.ways_B.col(axis) = way * axes_B.col(axis);
-    stations.reach = std::max(stations.reach, way);
+    const double offset = std::sqrt(0.6) / 2 * lengths[axis];
+    stations.offsets_B.col(axis) = offset * axes_B.col(axis);
+    stations.reach = std::max(stations.reach, offset);
   }
   stations.still_axis_B = def.fluid_frame.rotation * axisOfRevolution(shape);
   return stations;
@@ -163,7 +163,7 @@ int FluidModels::findSurface(const SurfaceKind& kind) const noexcept {
   return found == surfaces.end() ? -1 : static_cast<int>(found - surfaces.begin());
 }
 
-std::shared_ptr<const AttachDef> shareDef(AttachDef def, ModelTables& tables) {
+std::shared_ptr<const AttachDef> internDef(AttachDef def, ModelTables& tables) {
   Key key = keyOf(def);
   append(key, def.medium.velocity);
   append(key, def.medium.acceleration);

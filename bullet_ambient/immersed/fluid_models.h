@@ -41,9 +41,9 @@ struct BodyStations {
   /// Weight of each outer station; that of the middle one is 1 less all others.
   static constexpr double kWeight = 5.0 / 18;
 
-  /// Columns: ways from the centre of mass to one of both stations of an axis [m], in B; the other
-  /// is opposite. Zero: the body is short along this axis, or has no size.
-  Matrix3 ways_B = Matrix3::Zero();
+  /// Columns: offsets from the centre of mass to one of both stations of an axis [m], in B; the
+  /// other is opposite. Zero: the body is short along this axis, or has no size.
+  Matrix3 offsets_B = Matrix3::Zero();
   Vector3 lengths{0, 0, 0};  ///< of the bars [m]
   double reach = 0;          ///< largest distance of a station from the centre of mass [m]
   /// Axis of a body of revolution, in B: the pressure of no flow spins it about that; else 0.
@@ -93,7 +93,7 @@ struct ModelTables {
 };
 
 /// Returns a definition that equal ones without a name share.
-std::shared_ptr<const AttachDef> shareDef(AttachDef def, ModelTables& tables);
+std::shared_ptr<const AttachDef> internDef(AttachDef def, ModelTables& tables);
 
 /// Makes the models of a body in its own medium and, if it follows regions, in their fluids; or
 /// returns those of an equal body.

@@ -19,7 +19,7 @@ RegionBounds boxOf(const FluidRegion& region) noexcept {
 }
 
 // Returns the place of a region along an axis: the middle of its bounds, or the end that is finite.
-double placeOf(const RegionEntry* entry, int axis) noexcept {
+double middleOf(const RegionEntry* entry, int axis) noexcept {
   if (!entry || !entry->region.bounds) return 0;
   const double low = entry->region.bounds->lowest[axis], high = entry->region.bounds->highest[axis];
   if (std::isinf(low)) return std::isinf(high) ? 0 : high;
@@ -28,7 +28,7 @@ double placeOf(const RegionEntry* entry, int axis) noexcept {
 
 // True if a box may hold a part of the cube with its half edge `reach` around a point. False is
 // certain: a point whose numbers are not finite is left to the bounds of each region.
-bool mayMeet(const RegionBounds& box, const Vector3& point, double reach) noexcept {
+bool mayOverlap(const RegionBounds& box, const Vector3& point, double reach) noexcept {
   for (int axis = 0; axis < 3; ++axis)
     if (point[axis] < box.lowest[axis] - reach || point[axis] > box.highest[axis] + reach)
       return false;
@@ -36,13 +36,13 @@ bool mayMeet(const RegionBounds& box, const Vector3& point, double reach) noexce
 }
 
 // True if a region holds all of the cube.
-bool holdsAll(const FluidRegion& region, const Vector3& point_W, double reach) noexcept {
+bool containsAll(const FluidRegion& region, const Vector3& point_W, double reach) noexcept {
   const Vector3 half = Vector3::Constant(reach);
   return !region.bounds ||
          (region.bounds->hold(point_W - half) && region.bounds->hold(point_W + half));
 }
 
-bool holds(const FluidRegion& region, const Vector3& point_W) noexcept {
+bool contains(const FluidRegion& region, const Vector3& point_W) noexcept {
   return !region.bounds || region.bounds->hold(point_W);
 }
 
@@ -112,8 +112,8 @@ void RegionIndex::sortLeaves(RegionEntry** begin, std::size_t count) {
   for (int axis = 0; axis < 3; ++axis) {
     double low = kInfinity, high = -kInfinity;
     std::for_each(begin, end, [&](const RegionEntry* entry) {
-      low = std::min(low, placeOf(entry, axis));
-      high = std::max(high, placeOf(entry, axis));
+      low = std::min(low, middleOf(entry, axis));
+      high = std::max(high, middleOf(entry, axis));
     });
     if (!(high - low > width)) continue;
     width = high - low;
@@ -121,7 +121,7 @@ void RegionIndex::sortLeaves(RegionEntry** begin, std::size_t count) {
   }
   std::nth_element(begin, begin + count / 2, end,
                    [widest](const RegionEntry* a, const RegionEntry* b) {
-                     return placeOf(a, widest) < placeOf(b, widest);
+                     return middleOf(a, widest) < middleOf(b, widest);
                    });
   sortLeaves(begin, count / 2);
   sortLeaves(begin + count / 2, count / 2);
@@ -141,7 +141,7 @@ void RegionIndex::forEachNear(const Vector3& point_W, double reach, long long& a
       const Node& box = tree->nodes[i];
       if (!(highest < box.best)) continue;
       ++asked;
-      if (!mayMeet(box.box, point_W, reach)) continue;
+      if (!mayOverlap(box.box, point_W, reach)) continue;
       if (i >= tree->count()) {
         if (visit(*tree->leaves[i - tree->count()])) highest = box.best;
         continue;
@@ -157,8 +157,8 @@ RegionsAround RegionIndex::findAround(const Vector3& point_W, double reach,
                                       long long& asked) const noexcept {
   RegionsAround around;
   forEachNear(point_W, reach, asked, [&](const RegionEntry& entry) {
-    around.is_alone = around.is_alone && holdsAll(entry.region, point_W, reach);
-    if (!holds(entry.region, point_W)) return false;
+    around.is_alone = around.is_alone && containsAll(entry.region, point_W, reach);
+    if (!contains(entry.region, point_W)) return false;
     around.entry = &entry;
     return true;
   });

@@ -17,19 +17,18 @@ namespace ambient {
 namespace {
 
 // Allocates nothing.
-void sayNotFinite(RegionId id, Complaints& complaints) noexcept {
+void warnOfNotFinite(RegionId id, Warnings& warnings) noexcept {
   char sentence[200];
   std::snprintf(sentence, sizeof sentence,
                 "bullet_ambient: the flow or the surface of the region of fluid %d is not finite "
                 "where a body is; the region's fluid is taken without both there",
                 static_cast<int>(id));
-  complaints.say(Complaint::kRegion, sentence);
+  warnings.warnOnce(Warning::kRegion, sentence);
 }
 
 // Says it if the surface's direction up is more than 45 degrees off the upward vertical. Allocates
 // nothing.
-void checkUp(RegionId id, const Vector3& up, const Vector3& gravity,
-             Complaints& complaints) noexcept {
+void checkUp(RegionId id, const Vector3& up, const Vector3& gravity, Warnings& warnings) noexcept {
   constexpr double kCosine = 0.7071067811865475;
   if (!(up.dot(gravity) > -kCosine * gravity.norm()) || up.isZero(0) || gravity.isZero(0)) return;
   char sentence[300];
@@ -38,19 +37,19 @@ void checkUp(RegionId id, const Vector3& up, const Vector3& gravity,
       "bullet_ambient: the surface of the region of fluid %d has (%.3g, %.3g, %.3g) as its "
       "direction up, but gravity is (%.3g, %.3g, %.3g) m/s^2; up must be against gravity",
       static_cast<int>(id), up.x(), up.y(), up.z(), gravity.x(), gravity.y(), gravity.z());
-  complaints.say(Complaint::kUp, sentence);
+  warnings.warnOnce(Warning::kUp, sentence);
 }
 
 RegionSample sampleFor(AmbientBody& ambient, const MotionView& now,
                        const FluidRegions::Entry& entry, const FluidRegions& regions,
-                       Complaints& complaints) noexcept {
+                       Warnings& warnings) noexcept {
   RegionCall call(regions);
   const RegionSample sample =
       sampleRegion(entry.region, pointIn(entry.region, now.centre()), regions.time,
                    ambient.def->medium, halfHeight(ambient, now, entry.region));
   if (sample.is_finite) return sample;
   ++ambient.counters.rejected;
-  if (!call.was_refused) sayNotFinite(entry.id, complaints);  // or it was said what it did
+  if (!call.was_refused) warnOfNotFinite(entry.id, warnings);  // or it was said what it did
   return sample;
 }
 
@@ -94,7 +93,7 @@ Vector3 changeSince(const AmbientBody& ambient, const FlowStep& step, const Bare
 
 // Returns the part of a change that comes about in this step.
 Vector3 partInStep(const AmbientBody& ambient, const Vector3& change, const FlowStep& step) {
-  if (!step.now || !ambient.place.is_at_surface || change.isZero(0)) return change;
+  if (!step.now || !ambient.location.is_at_surface || change.isZero(0)) return change;
   const double gravity = step.now->gravity.norm();
   return std::min(1.0, kLargestAtSurface * gravity * step.duration / change.norm()) * change;
 }
@@ -148,22 +147,21 @@ std::optional<StationSamples> sampleStations(AmbientBody& ambient, const MotionV
                                              const FluidRegions& regions,
                                              const RegionsAround& around,
                                              const RegionSample& centre,
-                                             Complaints& complaints) noexcept {
+                                             Warnings& warnings) noexcept {
   if (!needsStations(ambient, around)) return std::nullopt;
   std::optional<StationSamples> stations(std::in_place, ambient, now, regions, around, centre);
   ambient.may_rest = ambient.may_rest && stations->isSteady();
   if (stations->isFinite()) return stations;
   ++ambient.counters.rejected;
-  if (around.entry) sayNotFinite(around.entry->id, complaints);
+  if (around.entry) warnOfNotFinite(around.entry->id, warnings);
   return stations;
 }
 
 // Puts a body into its own medium beside regions.
 void enterOwnMedium(AmbientBody& ambient, const FlowStep& step, const RegionsAround& around,
-                    Complaints& complaints) noexcept {
+                    Warnings& warnings) noexcept {
   RegionSample sample = ownSample(ambient);
-  const auto stations =
-      sampleStations(ambient, *step.now, step.regions, around, sample, complaints);
+  const auto stations = sampleStations(ambient, *step.now, step.regions, around, sample, warnings);
   followFlow(ambient, step, sample);
   if (stations) {
     stations->addMeans(&RegionSample::below, sample);
@@ -179,7 +177,7 @@ SurfaceSide findWaterSide(AmbientBody& ambient, const FlowStep& step, bool is_al
   const FluidRegion& region = step.entry->region;
   const NearSurface near = nearSurface(ambient, *step.now, SurfaceKind(region), sample,
                                        pointIn(region, step.now->centre()), step.duration);
-  if (ambient.vessel) meetHolds(ambient, *step.now, near);
+  if (ambient.vessel) initializeHolds(ambient, *step.now, near);
   const bool has_sides = !is_alone && near.side != SurfaceSide::kAbove;
   return enterSurface(
       ambient, near, sample,
@@ -212,7 +210,8 @@ SurfaceSide findSide(AmbientBody& ambient, const FlowStep& step, bool is_alone,
 
 }  // namespace
 
-bool enterMedium(AmbientBody& ambient, const RegionPlace& place, const Medium& medium) noexcept {
+bool enterMedium(AmbientBody& ambient, const RegionLocation& location,
+                 const Medium& medium) noexcept {
   const Medium& before = ambient.medium;
   if (medium.density != before.density || medium.viscosity != before.viscosity) {
     const MediumModel* found = ambient.models->find(FluidKind(medium));
@@ -221,13 +220,13 @@ bool enterMedium(AmbientBody& ambient, const RegionPlace& place, const Medium& m
     forgetFlight(ambient);
     ++ambient.counters.medium_changes;
   }
-  if (!(place == ambient.place)) {
+  if (!(location == ambient.location)) {
     forgetFlight(ambient);
     forgetWake(ambient);
-    if (!place.is_at_surface) forgetSurface(ambient);
+    if (!location.is_at_surface) forgetSurface(ambient);
   }
-  if (!place.is_at_surface) ambient.surface_media = -1;
-  ambient.place = place;
+  if (!location.is_at_surface) ambient.surface_media = -1;
+  ambient.location = location;
   ambient.medium = medium;
   return true;
 }
@@ -240,7 +239,7 @@ bool goesOnInOwnMedium(const AmbientBody& ambient, const FluidRegions& regions) 
   const Medium &own = ambient.def->medium, &now = ambient.medium;
   const FlowMemory& seen = ambient.flow;
   return seen.until == regions.time && seen.region == RegionId::kNone && !seen.is_above &&
-         ambient.place == RegionPlace{} && own.acceleration.isZero(0) &&
+         ambient.location == RegionLocation{} && own.acceleration.isZero(0) &&
          now.acceleration.isZero(0) && seen.velocity == own.velocity &&
          now.velocity == own.velocity && now.density == own.density &&
          now.viscosity == own.viscosity;
@@ -261,27 +260,26 @@ void stayInOwnMedium(AmbientBody& ambient, const FluidRegions& regions, double d
 }
 
 void followRegions(AmbientBody& ambient, const MotionView& now, const FluidRegions& regions,
-                   double duration, Complaints& complaints) noexcept {
+                   double duration, Warnings& warnings) noexcept {
   const RegionsAround around =
       findRegions(ambient, now, regions, duration, ambient.counters.regions_asked);
   const FluidRegions::Entry* entry = around.entry;
   if (hasFlowAlong(ambient)) *ambient.flow_along = {};
   ambient.may_rest = !entry || isSteady(entry->region);
   const FlowStep step{regions, entry, duration, &now};
-  if (!entry) return enterOwnMedium(ambient, step, around, complaints);
-  RegionSample sample = sampleFor(ambient, now, *entry, regions, complaints);
+  if (!entry) return enterOwnMedium(ambient, step, around, warnings);
+  RegionSample sample = sampleFor(ambient, now, *entry, regions, warnings);
   const HoldAround* const hold = holdAround(ambient, regions, *entry);
   const auto stations =
-      hold ? std::nullopt : sampleStations(ambient, now, regions, around, sample, complaints);
+      hold ? std::nullopt : sampleStations(ambient, now, regions, around, sample, warnings);
   if (hold) {
-    takeHold(*hold, ambient, now, sample);
+    replaceSurfaceByHold(*hold, ambient, now, sample);
     ambient.flow = {};
     ambient.may_rest = ambient.may_rest && (hold->is_dry || !hold->is_awake);
   } else {
     followFlow(ambient, step, sample);
   }
-  if (entry->region.surface)
-    checkUp(entry->id, entry->region.surface->up(), now.gravity, complaints);
+  if (entry->region.surface) checkUp(entry->id, entry->region.surface->up(), now.gravity, warnings);
   const SurfaceSide side = findSide(ambient, step, hold || around.is_alone, stations, sample);
   const bool is_above = side == SurfaceSide::kAbove;
   changeSide(ambient.flow, is_above, is_above ? sample.bare_above : sample.bare_below);
@@ -296,18 +294,18 @@ void refreshModels(AmbientBody& ambient, const InverseMass& mass, const FluidReg
   auto models =
       makeFluidModels(*ambient.def, mass.mass > 0 ? mass : InverseMass{}, regions.fluids(), tables);
   ambient.medium = ambient.def->medium;
-  ambient.load_share = ambient.def->load_factor;
-  ambient.place = {};
+  ambient.load_scale = ambient.def->load_factor;
+  ambient.location = {};
   ambient.surface_media = -1;
   forgetSurface(ambient);
   forgetFlight(ambient);
   setModels(ambient, std::move(models));
-  takeHolds(ambient);
+  setHolds(ambient);
   ambient.in_medium = {ambient.models, &ambient.models->media.front()};
-  takeStations(ambient, regions);
+  makeStations(ambient, regions);
 }
 
-void takeStations(AmbientBody& ambient, const FluidRegions& regions) {
+void makeStations(AmbientBody& ambient, const FluidRegions& regions) {
   const std::shared_ptr<const FluidBody>& shape = ambient.def->fluid_body;
   const bool has_stations = ambient.models->stations.reach > 0 && regions.mayDiffer();
   const bool has_layers = shape->volume > 0 && regions.haveLayers();

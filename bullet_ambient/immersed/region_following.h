@@ -1,14 +1,15 @@
 #pragma once
 
 #include "bullet_ambient/immersed/ambient_body.h"
-#include "bullet_ambient/immersed/complaints.h"
 #include "bullet_ambient/immersed/fluid_regions.h"
+#include "bullet_ambient/immersed/warnings.h"
 
 namespace ambient {
 
 /// Puts a body into a medium for which it has a model. Returns false, and changes nothing, if it
 /// has none. Allocates nothing.
-bool enterMedium(AmbientBody& ambient, const RegionPlace& place, const Medium& medium) noexcept;
+bool enterMedium(AmbientBody& ambient, const RegionLocation& location,
+                 const Medium& medium) noexcept;
 
 /// True if regions may decide on the medium around a body.
 inline bool mayBeInRegion(const AmbientBody& ambient, const FluidRegions& regions) noexcept {
@@ -19,7 +20,7 @@ inline bool mayBeInRegion(const AmbientBody& ambient, const FluidRegions& region
 /// RegionIndex::find(), and one call of each function of the region. Allocates nothing.
 /// @pre mayBeInRegion()
 void followRegions(AmbientBody& ambient, const MotionView& now, const FluidRegions& regions,
-                   double duration, Complaints& complaints) noexcept;
+                   double duration, Warnings& warnings) noexcept;
 /// Puts a body into its own medium, at the start of a step. @pre not mayBeInRegion()
 void stayInOwnMedium(AmbientBody& ambient, const FluidRegions& regions, double duration) noexcept;
 
@@ -30,6 +31,6 @@ void refreshModels(AmbientBody& ambient, const InverseMass& mass, const FluidReg
                    ModelTables& tables);
 
 /// Makes room for what differs of the fluid along a body, where a region may make it differ.
-void takeStations(AmbientBody& ambient, const FluidRegions& regions);
+void makeStations(AmbientBody& ambient, const FluidRegions& regions);
 
 }  // namespace ambient

@@ -48,7 +48,7 @@ void findRimWaves(AmbientBody& ambient, const MotionView& now,
                   const FluidRegions& regions) noexcept {
   VesselState& vessel = *ambient.vessel;
   vessel.has_waves = false;
-  const auto found = regions.all().find(ambient.place.region);
+  const auto found = regions.all().find(ambient.location.region);
   if (found == regions.all().end()) return;
   const FluidRegion& region = found->second.region;
   const SurfaceModel& model = *ambient.surface();
@@ -80,8 +80,8 @@ const HoldAround* holdAround(const AmbientBody& ambient, const FluidRegions& reg
   return around.region == entry.id ? &around : nullptr;
 }
 
-void takeHold(const HoldAround& around, const AmbientBody& ambient, const MotionView& now,
-              RegionSample& sample) noexcept {
+void replaceSurfaceByHold(const HoldAround& around, const AmbientBody& ambient,
+                          const MotionView& now, RegionSample& sample) noexcept {
   constexpr double kFar = 100;  // sizes of vessel and body
   const Vector3 place = now.centre();
   const double rise = -around.normal_W.dot(now.gravity) / now.gravity.norm();
@@ -97,7 +97,7 @@ void takeHold(const HoldAround& around, const AmbientBody& ambient, const Motion
   sample.tilt.setZero();
 }
 
-void saySunk(AmbientBody& ambient, Complaints& complaints) noexcept {
+void warnOfSunkVessel(AmbientBody& ambient, Warnings& warnings) noexcept {
   constexpr double kFull = 1 - 1e-9;  // of a hold
   VesselState& vessel = *ambient.vessel;
   if (vessel.has_sunk) return;
@@ -112,10 +112,11 @@ void saySunk(AmbientBody& ambient, Complaints& complaints) noexcept {
   if (filled == vessel.holds.size()) return;
   const double most = model.excess_density * (vessel.shape->volume - water);
   vessel.has_sunk = model.above.mass - model.above.displaced_mass > most;
-  if (vessel.has_sunk) complaints.saySunk(*ambient.def, filled);
+  if (vessel.has_sunk) warnings.warnOfSunkVessel(*ambient.def, filled);
 }
 
-void meetHolds(AmbientBody& ambient, const MotionView& now, const NearSurface& near) noexcept {
+void initializeHolds(AmbientBody& ambient, const MotionView& now,
+                     const NearSurface& near) noexcept {
   if (near.media < 0 || std::exchange(ambient.vessel->is_known, true)) return;
   if (!ambient.def->holds.are_open) return;
   const SurfaceModel& model = ambient.models->surfaces[static_cast<std::size_t>(near.media)].model;
@@ -126,16 +127,16 @@ void meetHolds(AmbientBody& ambient, const MotionView& now, const NearSurface& n
 
 namespace {
 
-// Returns a body with water in its holds at its stand.
+// Returns a body with water in its holds at its flotation.
 WaterAt waterAt(const AmbientBody& ambient, const Matrix3& to_world, const Vector3& position_W) {
-  return {*ambient.surface(), ambient.stand(), to_world, position_W};
+  return {*ambient.surface(), ambient.flotation(), to_world, position_W};
 }
 
 // Lets water that has not sloshed yet begin, and finds its energy.
 void beginSloshing(AmbientBody& ambient, const Matrix3& to_world, const Vector6& x) {
   VesselState& vessel = *ambient.vessel;
   vessel.sloshing_energy = 0;
-  if (!ambient.stand().inside_F) return;
+  if (!ambient.flotation().inside_F) return;
   Sloshing* const states = vessel.sloshing.now.data();
   const SloshingAt at = waterAt(ambient, to_world, {0, 0, 0}).sloshing();
   joinVessel(at, x, states);
@@ -148,7 +149,7 @@ void mixWater(AmbientBody& ambient, const Matrix3& to_world, const Vector6& x, d
   VesselState& vessel = *ambient.vessel;
   vessel.sloshing_energy = 0;
   Sloshing* const states = vessel.sloshing.now.data();
-  if (!ambient.stand().inside_F) {
+  if (!ambient.flotation().inside_F) {
     std::fill(states, states + vessel.holds.size(), Sloshing{});
     return;
   }
@@ -157,25 +158,26 @@ void mixWater(AmbientBody& ambient, const Matrix3& to_world, const Vector6& x, d
   vessel.sloshing_energy = projectOnModes(at, energy, states);
 }
 
-// Brings a vessel to the stand with the water that has passed. `come`: exchangeWater() of holds.
+// Brings a vessel to the flotation with the water that has passed. `come`: exchangeWater() of
+// holds.
 void takeWater(AmbientBody& ambient, const Matrix3& to_world, const Vector6& x,
                const Matrix6& come) {
   VesselState& vessel = *ambient.vessel;
   const SurfaceModel& model = *ambient.surface();
-  const SurfaceStand& stand = ambient.stand();
+  const Flotation& flotation = ambient.flotation();
   if (vessel.waves_inside.is_any)
-    vessel.sloshing_energy -= loseSlopped(stand.plane.density * stand.plane.gravity,
+    vessel.sloshing_energy -= loseSlopped(flotation.plane.density * flotation.plane.gravity,
                                           vessel.waves_inside, vessel.sloshing.now.data());
-  const double twice_before = x.dot(stand.inertia.full() * x) + 2 * vessel.sloshing_energy;
+  const double twice_before = x.dot(flotation.inertia.full() * x) + 2 * vessel.sloshing_energy;
   vessel.sloshing.later = vessel.sloshing.modes;  // before water has passed
   ambient.floating->is_valid = false;
   AmbientBody* const body = &ambient;
-  completeStandsOf(&body, 1);
+  completeFlotationsOf(&body, 1);
   mixWater(ambient, to_world, x, twice_before / 2);
   const Matrix6 come_B = model.excess_density * model.fluid_frame.inertiaToB(come);
-  const Vector6 end = x - stand.inverse.full() * (come_B * x);
+  const Vector6 end = x - flotation.inverse.full() * (come_B * x);
   const double most = std::max(0.0, twice_before - 2 * vessel.sloshing_energy);
-  vessel.change_B = scaledWithin(end, end.dot(stand.inertia.full() * end), most).twist - x;
+  vessel.change_B = scaledWithin(end, end.dot(flotation.inertia.full() * end), most).twist - x;
 }
 
 // Change of the velocity in B by the drag of the bodies in the holds, which no more than carries
@@ -185,7 +187,7 @@ Vector6 kickByContents(const AmbientBody& ambient, const Matrix3& to_world, doub
   if (!(vessel.reaction_speed > 0)) return Vector6::Zero();
   const Wrench& push = vessel.reaction_W;
   const Vector6 kick =
-      duration * (ambient.stand().inverse.full() *
+      duration * (ambient.flotation().inverse.full() *
                   stack(to_world.transpose() * push.torque, to_world.transpose() * push.force));
   const double speed = kick.tail<3>().norm();
   return speed > vessel.reaction_speed ? vessel.reaction_speed / speed * kick : kick;
@@ -203,7 +205,7 @@ bool isNearlyLevel(const AmbientBody& ambient) {
   double volume = 0;
   for (const HoldState& hold : ambient.vessel->holds) volume += hold.volume;
   const SurfaceModel& model = *ambient.surface();
-  const double weight = model.excess_density * volume * ambient.stand().plane.gravity;
+  const double weight = model.excess_density * volume * ambient.flotation().plane.gravity;
   return ambient.vessel->sloshing_energy <= kLittle * weight * model.radius;
 }
 
@@ -214,28 +216,28 @@ bool exchangeWater(AmbientBody& ambient, const MotionView& now, double duration)
   VesselState& vessel = *ambient.vessel;
   const SurfaceModel& model = *ambient.surface();
   const HoldSettings& settings = ambient.def->holds;
-  Passage passage{settings.are_open, duration, settings.atmosphere, &vessel.changes,
-                  vessel.has_waves ? &vessel.rises : nullptr};
+  ExchangeStep step{settings.are_open, duration, settings.atmosphere, &vessel.changes,
+                    vessel.has_waves ? &vessel.rises : nullptr};
   vessel.change_B.setZero();
   const SurfacePlane plane_F = seenFrom(planeAt(ambient, now.state), model.fluid_frame);
-  if (staysDry(*model.holds, plane_F, passage, vessel.holds.data())) {
+  if (staysDry(*model.holds, plane_F, step, vessel.holds.data())) {
     for (HoldState& hold : vessel.holds) stayDry(hold);
     vessel.sloshing_energy = 0;  // setWater() may have emptied a hold
     return false;
   }
-  const SurfaceStand& stand = standNow(ambient, now);
+  const Flotation& flotation = flotationNow(ambient, now);
   const Vector6 x = twistInWater(ambient, now.state);
   const Matrix3 R = now.rotation();
   beginSloshing(ambient, R, x);
   vessel.waves_inside.is_any = false;
-  if (stand.inside_F) {
-    passage.modes = vessel.sloshing.modes.data();
+  if (flotation.inside_F) {
+    step.modes = vessel.sloshing.modes.data();
     findWavesInside(waterAt(ambient, R, {0, 0, 0}), &vessel.changes, vessel.sloshing.now.data(),
                     vessel.waves_inside);
-    if (vessel.waves_inside.is_any) passage.waves = &vessel.waves_inside;
+    if (vessel.waves_inside.is_any) step.waves = &vessel.waves_inside;
   }
   const Matrix6 come =
-      exchangeWater(*model.holds, stand.immersion_F.plane, passage, vessel.holds.data());
+      exchangeWater(*model.holds, flotation.immersion_F.plane, step, vessel.holds.data());
   bool has_changed = false;
   for (std::size_t i = 0; i < vessel.holds.size(); ++i) {
     HoldState& hold = vessel.holds[i];
@@ -270,8 +272,8 @@ Vector6 sloshForRows(AmbientBody& ambient, const RigidState& now, double duratio
   sloshing.moved = sloshing.now;
   joinVessel(at.sloshing(), x, sloshing.moved.data());
   const Vector6 end =
-      exchangeSloshing(at.sloshing(), ambient.stand().inverse, ambient.def->holds.sloshing_damping,
-                       duration, x, sloshing.moved.data());
+      exchangeSloshing(at.sloshing(), ambient.flotation().inverse,
+                       ambient.def->holds.sloshing_damping, duration, x, sloshing.moved.data());
   vessel.before_rows = WaterLeft(at, sloshing.moved.data());
   return end;
 }

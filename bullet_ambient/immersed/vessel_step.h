@@ -1,9 +1,9 @@
 #pragma once
 
 #include "bullet_ambient/immersed/ambient_body.h"
-#include "bullet_ambient/immersed/complaints.h"
 #include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/immersed/fluid_regions.h"
+#include "bullet_ambient/immersed/warnings.h"
 
 namespace ambient {
 
@@ -22,12 +22,12 @@ const HoldAround* holdAround(const AmbientBody& ambient, const FluidRegions& reg
 
 /// Puts the level of a hold around a body in the place of the surface of the region. Water and air
 /// there move with the vessel; a dry hold has its level far below.
-void takeHold(const HoldAround& around, const AmbientBody& ambient, const MotionView& now,
-              RegionSample& sample) noexcept;
+void replaceSurfaceByHold(const HoldAround& around, const AmbientBody& ambient,
+                          const MotionView& now, RegionSample& sample) noexcept;
 
 /// Decides which holds of a body that first meets a surface are full. Allocates nothing. @pre it
 /// has holds
-void meetHolds(AmbientBody& ambient, const MotionView& now, const NearSurface& near) noexcept;
+void initializeHolds(AmbientBody& ambient, const MotionView& now, const NearSurface& near) noexcept;
 
 /// Kinetic energy of the water in the holds that swings on its own, beside x.K x / 2 [J].
 double sloshingEnergyNow(const AmbientBody& ambient, const MotionView& now);
@@ -40,18 +40,18 @@ double sloshingEnergyNow(const AmbientBody& ambient, const MotionView& now);
 bool exchangeWater(AmbientBody& ambient, const MotionView& now, double duration) noexcept;
 
 /// Lets the water in the holds slosh over a step in which rows move the body, whose twist in B
-/// would be x. Returns the twist after that. @pre standNow(); water is inside
+/// would be x. Returns the twist after that. @pre flotationNow(); water is inside
 Vector6 sloshForRows(AmbientBody& ambient, const RigidState& now, double duration,
                      const Vector6& x) noexcept;
-/// Lets that water come to the present stand of the body, after it has moved by rows to a pose B to
-/// W with the twist x. `position_W`: relative to the water where the step began. Returns the twist
-/// after that, and the inertia of what stands still in B.
+/// Lets that water come to the present flotation of the body, after it has moved by rows to a pose
+/// B to W with the twist x. `position_W`: relative to the water where the step began. Returns the
+/// twist after that, and the inertia of what stands still in B.
 Vector6 arriveWithWater(AmbientBody& ambient, const Matrix3& to_world, const Vector3& position_W,
                         bool keeps_momentum, const Vector6& x, SymmetricMatrix& inertia) noexcept;
 
-/// Says once of a vessel that water has come into one of its holds until that was full, and that
+/// Warns once of a vessel that water has come into one of its holds until that was full, and that
 /// the body is then too heavy to float. Apart from that allocates nothing. @pre exchangeWater() has
 /// let water pass
-void saySunk(AmbientBody& ambient, Complaints& complaints) noexcept;
+void warnOfSunkVessel(AmbientBody& ambient, Warnings& warnings) noexcept;
 
 }  // namespace ambient

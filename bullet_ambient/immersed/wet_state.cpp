@@ -15,7 +15,7 @@ namespace ambient {
 namespace {
 
 /// Share of a triangle's area, by the depths of its corners.
-double wetShareOf(std::array<double, 3> depths) {
+double wetShareOfTriangle(std::array<double, 3> depths) {
   std::sort(depths.begin(), depths.end(), std::greater<>());
   const auto [deep, middle, high] = depths;
   if (high >= 0) return 1;
@@ -41,9 +41,9 @@ void addWetTriangle(const Vector3 (&corners)[3], const SurfacePlane& plane, WetS
     for (int i = 0; i < part.count(); ++i) wet.draught = std::max(wet.draught, part.corner(i).z());
     return;
   }
-  wet.share +=
-      (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm() / 2 *
-      wetShareOf({plane.depth(corners[0]), plane.depth(corners[1]), plane.depth(corners[2])});
+  wet.share += (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm() / 2 *
+               wetShareOfTriangle(
+                   {plane.depth(corners[0]), plane.depth(corners[1]), plane.depth(corners[2])});
 }
 
 WetSurface wetSurfaceOf(const FluidBody& shape, const Immersion& immersion) {
@@ -125,7 +125,7 @@ WetState inRegion(const AmbientBody& ambient, const MotionView& now, const Regio
   const int media = ambient.models->findSurface(SurfaceKind(entry.region));
   const Vector3& gravity = now.gravity;
   if (hold) {
-    takeHold(*hold, ambient, now, sample);
+    replaceSurfaceByHold(*hold, ambient, now, sample);
   } else if (needsStations(ambient, around)) {
     const StationSamples stations(ambient, now, regions, around, sample);
     stations.addMeans(&RegionSample::below, sample);
@@ -169,7 +169,7 @@ Vector3 slopingNormal(const HoldModes& modes, const Sloshing& sloshing, const Su
   if (!(plane_F.gravity > 0)) return normal;
   for (const SloshMode& mode : modes.modes)
     normal -= kWavePerPlane * mode.square / plane_F.gravity *
-              mode.axis.dot(R_WF.transpose() * sloshing.way_W) * mode.axis;
+              mode.axis.dot(R_WF.transpose() * sloshing.displacement_W) * mode.axis;
   return normal.normalized();
 }
 

@@ -28,8 +28,8 @@ class Cholesky {
   /// M^-1 below its diagonal; all else is 0.
   Matrix invertedUnit() const noexcept;
 
-  Matrix unit_ = Matrix::Zero();       // M below its diagonal
-  Vector per_pivot_ = Vector::Zero();  // 1 / D
+  Matrix unit_ = Matrix::Zero();           // M below its diagonal
+  Vector inverse_pivot_ = Vector::Zero();  // 1 / D
   bool is_positive_ = false;
 };
 

@@ -21,9 +21,9 @@ namespace ambient {
 namespace {
 
 /// Pseudo-random numbers, the same on every machine.
-class ArbitraryNumbers {
+class SplitMix64 {
  public:
-  explicit ArbitraryNumbers(std::uint64_t seed) : state_(seed) {}
+  explicit SplitMix64(std::uint64_t seed) : state_(seed) {}
   /// Returns a number in [0, 1).
   double uniform() {  // SplitMix64, Steele et al. 2014
     std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
@@ -45,7 +45,7 @@ class ArbitraryNumbers {
 
 /// Samples a motion (w, v) with |w|^2 + |v|^2 = 1 in units of a level: v and w in independent
 /// directions, uniform over the sphere, and atan(|w| / |v|) uniform from 0 to pi/2.
-Vector6 sampleMotion(ArbitraryNumbers& numbers) {
+Vector6 sampleMotion(SplitMix64& numbers) {
   const double angle = kPi / 2 * numbers.uniform();
   Vector6 x;
   x << portable::sin(angle) * numbers.direction(), portable::cos(angle) * numbers.direction();
@@ -295,7 +295,7 @@ struct LoadSamples {
   LoadSamples(const PackedFaces& packed, const Matrix6& form, const ShapeFactors& of_body,
               std::uint64_t seed, int count, int translations = 0)
       : shape(of_body) {
-    ArbitraryNumbers numbers(seed);
+    SplitMix64 numbers(seed);
     for (int i = 0; i < count; ++i) add(packed, form, sampleMotion(numbers), 1);
     for (int i = 0; i < translations; ++i)
       add(packed, form, stack(Vector3::Zero(), numbers.direction()), kTranslationWeight);

@@ -344,9 +344,9 @@ std::vector<Matrix3d> keeping(const Vector3& direction, std::vector<Matrix3d> sy
 /// The node in a direction; -1: none.
 int nodeAt(const OctahedralLattice& lattice, const Vector3& direction) {
   constexpr double kSame = 1 - 1e-6;
-  const OctahedralLattice::Place place = lattice.placeOf(direction);
+  const OctahedralLattice::Corners place = lattice.cornersAround(direction);
   for (int corner = 0; corner < 3; ++corner)
-    if (place.share[corner] > kSame) return place.node[corner];
+    if (place.weight[corner] > kSame) return place.node[corner];
   return -1;
 }
 

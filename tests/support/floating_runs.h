@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bullet_ambient/force/loads/surface_loads.h"
-#include "bullet_ambient/motion/surface/stand_lanes.h"
+#include "bullet_ambient/motion/surface/flotation_lanes.h"
 #include "bullet_ambient/motion/surface/surface_flight.h"
 #include "tests/support/bodies/body_models.h"
 #include "tests/support/bodies/part_bodies.h"
@@ -62,13 +62,13 @@ class FloatingRun {
 
   void step(double duration) {
     if (sloshing.now.size() != water.size()) sloshing.resize(water.size());
-    SurfaceStand stand = this->stand();
+    Flotation flotation = this->flotation();
     FlightResult body{state, memory, {}};
     SurfaceFlight flight{
         {model_, kStill, surroundings_, velocity_above, settings, duration, inside()},
         body,
         waves,
-        stand};
+        flotation};
     SurfaceFlight* const flights[] = {&flight};
     flyAtSurface(flights, 1);
     state = body.state;
@@ -86,8 +86,8 @@ class FloatingRun {
     const SurfacePlane plane{{0, 0, 1}, 0, model_.excess_density, -gravity_.z()};
     return seenFrom(plane, R, state.position);
   }
-  SurfaceStand stand() const { return standAtSurface(model_, plane_B(), inside()); }
-  Matrix6 inertia() const { return stand().inertia.full(); }
+  Flotation flotation() const { return flotationAt(model_, plane_B(), inside()); }
+  Matrix6 inertia() const { return flotation().inertia.full(); }
   Vector3 velocity_W() const { return state.orientation * state.twist.linear; }
   Vector3 momentum_W() const {
     const Vector6 p = inertia() * state.twist.vector();
@@ -95,14 +95,14 @@ class FloatingRun {
   }
   /// Energy of body, water and waves; docs/theory.md eq. (64).
   double energy() const {
-    const SurfaceStand at = stand();
+    const Flotation at = flotation();
     const Vector6 x = state.twist.vector();
     return 0.5 * x.dot(at.inertia.full() * x) - mass_ * gravity_.dot(state.position) +
            hydrostaticEnergy(wetVolume(model_, at), at.plane) + waves.energy() +
            energyOfWater(at).sum();
   }
   /// Energy of the water in the holds as it sloshes [J].
-  SloshingEnergy energyOfWater(const SurfaceStand& at) const {
+  SloshingEnergy energyOfWater(const Flotation& at) const {
     if (!at.inside_F) return {};
     const WaterAt here{model_, at, state.orientation.toRotationMatrix(), state.position};
     std::vector<Sloshing> states = sloshing.now;
@@ -119,7 +119,7 @@ class FloatingRun {
             sloshing_damping};
   }
 
-  // One of each stand that was given away.
+  // One of each flotation that was given away.
   mutable std::deque<WaterInside> inside_;
   mutable std::deque<std::vector<HoldModes>> modes_;
 

@@ -57,9 +57,9 @@ const Base& requirePlain(const btConstraintSolver* solver) {
 }
 
 template <class Base, class... Args>
-std::unique_ptr<FluidSolver<Base>> makeLike(const Base& plain, const Members& members,
+std::unique_ptr<FluidSolver<Base>> makeLike(const Base& plain, const Members& bodies,
                                             Args... args) {
-  auto made = std::make_unique<FluidSolver<Base>>(members, args...);
+  auto made = std::make_unique<FluidSolver<Base>>(bodies, args...);
   auto& given = const_cast<Base&>(plain);  // Bullet's accessors are not const
   made->setRandSeed(given.getRandSeed());
   made->setConstraintRowSolverGeneric(given.getActiveConstraintRowSolverGeneric());
@@ -106,21 +106,21 @@ WorldConnection::MadeSolver WorldConnection::makeFitting() const {
   };
   const btConstraintSolver* given = world_.getConstraintSolver();
   if (!dynamic_cast<btMultiBodyDynamicsWorld*>(&world_))
-    return hold(makeLike(requirePlain<btSequentialImpulseConstraintSolver>(given), members_));
+    return hold(makeLike(requirePlain<btSequentialImpulseConstraintSolver>(given), bodies_));
   if (!given || typeid(*given) != typeid(btMultiBodyMLCPConstraintSolver))
-    return hold(makeLike(requirePlain<btMultiBodyConstraintSolver>(given), members_));
+    return hold(makeLike(requirePlain<btMultiBodyConstraintSolver>(given), bodies_));
   const auto& plain = static_cast<const btMultiBodyMLCPConstraintSolver&>(*given);
-  return hold(makeLike(plain, members_, algorithmOf(plain)));
+  return hold(makeLike(plain, bodies_, algorithmOf(plain)));
 }
 
 WorldConnection::WorldConnection(btDynamicsWorld& world,
-                                 const std::shared_ptr<AmbientBodies>& members,
+                                 const std::shared_ptr<AmbientBodies>& bodies,
                                  btActionInterface& action, SolverOwner owner)
     : world_(requireKind(world)),
       is_threaded_(dynamic_cast<btDiscreteDynamicsWorldMt*>(&world)),
       action_(action),
       owner_(owner),
-      members_(members) {
+      bodies_(bodies) {
   install(makeFitting());
   world_.addAction(&action_);
 }

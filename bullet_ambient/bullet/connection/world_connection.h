@@ -30,7 +30,7 @@ class WorldConnection {
   /// @throws std::invalid_argument with one sentence that begins with "Fluid: ", and that names
   /// makeSolver() if the world has another solver than Bullet's plain ones; the world is then as it
   /// was.
-  WorldConnection(btDynamicsWorld& world, const std::shared_ptr<AmbientBodies>& members,
+  WorldConnection(btDynamicsWorld& world, const std::shared_ptr<AmbientBodies>& bodies,
                   btActionInterface& action, SolverOwner owner);
   /// Gives the world its own solver back; one that somebody has given it meanwhile stays.
   ~WorldConnection();
@@ -64,7 +64,7 @@ class WorldConnection {
   const bool is_threaded_;
   btActionInterface& action_;
   SolverOwner owner_;
-  const std::shared_ptr<AmbientBodies> members_;
+  const std::shared_ptr<AmbientBodies> bodies_;
   MadeSolver made_;
   btConstraintSolver* given_ = nullptr;  // that of before, which may have been deleted
   bool owns_given_ = false;              // the world had made it itself

@@ -107,16 +107,16 @@ bool settleLink(btMultibodyLink& link) noexcept {
   const btQuaternion turn = turnAbout(link.getAxisTop(0), -position[0]);
   const btQuaternion rotation = turn * link.m_zeroRotParentToThis;
   if (!is_planar && rotation == link.m_cachedRotParentToThis) return false;
-  btVector3 way = quatRotate(rotation, link.m_eVector);
+  btVector3 offset = quatRotate(rotation, link.m_eVector);
   if (is_planar) {
-    way +=
+    offset +=
         quatRotate(turn, position[1] * link.getAxisBottom(1) + position[2] * link.getAxisBottom(2));
   } else {
-    way += link.m_dVector;
+    offset += link.m_dVector;
   }
-  if (rotation == link.m_cachedRotParentToThis && way == link.m_cachedRVector) return false;
+  if (rotation == link.m_cachedRotParentToThis && offset == link.m_cachedRVector) return false;
   link.m_cachedRotParentToThis = link.m_cachedRotParentToThis_interpolate = rotation;
-  link.m_cachedRVector = link.m_cachedRVector_interpolate = way;
+  link.m_cachedRVector = link.m_cachedRVector_interpolate = offset;
   return true;
 }
 

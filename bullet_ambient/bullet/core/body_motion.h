@@ -74,8 +74,9 @@ btQuaternion turnInStep(const btVector3& spin, btScalar h) noexcept;
 /// Returns btQuaternion(axis, angle [rad]).
 btQuaternion turnAbout(const btVector3& axis, btScalar angle) noexcept;
 
-/// Computes anew what Bullet keeps of the position of a link's joint: its rotation and the way from
-/// its parent, like btMultibodyLink::updateCacheMultiDof(). Returns true if a number has changed.
+/// Computes anew what Bullet keeps of the position of a link's joint: its rotation and the offset
+/// from its parent, like btMultibodyLink::updateCacheMultiDof(). Returns true if a number has
+/// changed.
 bool settleLink(btMultibodyLink& link) noexcept;
 
 AMBIENT_END

@@ -16,14 +16,14 @@ namespace {
 
 // One side of a row: a multibody (in fluid, if `tree` is set), an ambient body, another rigid body,
 // or nothing (all pointers null).
-struct MultiBodyParty {
+struct MultiBodyRowSide {
   btMultiBody* multibody = nullptr;
   int jacobian = 0;  // index in m_jacobians at which the multibody's Jacobian begins
   int change = 0;    // index in m_deltaVelocities at which its velocity change begins
   AmbientTree* tree = nullptr;
   RowBody* ambient = nullptr;
   const btSolverBody* solver_body = nullptr;
-  RowSide side;
+  RowJacobian rigid;
 
   bool isInFluid() const { return tree || ambient; }
 };
@@ -40,14 +40,16 @@ class RowSet {
   void rewrite(btMultiBodyConstraintArray& rows, btScalar relaxation, btScalar time_step) {
     for (int i = 0; i < rows.size(); ++i) {
       btMultiBodySolverConstraint& row = rows[i];
-      const RowSide side_a{row.m_relpos1CrossNormal, row.m_contactNormal1, row.m_angularComponentA};
-      const RowSide side_b{row.m_relpos2CrossNormal, row.m_contactNormal2, row.m_angularComponentB};
-      const MultiBodyParty a = row.m_multiBodyA ? multibody(row.m_multiBodyA, row.m_jacAindex,
-                                                            row.m_deltaVelAindex, side_a)
-                                                : rigidBody(row.m_solverBodyIdA, side_a);
-      const MultiBodyParty b = row.m_multiBodyB ? multibody(row.m_multiBodyB, row.m_jacBindex,
-                                                            row.m_deltaVelBindex, side_b)
-                                                : rigidBody(row.m_solverBodyIdB, side_b);
+      const RowJacobian jacobian_a{row.m_relpos1CrossNormal, row.m_contactNormal1,
+                                   row.m_angularComponentA};
+      const RowJacobian jacobian_b{row.m_relpos2CrossNormal, row.m_contactNormal2,
+                                   row.m_angularComponentB};
+      const MultiBodyRowSide a = row.m_multiBodyA ? multibody(row.m_multiBodyA, row.m_jacAindex,
+                                                              row.m_deltaVelAindex, jacobian_a)
+                                                  : rigidBody(row.m_solverBodyIdA, jacobian_a);
+      const MultiBodyRowSide b = row.m_multiBodyB ? multibody(row.m_multiBodyB, row.m_jacBindex,
+                                                              row.m_deltaVelBindex, jacobian_b)
+                                                  : rigidBody(row.m_solverBodyIdB, jacobian_b);
       if (!a.isInFluid() && !b.isInFluid()) continue;
       rewriteRow(row, a, b, relaxation, time_step);
       count(a.isInFluid() ? a : b);
@@ -55,96 +57,97 @@ class RowSet {
   }
 
  private:
-  MultiBodyParty multibody(btMultiBody* body, int jacobian, int change, const RowSide& side) const {
+  MultiBodyRowSide multibody(btMultiBody* body, int jacobian, int change,
+                             const RowJacobian& rigid) const {
     AmbientTree* tree = trees_ ? trees_->find(body) : nullptr;
     if (tree && !isSolved(*tree)) tree = nullptr;
-    return {body, jacobian, change, tree, nullptr, nullptr, side};
+    return {body, jacobian, change, tree, nullptr, nullptr, rigid};
   }
 
-  MultiBodyParty rigidBody(int id, const RowSide& side) {
-    if (id < 0) return {nullptr, 0, 0, nullptr, nullptr, nullptr, side};
-    return {nullptr, 0, 0, nullptr, bodies_.find(id), &solver_bodies_[id], side};
+  MultiBodyRowSide rigidBody(int id, const RowJacobian& rigid) {
+    if (id < 0) return {nullptr, 0, 0, nullptr, nullptr, nullptr, rigid};
+    return {nullptr, 0, 0, nullptr, bodies_.find(id), &solver_bodies_[id], rigid};
   }
 
-  static void count(const MultiBodyParty& party) {
-    if (party.tree) {
-      ++party.tree->links.front()->ambient.counters.rows;
+  static void count(const MultiBodyRowSide& side) {
+    if (side.tree) {
+      ++side.tree->links.front()->ambient.counters.rows;
     } else {
-      ++party.ambient->rows;
+      ++side.ambient->rows;
     }
   }
 
   // Replaces the response of a dry tree by H^-1 J^T. Warm starting has applied `impulse` with the
   // dry response: applies it with the difference, too.
-  void respond(const MultiBodyParty& party, btScalar impulse) {
-    TreeStep& step = party.tree->step;
+  void respond(const MultiBodyRowSide& side, btScalar impulse) {
+    TreeStep& step = side.tree->step;
     Coordinates &force = step.change, &response = step.spare;
     const int size = static_cast<int>(force.size());
-    btScalar* stored = &data_.m_deltaVelocitiesUnitImpulse[party.jacobian];
+    btScalar* stored = &data_.m_deltaVelocitiesUnitImpulse[side.jacobian];
     for (int i = 0; i < size; ++i)
-      force[i] = static_cast<double>(data_.m_jacobians[party.jacobian + i]);
-    if (step.outcome == Outcome::kFlown) party.tree->flight.prepareJointRows();
-    party.tree->flight.dynamics().respond(force, response);
+      force[i] = static_cast<double>(data_.m_jacobians[side.jacobian + i]);
+    if (step.outcome == Outcome::kFlown) side.tree->flight.prepareJointRows();
+    side.tree->flight.dynamics().respond(force, response);
     for (int i = 0; i < size; ++i) {
       const btScalar change = static_cast<btScalar>(response[i]) - stored[i];
       stored[i] += change;
-      if (impulse != 0) data_.m_deltaVelocities[party.change + i] += change * impulse;
+      if (impulse != 0) data_.m_deltaVelocities[side.change + i] += change * impulse;
       force[i] = static_cast<double>(change);
     }
     if (impulse == 0) return;
     force *= static_cast<double>(impulse);
-    addChange(*party.multibody, force);
+    addChange(*side.multibody, force);
   }
 
   // Returns the response of one side to a unit impulse along its row, J H^-1 J^T or J' D J'^T;
   // brings an ambient body's side into its basis. `impulse`: that of warm starting.
-  btScalar responseOf(const MultiBodyParty& party, btScalar impulse) {
-    if (party.tree) respond(party, impulse);
-    if (party.multibody) {
+  btScalar responseOf(const MultiBodyRowSide& side, btScalar impulse) {
+    if (side.tree) respond(side, impulse);
+    if (side.multibody) {
       btScalar sum = 0;
-      for (int i = 0; i < party.multibody->getNumDofs() + 6; ++i)
-        sum += data_.m_jacobians[party.jacobian + i] *
-               data_.m_deltaVelocitiesUnitImpulse[party.jacobian + i];
+      for (int i = 0; i < side.multibody->getNumDofs() + 6; ++i)
+        sum += data_.m_jacobians[side.jacobian + i] *
+               data_.m_deltaVelocitiesUnitImpulse[side.jacobian + i];
       return sum;
     }
-    if (party.ambient) return changeBasis(*party.ambient, party.side);
-    return party.solver_body ? inverseEffectiveMass(*party.solver_body, party.side) : btScalar(0);
+    if (side.ambient) return changeBasis(*side.ambient, side.rigid);
+    return side.solver_body ? inverseEffectiveMass(*side.solver_body, side.rigid) : btScalar(0);
   }
 
   // Returns the velocity change along the row by forces and fluid, outside the rows, that the
   // right-hand side does not contain yet.
-  static btScalar unseenChange(const MultiBodyParty& party, btScalar time_step) {
-    if (!party.ambient) return 0;
-    const RowSide& side = party.side;
-    const btScalar change = side.angular.dot(party.ambient->spin_change) +
-                            side.linear.dot(party.ambient->velocity_change);
+  static btScalar unseenChange(const MultiBodyRowSide& side, btScalar time_step) {
+    if (!side.ambient) return 0;
+    const RowJacobian& rigid = side.rigid;
+    const btScalar change = rigid.angular.dot(side.ambient->spin_change) +
+                            rigid.linear.dot(side.ambient->velocity_change);
     // Bullet includes no forces in rows about an axis, such as rolling friction.
-    if (time_step == 0 || side.linear.length2() == 0) return change;
-    const btRigidBody& body = *party.solver_body->m_originalBody;
+    if (time_step == 0 || rigid.linear.length2() == 0) return change;
+    const btRigidBody& body = *side.solver_body->m_originalBody;
     const btVector3 spin = body.getInvInertiaTensorWorld() * body.getTotalTorque();
     const btVector3 velocity = body.getTotalForce() * body.getInvMass();
-    return change - time_step * (side.angular.dot(spin) + side.linear.dot(velocity));
+    return change - time_step * (rigid.angular.dot(spin) + rigid.linear.dot(velocity));
   }
 
-  static bool isLocked(const MultiBodyParty& party) {
-    return party.ambient && party.ambient->is_locked;
+  static bool isLocked(const MultiBodyRowSide& side) {
+    return side.ambient && side.ambient->is_locked;
   }
 
   // Switches off a row along locked axes only, whose other side is a multibody that cannot move.
   // Keeps the effective mass, by which the solver divides.
-  static void suspendRow(btMultiBodySolverConstraint& row, const MultiBodyParty& a,
-                         const MultiBodyParty& b) {
-    for (const MultiBodyParty* party : {&a, &b}) {
-      if (!party->ambient) continue;
-      party->side.angular.setZero();
-      party->side.linear.setZero();
-      party->side.angular_component.setZero();
+  static void suspendRow(btMultiBodySolverConstraint& row, const MultiBodyRowSide& a,
+                         const MultiBodyRowSide& b) {
+    for (const MultiBodyRowSide* side : {&a, &b}) {
+      if (!side->ambient) continue;
+      side->rigid.angular.setZero();
+      side->rigid.linear.setZero();
+      side->rigid.angular_component.setZero();
     }
     row.m_rhs = row.m_cfm = 0;
   }
 
-  void rewriteRow(btMultiBodySolverConstraint& row, const MultiBodyParty& a,
-                  const MultiBodyParty& b, btScalar relaxation, btScalar time_step) {
+  void rewriteRow(btMultiBodySolverConstraint& row, const MultiBodyRowSide& a,
+                  const MultiBodyRowSide& b, btScalar relaxation, btScalar time_step) {
     const btScalar old_inverse = row.m_jacDiagABInv;
     const btScalar unseen = unseenChange(a, time_step) + unseenChange(b, time_step);
     const btScalar response =

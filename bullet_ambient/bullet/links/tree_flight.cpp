@@ -49,7 +49,7 @@ void setFlown(TreeStep& step) {
 
 // Moves a tree to the end of its link's flight. Returns false if the flight has failed or
 // Bullet cannot move the tree to its end.
-bool takeFlight(AmbientTree& tree, Complaints& complaints, double duration) {
+bool applyFlight(AmbientTree& tree, Warnings& warnings, double duration) {
   TreeStep& step = tree.step;
   AmbientBody& ambient = baseOf(tree).ambient;
   if (std::exchange(ambient.outcome.kind, Outcome::kNotSolved) != Outcome::kFlown) return false;
@@ -62,7 +62,7 @@ bool takeFlight(AmbientTree& tree, Complaints& complaints, double duration) {
   reached.position = end.position;
   tree.flight.stay(reached, step.end);
   setFlown(step);
-  if (ambient.outcome.is_too_long) complaints.sayTooLong(*ambient.def);
+  if (ambient.outcome.is_too_long) warnings.warnOfLongSteps(*ambient.def);
   return true;
 }
 
@@ -89,7 +89,7 @@ void flyAsBodies(AmbientTree* const* trees, AmbientBodies* const* of, int count,
   readStartStates(trees, count, starts);
   beginFlights(bodies, starts, count, duration, changes_W);
   for (int i = 0; i < count; ++i) {
-    if (takeFlight(*trees[i], of[i]->complaints, duration)) continue;
+    if (applyFlight(*trees[i], of[i]->warnings, duration)) continue;
     bodies[i]->outcome.motion = before[i];  // in the place where the tree knows its memory
     if (bodies[i]->surface()) *bodies[i]->floating = baseOf(*trees[i]).start;
   }
@@ -112,12 +112,12 @@ LinkFlightSettings settingsOf(const AmbientTree& tree) {
 
 // Adds the error of a step to that of each link. Counts and reports links for which steps are too
 // long, unless the user limits max_substeps.
-void addErrors(double error, AmbientTree& tree, Complaints& complaints) {
+void addErrors(double error, AmbientTree& tree, Warnings& warnings) {
   for (const auto& link : tree.links) {
     AmbientBody& ambient = link->ambient;
     if (!ambient.step_errors.add(error) || ambient.def->flight.max_substeps > 0) continue;
     ambient.counters.too_long = 1;
-    complaints.sayTooLong(*ambient.def);
+    warnings.warnOfLongSteps(*ambient.def);
   }
 }
 
@@ -136,7 +136,7 @@ class TreeFlight {
     if (count_.halted) forgetLoads(tree_);
     if (!is_finite_) return false;
     addCount(count_, tree_);
-    addErrors(count_.error, tree_, task_.bodies.complaints);
+    addErrors(count_.error, tree_, task_.bodies.warnings);
     countEnergyRemoved(count_.energy_removed, tree_);
     setFlown(step_);
     return true;
@@ -216,7 +216,7 @@ class TreeFlight {
   void returnToStart() {
     step_.pose = step_.surface.pose;
     step_.start = step_.surface.start;
-    placeLinks(tree_, step_.start);
+    computeLinkPoses(tree_, step_.start);
     forgetLoads(tree_);
     count_.error = count_.halted ? 1 : 0;
     count_.energy_removed = 0;

@@ -30,7 +30,7 @@ void prepareLink(AmbientLink& link, AmbientTree& tree, const TreeTask& task) {
   in_tree.model = &ambient.model();
   in_tree.memory = &ambient.outcome.flight().memory;
   if (ambient.surface()) {
-    standNow(ambient, link.now);
+    flotationNow(ambient, link.now);
     link.frozen.freeze(ambient);
     in_tree.model = &*link.frozen;
     in_tree.memory = nullptr;  // its loads are those on the part that is wet when the step begins
@@ -39,7 +39,7 @@ void prepareLink(AmbientLink& link, AmbientTree& tree, const TreeTask& task) {
   in_tree.surroundings.gravity = link.now.gravity;
   in_tree.surroundings.ambient_velocity = ambient.medium.velocity;
   in_tree.surroundings.ambient_acceleration = ambient.medium.acceleration;
-  in_tree.surroundings.load_share = ambient.load_share;
+  in_tree.surroundings.load_scale = ambient.load_scale;
   addFlowAlong(ambient, link.now.state.orientation, in_tree.surroundings);
 }
 
@@ -70,17 +70,17 @@ bool moves(AmbientTree& tree) {
 
 // True if a tree of one link floats in an unstable balance. False for trees with joints, which may
 // hold their links.
-bool standsOnSaddle(AmbientTree& tree) {
+bool floatsUnstably(AmbientTree& tree) {
   AmbientLink& base = *tree.links.front();
   if (tree.tree.size() > 1 || !base.ambient.surface()) return false;
   readPose(*tree.multi_body, tree.step.pose);
-  placeLinks(tree, tree.step.end);
+  computeLinkPoses(tree, tree.step.end);
   return !mayRestAtSurface(base.ambient, base.now);
 }
 
 }  // namespace
 
-void placeLinks(AmbientTree& tree, const CoordinatesIn& u) noexcept {
+void computeLinkPoses(AmbientTree& tree, const CoordinatesIn& u) noexcept {
   LinkDynamics& dynamics = tree.flight.dynamics();
   dynamics.moveTo(tree.step.pose);
   dynamics.setVelocity(u);
@@ -109,7 +109,7 @@ bool prepareLinks(AmbientTree& tree, const TreeTask& task) noexcept {
     link->now.gravity = toVector3(task.gravity);
   }
   if (!task.bodies.regions.empty() || tree.tree.size() == 1 || hasWakes(tree))
-    placeLinks(tree, tree.step.start);
+    computeLinkPoses(tree, tree.step.start);
   bool is_in_fluid = false;
   for (const auto& link : tree.links) {
     prepareLink(*link, tree, task);
@@ -118,10 +118,10 @@ bool prepareLinks(AmbientTree& tree, const TreeTask& task) noexcept {
   return is_in_fluid;
 }
 
-void placeLinksNow(AmbientTree& tree) noexcept {
+void computeLinkPosesNow(AmbientTree& tree) noexcept {
   readPose(*tree.multi_body, tree.step.pose);
   readVelocity(*tree.multi_body, tree.step.start);
-  placeLinks(tree, tree.step.start);
+  computeLinkPoses(tree, tree.step.start);
 }
 
 void addCount(const FlightCount& count, AmbientTree& tree) noexcept {
@@ -149,7 +149,7 @@ void keepTreeAwake(AmbientTree& tree) noexcept {
   const auto floats = [](const AmbientBody& ambient) { return ambient.surface() != nullptr; };
   const bool is_carried = !has_rows || isOfAny(tree, floats);
   const bool is_unsteady = isOfAny(tree, [](const auto& ambient) { return !ambient.may_rest; });
-  if (is_unsteady || (is_carried && moves(tree)) || (!has_rows && standsOnSaddle(tree)))
+  if (is_unsteady || (is_carried && moves(tree)) || (!has_rows && floatsUnstably(tree)))
     tree.multi_body->wakeUp();
 }
 
@@ -229,8 +229,8 @@ class MovedTree {
                    velocity[1] * link.getAxisBottom(1) + velocity[2] * link.getAxisBottom(2));
     for (int i : {1, 2}) {
       const auto start = static_cast<btScalar>(from[static_cast<std::size_t>(i)]);
-      const btScalar way = link.getAxisBottom(i).dot(turned) * h_, exact = start + way;
-      const btScalar rounding = kRounding * (std::abs(start) + std::abs(way));
+      const btScalar turn = link.getAxisBottom(i).dot(turned) * h_, exact = start + turn;
+      const btScalar rounding = kRounding * (std::abs(start) + std::abs(turn));
       if (std::abs(link.m_jointPos[i] - exact) <= rounding) link.m_jointPos[i] = exact;
     }
   }

@@ -38,7 +38,7 @@ double turnNumberOf(LinkDynamics& dynamics, const CoordinatesIn& x, const Coordi
 }
 
 // Returns X / t of eq. (28).
-double shareOfTurn(double turn_number) {
+double turningFactor(double turn_number) {
   return std::min(1.0, std::max(0.0, 2 - 2 * turn_number)) / 2;
 }
 
@@ -53,7 +53,7 @@ double twiceProduct(LinkDynamics& dynamics, const Coordinates& a, const Coordina
 
 void countRejected(AmbientTree& tree, AmbientBodies& bodies) {
   ++tree.links.front()->ambient.counters.rejected;
-  bodies.complaints.say(Complaint::kNotFinite);
+  bodies.warnings.warnOnce(Warning::kNotFinite);
 }
 
 void stopIfNotFinite(AmbientTree& tree, AmbientBodies& bodies) {
@@ -84,8 +84,8 @@ bool prepareRows(AmbientTree& tree, double h) {
   step.moved = step.end;
   subtractFlow(tree.tree, step.moved);
   step.turn_number = turnNumberOf(flight.dynamics(), step.moved, flight.turning(), h);
-  step.share = shareOfTurn(step.turn_number) * flight.turning();
-  step.moved = step.end + step.share;
+  step.turning = turningFactor(step.turn_number) * flight.turning();
+  step.moved = step.end + step.turning;
   if (step.meets_surface) keepWithinReach(tree);
   return true;
 }
@@ -99,7 +99,7 @@ bool prepareWoken(AmbientTree& tree) {
   if (!tree.flight.dynamics().factor()) return false;
   step.outcome = Outcome::kRows;
   step.moved = step.end = step.start;
-  step.share.setZero();
+  step.turning.setZero();
   step.turn_number = 0;
   return true;
 }
@@ -127,10 +127,10 @@ void finishTreeRows(AmbientTree& tree, const TreeTask& task) {
   }
   LinkDynamics& dynamics = tree.flight.dynamics();
   Coordinates& free = step.spare;
-  const double on_share = twiceProduct(dynamics, step.share, step.change, free);
+  const double on_turning = twiceProduct(dynamics, step.turning, step.change, free);
   free = step.end + step.change;
   subtractFlow(tree.tree, free);
-  step.energy = std::max(0.0, dynamics.normSquared(free) + std::min(0.0, on_share));
+  step.energy = std::max(0.0, dynamics.normSquared(free) + std::min(0.0, on_turning));
 }
 
 // Moves `step.end` back towards `step.spare`, both relative to the flow, until twice its energy is
@@ -148,11 +148,11 @@ double keepWithin(double energy, LinkDynamics& dynamics, TreeStep& step) {
     to = std::sqrt(energy / (is_slow ? has : had)) * (is_slow ? to : from);
     return removed;
   }
-  Coordinates& way = step.change;
-  way = to - from;
-  const double a = dynamics.normSquared(way), b = (has - had - a) / 2;
+  Coordinates& difference = step.change;
+  difference = to - from;
+  const double a = dynamics.normSquared(difference), b = (has - had - a) / 2;
   const double root = std::sqrt(std::max(0.0, b * b - a * excess));
-  to = from + (b > 0 ? -excess / (b + root) : (root - b) / a) * way;
+  to = from + (b > 0 ? -excess / (b + root) : (root - b) / a) * difference;
   return removed;
 }
 
@@ -161,7 +161,7 @@ double keepWithin(double energy, LinkDynamics& dynamics, TreeStep& step) {
 void addTurning(AmbientTree& tree, double h) {
   TreeStep& step = tree.step;
   LinkDynamics& dynamics = tree.flight.dynamics();
-  Coordinates &turning = step.share, &at_rest = step.spare;
+  Coordinates &turning = step.turning, &at_rest = step.spare;
   movePose(tree.tree, step.pose, step.moved, h / 2, step.pose);
   dynamics.setPose(step.pose);
   dynamics.factor();
@@ -209,7 +209,7 @@ bool beginTree(AmbientTree& tree, const TreeTask& task) {
   if (!step.was_awake) return prepareWoken(tree);
   if (tree.tree.size() == 1 || wasMovedByOthers(tree, step.start)) forgetLoads(tree);
   if (isAtSurface(tree)) {
-    takeInflow(tree);
+    addInflow(tree);
     step.surface.start = step.start;
     kickAtSurface(tree, task);
     keepEnergy(tree);
@@ -229,7 +229,7 @@ void beginAlone(AmbientTree& tree, const TreeTask& task) {
 
 // Reports links that their joints turn by half a turn or more in a step: blades then meet the flow
 // from few sides, whose mean is not that of a turn.
-void reportFastJoints(const AmbientTree& tree, const TreeTask& task) noexcept {
+void warnOfFastJoints(const AmbientTree& tree, const TreeTask& task) noexcept {
   for (const auto& link : tree.links) {
     AmbientBody& ambient = link->ambient;
     if (link->link < 0 || ambient.counters.too_long > 0 || !ambient.isInFluid()) continue;
@@ -239,7 +239,7 @@ void reportFastJoints(const AmbientTree& tree, const TreeTask& task) noexcept {
     const double turns = std::abs(rate) * task.duration / (2 * kPi);
     if (turns < 0.5) continue;
     ambient.counters.too_long = 1;
-    task.bodies.complaints.sayFastJoint(*ambient.def, turns, task.duration);
+    task.bodies.warnings.warnOfFastJoint(*ambient.def, turns, task.duration);
   }
 }
 
@@ -258,7 +258,7 @@ bool prepareTree(AmbientTree& tree, const TreeTask& task) noexcept {
   if (!prepareLinks(tree, task)) return true;
   beginTreeReading(tree);
   if (body.isUsingRK4Integration()) {
-    task.bodies.complaints.say(Complaint::kRungeKutta);
+    task.bodies.warnings.warnOnce(Warning::kRungeKutta);
     body.setPosUpdated(false);
     setInstanceNumber(body, tree.instance);
   }
@@ -306,14 +306,14 @@ void completeTree(AmbientTree& tree, const TreeTask& task) noexcept {
   } else {
     keepIntegrals(tree, task.duration);
   }
-  passSurface(tree, task);
+  applyAddedMassChange(tree, task);
   if (!step.end.allFinite()) {
     countRejected(tree, task.bodies);
     return;
   }
   step.change = step.end - step.moved;
   addVelocity(body, step.change);
-  reportFastJoints(tree, task);
+  warnOfFastJoints(tree, task);
   keepTreeAwake(tree);
   writeJointForces(tree, task);
   finishTreeReading(tree, task.duration);

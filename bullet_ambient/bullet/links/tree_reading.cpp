@@ -7,7 +7,7 @@
 #include "bullet_ambient/bullet/core/conversions.h"
 #include "bullet_ambient/bullet/links/tree_step.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
-#include "bullet_ambient/immersed/fluid_reading.h"
+#include "bullet_ambient/immersed/wrench_sensor.h"
 
 AMBIENT_BEGIN
 
@@ -15,14 +15,14 @@ namespace {
 
 bool isRead(const AmbientTree& tree) {
   return std::any_of(tree.links.begin(), tree.links.end(),
-                     [](const auto& link) { return link->ambient.reading != nullptr; });
+                     [](const auto& link) { return link->ambient.sensor != nullptr; });
 }
 
 template <class Visit>
 void forEachRead(const AmbientTree& tree, const Visit& visit) {
   for (const auto& link : tree.links) {
     const Link& in_tree = tree.tree.links[link->link + 1];
-    if (link->ambient.reading && in_tree.model) visit(*link, link->link + 1);
+    if (link->ambient.sensor && in_tree.model) visit(*link, link->link + 1);
   }
 }
 
@@ -44,11 +44,11 @@ void beginTreeReading(AmbientTree& tree) noexcept {
   dynamics.setPose(tree.step.pose);
   dynamics.setVelocity(tree.step.start);
   forEachRead(tree, [&](AmbientLink& read, int link) {
-    FluidReading& reading = *read.ambient.reading;
+    WrenchSensor& sensor = *read.ambient.sensor;
     Surroundings surroundings = tree.tree.links[link].surroundings;
     surroundings.applied -= pushByFlow(read.ambient, read.now.state.orientation);
-    beginReading(read.ambient, stateOf(dynamics, link), surroundings, reading);
-    reading.model = *tree.tree.links[link].model;
+    beginReading(read.ambient, stateOf(dynamics, link), surroundings, sensor);
+    sensor.model = *tree.tree.links[link].model;
   });
 }
 
@@ -61,22 +61,23 @@ void finishTreeReading(AmbientTree& tree, double duration) noexcept {
   dynamics.setPose(step.pose);
   dynamics.setVelocity(step.end);
   forEachRead(tree, [&](AmbientLink& read, int link) {
-    FluidReading& reading = *read.ambient.reading;
-    reading.end = stateOf(dynamics, link);
-    reading.knows_impulse = is_free;
+    WrenchSensor& sensor = *read.ambient.sensor;
+    sensor.end = stateOf(dynamics, link);
+    sensor.knows_impulse = is_free;
     const Matrix3& R = dynamics.rotation(link);
-    const Wrench& passage = step.impulses[link];
-    if (step.meets_surface) reading.passage_W = {R * passage.torque, R * passage.force};
+    const Wrench& of_change = step.impulses[link];
+    if (step.meets_surface)
+      sensor.added_mass_impulse_W = {R * of_change.torque, R * of_change.force};
   });
   movePose(tree.tree, step.pose, step.moved, -duration / 2, step.pose);
   dynamics.setPose(step.pose);
   dynamics.setVelocity(step.moved);
   forEachRead(tree, [&](AmbientLink& read, int link) {
-    FluidReading& reading = *read.ambient.reading;
+    WrenchSensor& sensor = *read.ambient.sensor;
     finishReading(read.ambient,
-                  {stateOf(dynamics, link), reading.end, reading.model,
+                  {stateOf(dynamics, link), sensor.end, sensor.model,
                    step.outcome == Outcome::kFlown, duration},
-                  reading);
+                  sensor);
   });
 }
 

@@ -46,10 +46,10 @@ void forgetLoads(AmbientTree& tree) noexcept;
 
 /// Sets the motion of each link, AmbientLink::now, to that at `step.pose` and for the generalized
 /// velocity `u`. Leaves the dynamics there, with the models that they had.
-void placeLinks(AmbientTree& tree, const CoordinatesIn& u) noexcept;
+void computeLinkPoses(AmbientTree& tree, const CoordinatesIn& u) noexcept;
 
 /// Sets the motion of each link to the present one. Call between two steps.
-void placeLinksNow(AmbientTree& tree) noexcept;
+void computeLinkPosesNow(AmbientTree& tree) noexcept;
 
 /// Adds the counts of a flight to the counters of the links: substeps to all, load evaluations in
 /// equal parts to those with loads, all others to the first link.
@@ -93,7 +93,7 @@ void forEachAtSurface(const AmbientTree& tree, const Visit& visit) {
 
 /// Call before a step. Changes `step.start` by the water that has come into holds of links. @pre
 /// prepareLinks()
-void takeInflow(AmbientTree& tree) noexcept;
+void addInflow(AmbientTree& tree) noexcept;
 
 /// Call before a step, or before each part of a step that is flown in parts. Changes `step.start`
 /// by the waves that links make and by the wind. @pre prepareLinks()
@@ -138,7 +138,7 @@ void keepWithinReach(AmbientTree& tree) noexcept;
 /// Call after Bullet has moved the tree. Calls arriveAtSurface() at the present pose. If no rows
 /// have moved the tree, scales the motion relative to the flow so that the energy does not exceed
 /// the one that keepEnergy() stored.
-void passSurface(AmbientTree& tree, const TreeTask& task) noexcept;
+void applyAddedMassChange(AmbientTree& tree, const TreeTask& task) noexcept;
 
 /// Flies a tree over a substep, from `step.pose` with velocity `step.start`. Writes the mean
 /// velocity to `step.moved`, the end velocity to `step.end`, and the outcome. At a water surface, a

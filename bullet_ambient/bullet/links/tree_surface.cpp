@@ -44,15 +44,15 @@ Vector3 torqueOnSpin(const AmbientLink& link, const Vector6& x) {
 // Lets up to kFlightsTogether links pass the surface side by side, which have come to where a step
 // ends, with the twists that they have there alone. Writes the impulses that change these.
 // Returns the energy removed [J].
-double passTogether(AmbientLink* const* links, RowPassage* passages, int count, double duration,
-                    std::vector<Wrench>& impulses) {
+double changeTogether(AmbientLink* const* links, BodyMovedByRows* moved, int count, double duration,
+                      std::vector<Wrench>& impulses) {
   Vector6 before[kFlightsTogether];
-  for (int i = 0; i < count; ++i) before[i] = passages[i].twist.twist;
-  passWithRows(passages, count, duration);
+  for (int i = 0; i < count; ++i) before[i] = moved[i].twist.twist;
+  applyAddedMassChanges(moved, count, duration);
   double energy_removed = 0;
   for (int i = 0; i < count; ++i) {
     AmbientLink& link = *links[i];
-    const BoundedTwist& after = passages[i].twist;
+    const BoundedTwist& after = moved[i].twist;
     FloatingState& floating = *link.ambient.floating;
     const Vector3 on_spin = torqueOnSpin(link, before[i]);
     link.frozen.freeze(link.ambient);
@@ -74,7 +74,7 @@ bool isAtSurface(const AmbientTree& tree) noexcept {
   return is_at;
 }
 
-void takeInflow(AmbientTree& tree) noexcept {
+void addInflow(AmbientTree& tree) noexcept {
   std::fill(tree.step.impulses.begin(), tree.step.impulses.end(), Wrench{});
   bool has_come = false;
   forEachAtSurface(tree, [&](AmbientLink& link, int i) {
@@ -97,14 +97,14 @@ void kickAtSurface(AmbientTree& tree, const TreeTask& task) noexcept {
   });
   step.meets_surface = addResponse(tree, step.start);
   forEachAtSurface(tree, [&](AmbientLink& link, int) {
-    warnOfShortPeriod(link.ambient, task.duration, task.bodies.complaints);
+    warnOfShortPeriod(link.ambient, task.duration, task.bodies.warnings);
   });
 }
 
 void stiffenForRows(AmbientTree& tree) noexcept {
   forEachAtSurface(tree, [&](AmbientLink& link, int) {
-    const SurfaceStand& stand = link.ambient.stand();
-    link.frozen.stiffen(stand, stand.modes, tree.step.surface.time);
+    const Flotation& flotation = link.ambient.flotation();
+    link.frozen.stiffen(flotation, flotation.modes, tree.step.surface.time);
   });
 }
 
@@ -116,34 +116,34 @@ void floatInMiddle(AmbientTree& tree) noexcept {
   movePose(tree.tree, tree.step.pose, tree.step.start, half, surface.middle);
   dynamics.moveTo(surface.middle);
   forEachAtSurface(tree, [&](AmbientLink& link, int i) {
-    const SurfaceStand& stand = link.ambient.stand();
+    const Flotation& flotation = link.ambient.flotation();
     link.hydrostatics =
         link.frozen.floatAt(link.ambient, {dynamics.rotation(i), dynamics.position(i)}, half);
-    link.frozen.stiffen(stand, modesOfWaterplane(stand), surface.time);
+    link.frozen.stiffen(flotation, modesOfWaterplane(flotation), surface.time);
   });
 }
 
 double arriveAtSurface(AmbientTree& tree) noexcept {
   TreeStep& step = tree.step;
   const double duration = step.surface.time;
-  placeLinks(tree, step.end);
+  computeLinkPoses(tree, step.end);
   const LinkDynamics& dynamics = tree.flight.dynamics();
   std::fill(step.impulses.begin(), step.impulses.end(), Wrench{});
   double energy_removed = 0;
   int count = 0;
   AmbientLink* links[kFlightsTogether];
-  RowPassage passages[kFlightsTogether];
+  BodyMovedByRows moved[kFlightsTogether];
   const auto arrive = [&] {
-    energy_removed += passTogether(links, passages, count, duration, step.impulses);
+    energy_removed += changeTogether(links, moved, count, duration, step.impulses);
     count = 0;
   };
   forEachAtSurface(tree, [&](AmbientLink& link, int i) {
     links[count] = &link;
-    RowPassage& passage = passages[count++];
-    passage.body = &link.ambient;
-    passage.pose = {dynamics.rotation(i), dynamics.position(i)};
-    passage.twist = {endTwist(dynamics, i, link.ambient.medium, duration)};
-    passage.hydrostatics = step.surface.has_flown ? &link.hydrostatics : nullptr;
+    BodyMovedByRows& of_link = moved[count++];
+    of_link.body = &link.ambient;
+    of_link.pose = {dynamics.rotation(i), dynamics.position(i)};
+    of_link.twist = {endTwist(dynamics, i, link.ambient.medium, duration)};
+    of_link.hydrostatics = step.surface.has_flown ? &link.hydrostatics : nullptr;
     if (count == kFlightsTogether) arrive();
   });
   if (count > 0) arrive();
@@ -189,7 +189,7 @@ double twiceKinetic(AmbientTree& tree, const CoordinatesIn& u) {
 // `origin_W`. Adds of_water(AmbientBody&, index in the tree) for each link at a surface: the energy
 // of water and waves.
 template <class OfWater>
-double energyOfPlace(const AmbientTree& tree, const Vector3& origin_W, const OfWater& of_water) {
+double potentialEnergy(const AmbientTree& tree, const Vector3& origin_W, const OfWater& of_water) {
   const LinkDynamics& dynamics = tree.flight.dynamics();
   double sum = 0;
   for (int i = 0; i < tree.tree.size(); ++i) {
@@ -202,9 +202,9 @@ double energyOfPlace(const AmbientTree& tree, const Vector3& origin_W, const OfW
     const Link& link = tree.tree.links[i];
     if (!link.model) continue;
     const SurfaceModel* surface = ambient.surface();
-    sum += energyOfPlace(surface ? surface->above : *link.model, link.surroundings,
-                         {dynamics.rotation(i), dynamics.position(i) - origin_W},
-                         surface ? of_water(ambient, i) : 0);
+    sum += potentialEnergy(surface ? surface->above : *link.model, link.surroundings,
+                           {dynamics.rotation(i), dynamics.position(i) - origin_W},
+                           surface ? of_water(ambient, i) : 0);
   }
   return sum;
 }
@@ -212,13 +212,13 @@ double energyOfPlace(const AmbientTree& tree, const Vector3& origin_W, const OfW
 // Returns the energy rho g W of docs/theory.md eq. (64) at the last pose of a link, and that of its
 // waves [J].
 double energyOfWater(const AmbientBody& ambient, int) {
-  const SurfaceStand& stand = ambient.stand();
-  return hydrostaticEnergy(wetVolume(*ambient.surface(), stand), stand.plane) +
+  const Flotation& flotation = ambient.flotation();
+  return hydrostaticEnergy(wetVolume(*ambient.surface(), flotation), flotation.plane) +
          ambient.floating->waves.energy() + (ambient.vessel ? ambient.vessel->sloshing_energy : 0);
 }
 
 // Returns the largest change of the energy by rounding of Bullet's poses [J].
-double roundingOf(const AmbientTree& tree) {
+double roundingOfEnergy(const AmbientTree& tree) {
   constexpr double kRounding = 64 * static_cast<double>(std::numeric_limits<btScalar>::epsilon());
   double sum = 0;
   forEachAtSurface(tree, [&](const AmbientLink& link, int i) {
@@ -242,9 +242,9 @@ void keepEnergy(AmbientTree& tree) noexcept {
   surface.is_bound = isLeftToWater(tree);
   if (!surface.is_bound) return;
   surface.origin_W = tree.flight.dynamics().position(0);
-  surface.rounding = roundingOf(tree);
-  surface.energy =
-      twiceKinetic(tree, surface.start) / 2 + energyOfPlace(tree, surface.origin_W, energyOfWater);
+  surface.rounding = roundingOfEnergy(tree);
+  surface.energy = twiceKinetic(tree, surface.start) / 2 +
+                   potentialEnergy(tree, surface.origin_W, energyOfWater);
 }
 
 bool mayGainEnergy(AmbientTree& tree, double duration) noexcept {
@@ -262,7 +262,7 @@ bool mayGainEnergy(AmbientTree& tree, double duration) noexcept {
     const double speed =
         (dynamics.rotation(i) * twist.linear - flow).norm() + model.radius * twist.angular.norm();
     most += errorOfBuoyancy(model, plane, speed, duration);
-    is_stiff = is_stiff || duration * ambient.stand().frequency > kLongestPhase;
+    is_stiff = is_stiff || duration * ambient.flotation().frequency > kLongestPhase;
   });
   return is_stiff || twiceKinetic(tree, tree.step.end) < 2 * most;
 }
@@ -270,14 +270,14 @@ bool mayGainEnergy(AmbientTree& tree, double duration) noexcept {
 bool hasGainedEnergy(const AmbientTree& tree, double since_start) noexcept {
   const SurfaceStep& surface = tree.step.surface;
   const LinkDynamics& dynamics = tree.flight.dynamics();
-  const double place = energyOfPlace(
+  const double potential = potentialEnergy(
       tree, originAfter(tree, since_start), [&](const AmbientBody& ambient, int link) {
         const FrameOffset pose{dynamics.rotation(link), dynamics.position(link)};
         return hydrostaticEnergyAt(ambient, pose, surface.time) +
                ambient.floating->waves_with_rows.energy() +
-               (ambient.stand().inside_F ? ambient.vessel->before_rows.energy : 0);
+               (ambient.flotation().inside_F ? ambient.vessel->before_rows.energy : 0);
       });
-  return place > surface.energy + surface.rounding;
+  return potential > surface.energy + surface.rounding;
 }
 
 void keepWithinReach(AmbientTree& tree) noexcept {
@@ -306,7 +306,7 @@ void keepWithinReach(AmbientTree& tree) noexcept {
   });
   scale(part, step.end);
   scale(part, step.moved);
-  step.share *= part;
+  step.turning *= part;
   ++tree.links.front()->ambient.counters.halted;
 }
 
@@ -317,9 +317,9 @@ namespace {
 double boundSurfaceEnergy(AmbientTree& tree, double duration) {
   TreeStep& step = tree.step;
   if (!step.surface.is_bound) return 0;
-  const double place = energyOfPlace(tree, originAfter(tree, duration), energyOfWater);
+  const double potential = potentialEnergy(tree, originAfter(tree, duration), energyOfWater);
   const double has = twiceKinetic(tree, step.end);
-  const double allowed = 2 * std::max(0.0, step.surface.energy + step.surface.rounding - place);
+  const double allowed = 2 * std::max(0.0, step.surface.energy + step.surface.rounding - potential);
   if (!(has > allowed)) return 0;
   step.end = std::sqrt(allowed / has) * step.spare;
   step.end.segment<3>(3) += flowAround(tree.tree);
@@ -328,7 +328,7 @@ double boundSurfaceEnergy(AmbientTree& tree, double duration) {
 
 }  // namespace
 
-void passSurface(AmbientTree& tree, const TreeTask& task) noexcept {
+void applyAddedMassChange(AmbientTree& tree, const TreeTask& task) noexcept {
   TreeStep& step = tree.step;
   if (!step.meets_surface) return;
   readPose(*tree.multi_body, step.pose);

@@ -18,7 +18,7 @@ TreeStep::TreeStep(Eigen::Index n, std::size_t links)
     : start(n),
       moved(n),
       end(Coordinates::Zero(n)),
-      share(n),
+      turning(n),
       change(n),
       spare(n),
       impulses(links) {
@@ -83,7 +83,7 @@ void AmbientTrees::insert(btMultiBodyDynamicsWorld& world, btMultiBody& multi_bo
   }
   AMBIENT_ASSERT(link && link->link < multi_body.getNumLinks() && !tree->find(link->link));
   link->ambient.multi_body = &multi_body;
-  takePlace(link->ambient, nullptr);
+  setHandle(link->ambient, nullptr);
   tree->links.push_back(std::move(link));
   world_ = &world;
 }
@@ -94,7 +94,7 @@ void AmbientTrees::replace(btMultiBodyDynamicsWorld& world, btMultiBody& multi_b
   for (std::unique_ptr<AmbientLink>& link : links) {
     const AmbientLink* before = find(&multi_body, link->link);
     link->ambient.multi_body = &multi_body;
-    takePlace(link->ambient, before ? &before->ambient : nullptr);
+    setHandle(link->ambient, before ? &before->ambient : nullptr);
     tree->links.push_back(std::move(link));
   }
   erase(multi_body);
@@ -136,22 +136,22 @@ void BodyIndex::reserveOne() {
   if (3 * (count_ + 1) > 2 * entries_.size()) grow();
 }
 
-void BodyIndex::insert(const btCollisionObject* object, Place place) {
+void BodyIndex::insert(const btCollisionObject* object, Iterator iterator) {
   reserveOne();
-  Entry& entry = entries_[placeOf(object)];
+  Entry& entry = entries_[slotOf(object)];
   AMBIENT_ASSERT(!entry.object);
-  entry = {object, place};
+  entry = {object, iterator};
   ++count_;
 }
 
 void BodyIndex::erase(const btCollisionObject* object) noexcept {
-  std::size_t gap = placeOf(object);
+  std::size_t gap = slotOf(object);
   AMBIENT_ASSERT(entries_[gap].object == object);
   // Moves later entries into the gap, so that no search ends there too early.
   const std::size_t mask = entries_.size() - 1;
   for (std::size_t at = next(gap); entries_[at].object; at = next(at)) {
-    const std::size_t way = (at - homeOf(entries_[at].object)) & mask;
-    if (way < ((at - gap) & mask)) continue;
+    const std::size_t distance = (at - homeOf(entries_[at].object)) & mask;
+    if (distance < ((at - gap) & mask)) continue;
     entries_[gap] = entries_[at];
     gap = at;
   }
@@ -168,7 +168,7 @@ void BodyIndex::grow() {
   std::vector<Entry> known(entries_.empty() ? 8 : 2 * entries_.size());
   known.swap(entries_);
   for (const Entry& entry : known)
-    if (entry.object) entries_[placeOf(entry.object)] = entry;
+    if (entry.object) entries_[slotOf(entry.object)] = entry;
 }
 
 namespace {
@@ -205,7 +205,7 @@ AmbientBody& AmbientBodies::insert(AmbientBody ambient) {
   AmbientBody& added = last.emplace_back(std::move(ambient));
   added.instance = instanceNumber(*added.body);
   by_object_.reserveOne();
-  takePlace(added, find(added.body));
+  setHandle(added, find(added.body));
   has_vessels = has_vessels || added.vessel;
   erase(*added.body);  // or what is left of one that was destroyed at this address
   by_object_.insert(added.body, last.begin());
@@ -232,7 +232,7 @@ void AmbientBodies::clear() {
 void AmbientBodies::close() {
   clear();
   regions = {};
-  complaints.setReport(nullptr);
+  warnings.setReport(nullptr);
   task_runner = nullptr;
   naming = nullptr;
   is_closed = true;
@@ -247,7 +247,7 @@ void AmbientBodies::requireChangeable(const char* function) {
       function +
       ", which changes what is asked for its fluid; nothing has changed: call it between "
       "steps";
-  complaints.say(Complaint::kChange, sentence.c_str());
+  warnings.warnOnce(Warning::kChange, sentence.c_str());
   throw std::logic_error(sentence);
 }
 

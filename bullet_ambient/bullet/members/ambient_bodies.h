@@ -18,9 +18,9 @@
 #include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
 #include "bullet_ambient/immersed/ambient_body.h"
-#include "bullet_ambient/immersed/complaints.h"
 #include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/immersed/fluid_regions.h"
+#include "bullet_ambient/immersed/warnings.h"
 #include "bullet_ambient/motion/links/link_flight.h"
 
 class btCollisionObject;
@@ -78,11 +78,11 @@ struct TreeStep {
   btQuaternion to_base{0, 0, 0, 1};  ///< Bullet's number for the base's orientation there
   Coordinates start;                 ///< u_0, after the kicks of a water surface
   Coordinates moved;                 ///< velocity that Bullet moves the tree by
-  Coordinates end;     ///< velocity after the step; with rows, that without the turning part
-  Coordinates share;   ///< part of the turning velocity change included in the velocity that rows
-                       ///< were solved for
-  Coordinates change;  ///< velocity change by the rows
-  Coordinates spare;   ///< scratch memory; so are share and change once Bullet has moved the tree
+  Coordinates end;      ///< velocity after the step; with rows, that without the turning part
+  Coordinates turning;  ///< part of the turning velocity change included in the velocity that rows
+                        ///< were solved for
+  Coordinates change;   ///< velocity change by the rows
+  Coordinates spare;  ///< scratch memory; so are turning and change once Bullet has moved the tree
   std::vector<Wrench>
       impulses;  ///< impulse of the water surface on each link, in the link's frame [N m s, N s]
   double turn_number = 0;  ///< turn number m of the turn, docs/theory.md eq. (28a)
@@ -162,19 +162,19 @@ class AmbientTrees {
 /// array, of which a search reads one line of the cache in most cases.
 class BodyIndex {
  public:
-  using Place = std::list<AmbientBody>::iterator;
+  using Iterator = std::list<AmbientBody>::iterator;
 
   /// None: there is no entry for this address.
-  std::optional<Place> find(const btCollisionObject* object) const noexcept {
+  std::optional<Iterator> find(const btCollisionObject* object) const noexcept {
     if (entries_.empty()) return std::nullopt;
-    const Entry& entry = entries_[placeOf(object)];
+    const Entry& entry = entries_[slotOf(object)];
     if (!entry.object) return std::nullopt;
-    return entry.place;
+    return entry.iterator;
   }
   /// Makes room for one more entry: the next insert() does not throw.
   void reserveOne();
   /// @pre there is no entry for this address
-  void insert(const btCollisionObject* object, Place place);
+  void insert(const btCollisionObject* object, Iterator iterator);
   /// @pre there is an entry for this address
   void erase(const btCollisionObject* object) noexcept;
   void clear() noexcept;
@@ -182,7 +182,7 @@ class BodyIndex {
  private:
   struct Entry {
     const btCollisionObject* object = nullptr;  // null: no entry
-    Place place;
+    Iterator iterator;
   };
 
   // Returns the place where the search for an address begins, by its product with 2^64 / golden
@@ -193,7 +193,7 @@ class BodyIndex {
   }
   std::size_t next(std::size_t at) const noexcept { return (at + 1) & (entries_.size() - 1); }
   // Returns the place of an address, or the free place at which its search ends.
-  std::size_t placeOf(const btCollisionObject* object) const noexcept {
+  std::size_t slotOf(const btCollisionObject* object) const noexcept {
     std::size_t at = homeOf(object);
     while (entries_[at].object && entries_[at].object != object) at = next(at);
     return at;
@@ -209,14 +209,14 @@ class BodyIndex {
 int instanceNumber(const btRigidBody& body) noexcept;
 
 /// A body or link that moves in a world, where it is now.
-struct PlacedMember {
+struct MovingBody {
   Vector3 centre;      ///< of mass [m]
   std::size_t number;  ///< in the order of the world
   AmbientBody* body;
   const AmbientLink* link;  ///< null: a rigid body
 };
 
-/// All members of one Fluid: bodies, links, regions, and what they share. Solvers of the fluid keep
+/// All that is in one Fluid: bodies, links, regions, and what they share. Solvers of the fluid keep
 /// this object alive; handles (Immersed) do not.
 class AmbientBodies : public std::enable_shared_from_this<AmbientBodies> {
  public:
@@ -233,7 +233,7 @@ class AmbientBodies : public std::enable_shared_from_this<AmbientBodies> {
   /// Removes the entry for an address, whatever is there now. Returns false if there is no entry.
   bool erase(const btRigidBody& body);
   void clear();
-  /// Called when the Fluid ends: removes members, regions, report function and task runner.
+  /// Called when the Fluid ends: removes bodies, regions, report function and task runner.
   void close();
   /// Calls visit(AmbientBody&) for all bodies in the order of addition, and links; the Bullet
   /// objects may have been destroyed.
@@ -255,7 +255,7 @@ class AmbientBodies : public std::enable_shared_from_this<AmbientBodies> {
   AmbientBody* takeSolved() noexcept { return solved_list_.exchange(nullptr); }
 
   AmbientTrees trees;
-  Complaints complaints;
+  Warnings warnings;
   FluidRegions regions;
   ModelTables load_tables;              ///< data that several bodies share
   TaskRunner task_runner;               ///< null: flights run on the thread of the solver
@@ -263,8 +263,8 @@ class AmbientBodies : public std::enable_shared_from_this<AmbientBodies> {
   std::function<std::string(const btCollisionObject&)> naming;  ///< Fluid::setNaming()
   std::atomic<unsigned> solved{0};  ///< number of groups solved so far by all solvers of this fluid
   bool has_vessels = false;         ///< true: a body with holds was added
-  std::vector<PlacedMember> placed;  ///< scratch memory of findBodiesInHolds()
-  bool is_closed = false;            ///< the Fluid was destroyed
+  std::vector<MovingBody> west_to_east;  ///< scratch memory of findBodiesInHolds()
+  bool is_closed = false;                ///< the Fluid was destroyed
 
  private:
   void forgetSolved(const AmbientBody& ambient) noexcept;

@@ -102,7 +102,7 @@ void refresh(AmbientBody& ambient, const InverseMass& mass, const MotionView& no
   refreshModels(ambient, mass, bodies.regions, bodies.load_tables);
   bodies.has_vessels = bodies.has_vessels || ambient.vessel;
   if (mayBeInRegion(ambient, bodies.regions)) {
-    followRegions(ambient, now, bodies.regions, 0, bodies.complaints);
+    followRegions(ambient, now, bodies.regions, 0, bodies.warnings);
   } else {
     stayInOwnMedium(ambient, bodies.regions, 0);
   }
@@ -184,7 +184,7 @@ std::vector<FixedLink> carriedBy(const btMultiBody& body, int carrier) {
 namespace {
 
 // Reports mass, shape and settings that can be computed with, but were hardly meant.
-void warnOfDoubts(const AmbientBody& ambient, Complaints& complaints) {
+void warnOfDoubts(const AmbientBody& ambient, Warnings& warnings) {
   constexpr double kRounding = 1e-3;
   const FluidBody& shape = *ambient.def->fluid_body;
   const std::string who = "bullet_ambient: " + nameOf(*ambient.def) + ' ';
@@ -194,7 +194,7 @@ void warnOfDoubts(const AmbientBody& ambient, Complaints& complaints) {
     const std::string text = who + "has a principal moment of inertia of " +
                              std::to_string(largest) + " kg m^2, but no rigid body has one above " +
                              std::to_string(others) + " kg m^2, the sum of the other two";
-    complaints.say(Complaint::kInertia, text.c_str());
+    warnings.warnOnce(Warning::kInertia, text.c_str());
   }
   const FlowSettings& flow = ambient.def->flow;
   if (flow.law == PressureLaw::kForm && !flow.own_law &&
@@ -202,7 +202,7 @@ void warnOfDoubts(const AmbientBody& ambient, Complaints& complaints) {
     const std::string text = who +
                              "has a separation angle, which the form law does not read: where the "
                              "flow leaves a body follows from its shape and its roughness";
-    complaints.say(Complaint::kAngle, text.c_str());
+    warnings.warnOnce(Warning::kAngle, text.c_str());
   }
   if (ambient.isInFluid() && flow.law == PressureLaw::kForm && !flow.own_law &&
       ambient.medium.viscosity > 0 && ambient.model().loads && !(shape.sphere_radius > 0) &&
@@ -210,13 +210,13 @@ void warnOfDoubts(const AmbientBody& ambient, Complaints& complaints) {
     const std::string text = who +
                              "moves as without viscosity: its fluid body has no resistance, which "
                              "prepare() of preprocess/build.h and ambient_preprocess upgrade make";
-    complaints.say(Complaint::kNoResistance, text.c_str());
+    warnings.warnOnce(Warning::kNoResistance, text.c_str());
   }
   if (ambient.isInFluid() && !ambient.model().loads && !(shape.volume > 0) &&
       shape.added_mass.isZero(0)) {
     const std::string text =
         who + "feels no fluid: without faces, volume and added mass its shape is empty";
-    complaints.say(Complaint::kEmpty, text.c_str());
+    warnings.warnOnce(Warning::kEmpty, text.c_str());
   }
 }
 
@@ -235,7 +235,7 @@ void requireShape(const AttachDef& def) {
 void immerse(AmbientBody& ambient, const std::string& who, AttachDef def, const InverseMass& mass,
              const MotionView& now, AmbientBodies& bodies) {
   checkDef(who, def);
-  ambient.def = shareDef(std::move(def), bodies.load_tables);
+  ambient.def = internDef(std::move(def), bodies.load_tables);
   refresh(ambient, mass, now, bodies);
 }
 
@@ -259,7 +259,7 @@ AmbientBody& attachBody(AmbientBodies& bodies, btRigidBody& body, AttachDef def)
   ambient.body = &body;
   immerse(ambient, who, std::move(def), inverseMassOf(body), motionOf(body), bodies);
   if (ambient.isInFluid()) body.activate();
-  warnOfDoubts(ambient, bodies.complaints);
+  warnOfDoubts(ambient, bodies.warnings);
   return bodies.insert(std::move(ambient));
 }
 
@@ -331,7 +331,7 @@ AmbientBody& attachLink(AmbientBodies& bodies, btMultiBodyDynamicsWorld& world, 
   readLinkPose(body, *link);
   AmbientBody& attached = link->ambient;
   immerse(attached, who, std::move(def), link->mass, link->now, bodies);
-  warnOfDoubts(attached, bodies.complaints);
+  warnOfDoubts(attached, bodies.warnings);
   bodies.trees.insert(world, body, std::move(link));
   wake(body);
   return attached;
@@ -339,7 +339,7 @@ AmbientBody& attachLink(AmbientBodies& bodies, btMultiBodyDynamicsWorld& world, 
 
 DisplacedMass displacedMass(const AmbientBody& ambient) {
   double density = ambient.medium.density;
-  if (ambient.place.region != RegionId::kNone)
+  if (ambient.location.region != RegionId::kNone)
     for (const SurfaceMedia& surface : ambient.models->surfaces)
       density = std::min(density, surface.kind.mediumAbove(ambient.def->medium).density);
   return {1 / ambient.models->inverse_mass.mass, ambient.def->fluid_body->volume * density};
@@ -376,7 +376,7 @@ std::optional<DisplacedMass> risingMass(const AmbientBody& ambient, const Ambien
   return all;
 }
 
-void warnOfLightBody(Complaints& complaints, const AttachDef& def, const DisplacedMass& mass,
+void warnOfLightBody(Warnings& warnings, const AttachDef& def, const DisplacedMass& mass,
                      int count) {
   std::ostringstream text;
   text.precision(3);
@@ -384,7 +384,7 @@ void warnOfLightBody(Complaints& complaints, const AttachDef& def, const Displac
        << " kg and displaces " << mass.medium << " kg of its medium, so that it rises";
   if (count > 1) text << ", and so do " << count - 1 << " more of less than half that mass";
   text << "; if they are no balls, floats or balloons, give them the mass of their volume";
-  complaints.say(Complaint::kLight, text.str().c_str());
+  warnings.warnOnce(Warning::kLight, text.str().c_str());
 }
 
 AMBIENT_END

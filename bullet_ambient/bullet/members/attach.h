@@ -9,7 +9,7 @@
 #include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/fluid_body/fluid_body.h"
 #include "bullet_ambient/immersed/ambient_body.h"
-#include "bullet_ambient/immersed/complaints.h"
+#include "bullet_ambient/immersed/warnings.h"
 
 class btMultiBody;
 class btMultiBodyDynamicsWorld;
@@ -72,16 +72,16 @@ std::vector<FixedLink> carriedBy(const btMultiBody& multi_body, int carrier);
 /// counts as floating. @pre the body was dynamic when its models were made
 DisplacedMass displacedMass(const AmbientBody& ambient);
 
-/// Returns the masses of a new member by which it rises: it is much lighter than what it displaces,
-/// and there is gravity; else none. A robot is judged as a whole, when the link comes that makes it
-/// that light; one on a fixed base never. `trees`: of the fluid.
-/// `gravity`: of the world, for bodies that are not in it yet [m/s^2].
+/// Returns the masses of a new body or link by which it rises: it is much lighter than what it
+/// displaces, and there is gravity; else none. A robot is judged as a whole, when the link comes
+/// that makes it that light; one on a fixed base never. `trees`: of the fluid. `gravity`: of the
+/// world, for bodies that are not in it yet [m/s^2].
 std::optional<DisplacedMass> risingMass(const AmbientBody& ambient, const AmbientTrees& trees,
                                         const btVector3& gravity);
 
 /// Warns once of bodies much lighter than the medium that they displace. `def`, `mass`: of the
 /// lightest body in proportion; `count`: number of such bodies.
-void warnOfLightBody(Complaints& complaints, const AttachDef& def, const DisplacedMass& mass,
+void warnOfLightBody(Warnings& warnings, const AttachDef& def, const DisplacedMass& mass,
                      int count);
 
 /// Wakes a multibody and its colliders, like btCollisionObject::activate() for bodies.

@@ -56,7 +56,7 @@ void readStartStates(AmbientBody* const* bodies, int count, StartStates& starts)
 
 bool prepareStep(AmbientBody& ambient, AmbientBodies& bodies, double time_step) noexcept {
   SubstepOutcome& outcome = ambient.outcome;
-  if (outcome.kind == Outcome::kFlown) bodies.complaints.say(Complaint::kNoAction);
+  if (outcome.kind == Outcome::kFlown) bodies.warnings.warnOnce(Warning::kNoAction);
   bodies.noteSolved(ambient);
   outcome.world_index = ambient.body->getWorldArrayIndex();
   const btRigidBody& body = *ambient.body;
@@ -75,7 +75,7 @@ bool prepareFluid(AmbientBody& ambient, const MotionView* now, const Twist& twis
   const bool may_be_in_region = mayBeInRegion(ambient, bodies.regions);
   AMBIENT_ASSERT(now || !may_be_in_region);
   if (may_be_in_region) {
-    followRegions(ambient, *now, bodies.regions, time_step, bodies.complaints);
+    followRegions(ambient, *now, bodies.regions, time_step, bodies.warnings);
   } else {
     stayInOwnMedium(ambient, bodies.regions, time_step);
   }
@@ -83,19 +83,19 @@ bool prepareFluid(AmbientBody& ambient, const MotionView* now, const Twist& twis
   try {
     if (isModelStale(ambient, mass)) rebuildModels(ambient, mass);
   } catch (const std::exception&) {
-    bodies.complaints.say(Complaint::kNotPhysical);
+    bodies.warnings.warnOnce(Warning::kNotPhysical);
     return false;
   }
   followWake(ambient, twist_W, time_step);
   if (ambient.vessel && ambient.surface()) {
     findRimWaves(ambient, *now, bodies.regions);
-    if (exchangeWater(ambient, *now, time_step)) saySunk(ambient, bodies.complaints);
+    if (exchangeWater(ambient, *now, time_step)) warnOfSunkVessel(ambient, bodies.warnings);
   }
   if (may_be_in_region) findPushes(ambient, *now, bodies.regions, time_step);
   return true;
 }
 
-void hold(AmbientBody& ambient, AmbientBodies& bodies) noexcept {
+void disable(AmbientBody& ambient, AmbientBodies& bodies) noexcept {
   bodies.noteSolved(ambient);
   SubstepOutcome& outcome = ambient.outcome;
   outcome.kind = Outcome::kDisabled;
@@ -104,11 +104,11 @@ void hold(AmbientBody& ambient, AmbientBodies& bodies) noexcept {
   ambient.body->forceActivationState(DISABLE_SIMULATION);
 }
 
-void release(AmbientBody& ambient) noexcept {
+void restoreActivation(AmbientBody& ambient) noexcept {
   ambient.body->forceActivationState(ambient.outcome.activation_state);
 }
 
-void stopIfNotFinite(AmbientBody& ambient, Complaints& complaints) noexcept {
+void stopIfNotFinite(AmbientBody& ambient, Warnings& warnings) noexcept {
   btRigidBody& body = *ambient.body;
   // Zero times a number is zero if it is finite.
   const btVector3 nothing = 0 * body.getLinearVelocity() + 0 * body.getAngularVelocity();
@@ -118,7 +118,7 @@ void stopIfNotFinite(AmbientBody& ambient, Complaints& complaints) noexcept {
   forgetFlight(ambient);
   forgetWake(ambient);
   ++ambient.counters.rejected;
-  complaints.say(Complaint::kNotFinite);
+  warnings.warnOnce(Warning::kNotFinite);
 }
 
 void keepAwake(AmbientBody& ambient, Outcome kind) noexcept {
@@ -164,16 +164,16 @@ SurfaceFlight surfaceFlight(AmbientBody& ambient, Flight& flight) {
   const FlightTask& task = flight.task;
   RigidState& start = flight.body.state;
   AmbientBody* const body = &ambient;
-  standAt(&body, &start, 1, kBulletRounding);
+  updateFlotations(&body, &start, 1, kBulletRounding);
   const SurfaceModel* model = ambient.surface();
   AMBIENT_ASSERT(model);
   if (ambient.vessel)
     start.twist = Twist::fromVector(start.twist.vector() + ambient.vessel->change_B);
   return {{*model, floating.plane_W, task.surroundings, floating.velocity_above, task.settings,
-           task.duration, waterAtStand(ambient)},
+           task.duration, waterAtFlotation(ambient)},
           flight.body,
           floating.waves,
-          ambient.floating->stand};
+          ambient.floating->flotation};
 }
 
 void flyNearSurface(AmbientBody* const* bodies, Flight* const* flights, int count) {
@@ -276,12 +276,13 @@ std::optional<double> missingPart(const AmbientBody& ambient, const LastFlight& 
                                   double time_step) {
   const Vector3 missing =
       flight.position - toVector3(ambient.body->getWorldTransform().getOrigin());
-  const Vector3 way = time_step * flight.effective_W.linear;
-  const double size = flight.position.norm() + ambient.model().reference_length + way.norm();
+  const Vector3 displacement = time_step * flight.effective_W.linear;
+  const double size =
+      flight.position.norm() + ambient.model().reference_length + displacement.norm();
   const double rounding = 16 * kBulletRounding * size;
   if (missing.norm() <= rounding) return 0;
-  const double part = std::clamp(missing.dot(way) / way.squaredNorm(), 0.0, 1.0);
-  if (!((missing - part * way).norm() <= rounding)) return std::nullopt;
+  const double part = std::clamp(missing.dot(displacement) / displacement.squaredNorm(), 0.0, 1.0);
+  if (!((missing - part * displacement).norm() <= rounding)) return std::nullopt;
   return part;
 }
 

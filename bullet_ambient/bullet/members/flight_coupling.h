@@ -3,7 +3,7 @@
 #include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/immersed/ambient_body.h"
-#include "bullet_ambient/immersed/complaints.h"
+#include "bullet_ambient/immersed/warnings.h"
 
 AMBIENT_BEGIN
 
@@ -36,14 +36,14 @@ bool prepareFluid(AmbientBody& ambient, const MotionView* now, const Twist& twis
                   const InverseMass& mass, AmbientBodies& bodies, double time_step) noexcept;
 
 /// Disables the body for a substep whose duration is not finite, in which Bullet must not move it.
-void hold(AmbientBody& ambient, AmbientBodies& bodies) noexcept;
+void disable(AmbientBody& ambient, AmbientBodies& bodies) noexcept;
 
 /// Restores the activation state of the body after such a substep.
-void release(AmbientBody& ambient) noexcept;
+void restoreActivation(AmbientBody& ambient) noexcept;
 
 /// Sets a velocity that is not finite to zero, before constraint rows carry it to other bodies.
 /// Counts and reports it.
-void stopIfNotFinite(AmbientBody& ambient, Complaints& complaints) noexcept;
+void stopIfNotFinite(AmbientBody& ambient, Warnings& warnings) noexcept;
 
 /// True if a body moves by more than a hundredth of its size [m] within the 2 s that Bullet waits
 /// before it sleeps (gDeactivationTime).
@@ -65,9 +65,9 @@ void beginFlights(AmbientBody* const* bodies, const StartStates& starts, int cou
                   double time_step, Twist* changes_W) noexcept;
 
 /// Reports a flight that is not finite, or whose step is too long.
-inline void reportFlight(const AmbientBody& ambient, Complaints& complaints) noexcept {
-  if (ambient.outcome.kind != Outcome::kFlown) complaints.say(Complaint::kNotFinite);
-  if (ambient.outcome.is_too_long) complaints.sayTooLong(*ambient.def);
+inline void reportFlight(const AmbientBody& ambient, Warnings& warnings) noexcept {
+  if (ambient.outcome.kind != Outcome::kFlown) warnings.warnOnce(Warning::kNotFinite);
+  if (ambient.outcome.is_too_long) warnings.warnOfLongSteps(*ambient.def);
 }
 
 /// After Bullet has moved the body: gives it the velocity and the attitude of the end of its

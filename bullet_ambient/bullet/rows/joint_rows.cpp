@@ -365,7 +365,7 @@ bool JointChains::gatherChain(int root) noexcept {
     const Body& body = bodies_[queue_[next]];
     for (int end = body.end; end >= 0; end = next_end_[end]) {
       const btSolverConstraint& row = (*joints_)[end / 2];
-      const btTypedConstraint* joint = jointOf(row);
+      const btTypedConstraint* joint = constraintOf(row);
       if (joint == body.entered_by) continue;  // its rows were added at its other body
       const int other_id = end % 2 == 0 ? row.m_solverBodyIdB : row.m_solverBodyIdA;
       Body& other = bodies_[other_id];

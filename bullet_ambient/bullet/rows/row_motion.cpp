@@ -29,14 +29,14 @@ Twist solvedVelocity(btSolverBody& b) {
 
 // Returns the part of the way time_step * xi that the body has made: less than 1 if continuous
 // collision detection has stopped it; none if its position is not on this way.
-std::optional<double> partOfWay(const RowMotion& rows, const Vector3& position, double time_step) {
-  const Vector3 way = time_step * (rows.flow_W + rows.velocity_W.linear);
+std::optional<double> partOfPath(const RowMotion& rows, const Vector3& position, double time_step) {
+  const Vector3 displacement = time_step * (rows.flow_W + rows.velocity_W.linear);
   const Vector3 gone = position - rows.position;
-  const double rounding = kRounding * (position.norm() + way.norm());
+  const double rounding = kRounding * (position.norm() + displacement.norm());
   double part = 1;
-  if ((gone - way).norm() > rounding && way.squaredNorm() > 0)
-    part = std::clamp(gone.dot(way) / way.squaredNorm(), 0.0, 1.0);
-  if ((gone - part * way).norm() > rounding) return std::nullopt;
+  if ((gone - displacement).norm() > rounding && displacement.squaredNorm() > 0)
+    part = std::clamp(gone.dot(displacement) / displacement.squaredNorm(), 0.0, 1.0);
+  if ((gone - part * displacement).norm() > rounding) return std::nullopt;
   return part;
 }
 
@@ -119,7 +119,7 @@ void setKept(const RowLanes& lanes, int lane, bool is_kept, RowMotion& rows) {
 void settleMoved(AmbientBody& ambient, double time_step) {
   btRigidBody& body = *ambient.body;
   const RowMotion& rows = ambient.outcome.rows();
-  const auto part = partOfWay(rows, toVector3(body.getWorldTransform().getOrigin()), time_step);
+  const auto part = partOfPath(rows, toVector3(body.getWorldTransform().getOrigin()), time_step);
   if (!part) return;
   const Vector3 turn_W = *part * time_step * rows.velocity_W.angular;
   settleAttitude(body, turnedByBullet(rows.orientation, turn_W));
@@ -130,7 +130,7 @@ struct MovedBody {
   AmbientBody* ambient = nullptr;
   Quaternion orientation;  // B to W
   FrameOffset pose;        // B to W, before Bullet rounded it
-  double part = 1;         // partOfWay()
+  double part = 1;         // partOfPath()
   Vector6 moved;           // xi in B
   std::optional<StepModel> model;
 
@@ -158,7 +158,7 @@ int findMovedBodies(AmbientBody* const* bodies, int count, double time_step,
     AmbientBody& ambient = *changing[i];
     const Vector3 position = toVector3(ambient.body->getWorldTransform().getOrigin());
     const RowMotion& rows = ambient.outcome.rows();
-    const auto part = partOfWay(rows, position, time_step);
+    const auto part = partOfPath(rows, position, time_step);
     const bool is_turned_by_others =
         isTurnedFurther(rows.orientation, orientations[i], rows.turn + kTurnRounding);
     if (!part || is_turned_by_others) continue;
@@ -178,25 +178,25 @@ int findMovedBodies(AmbientBody* const* bodies, int count, double time_step,
 // Computes the twists that keep the momenta, eq. (31), of the bodies that keep one.
 void keepMomenta(const MovedBody* moved_bodies, int count, double time_step, BoundedTwist* ends) {
   const BodyModel* models[kFlightsTogether] = {};
-  int places[kFlightsTogether] = {}, found = 0;
+  int numbers[kFlightsTogether] = {}, found = 0;
   for (int i = 0; i < count; ++i) {
     ends[i] = {moved_bodies[i].moved};
     if (!moved_bodies[i].rows().momentum_W) continue;
     models[found] = &**moved_bodies[i].model;
-    places[found++] = i;
+    numbers[found++] = i;
   }
   if (found == 0) return;
   RowLanes lanes;
   setModels(models, found, lanes);
   for (int i = 0; i < found; ++i) {
-    const MovedBody& moved_body = moved_bodies[places[i]];
+    const MovedBody& moved_body = moved_bodies[numbers[i]];
     const RowMotion& rows = moved_body.rows();
     setLane(lanes.orientation, i, moved_body.orientation);
     setLane(lanes.momentum_W, i, *rows.momentum_W);
-    setLane(lanes.way_W, i, Vector3(moved_body.part * time_step * rows.velocity_W.linear));
+    setLane(lanes.displacement_W, i, Vector3(moved_body.part * time_step * rows.velocity_W.linear));
   }
   kFlightKernels.fastest()->transport(lanes);
-  for (int i = 0; i < found; ++i) ends[places[i]].twist = twistOf(lanes.twist_B, i).vector();
+  for (int i = 0; i < found; ++i) ends[numbers[i]].twist = twistOf(lanes.twist_B, i).vector();
 }
 
 // Bounds the energy of a fast turn, eq. (31a).
@@ -209,26 +209,27 @@ void boundTurnEnergy(const MovedBody& moved_body, BoundedTwist& end) {
 }
 
 // Passes the bodies that are at a surface through it, side by side.
-void passSurfaces(const MovedBody* moved_bodies, int count, double time_step, BoundedTwist* ends) {
-  RowPassage passages[kFlightsTogether];
-  int places[kFlightsTogether] = {}, found = 0;
+void changeAtSurface(const MovedBody* moved_bodies, int count, double time_step,
+                     BoundedTwist* ends) {
+  BodyMovedByRows moved[kFlightsTogether];
+  int numbers[kFlightsTogether] = {}, found = 0;
   for (int i = 0; i < count; ++i) {
     AmbientBody& ambient = *moved_bodies[i].ambient;
     if (!ambient.surface()) continue;
-    passages[found] = {&ambient, moved_bodies[i].pose, ends[i], axisFactors(*ambient.body),
-                       moved_bodies[i].rows().momentum_W.has_value()};
-    places[found++] = i;
+    moved[found] = {&ambient, moved_bodies[i].pose, ends[i], axisFactors(*ambient.body),
+                    moved_bodies[i].rows().momentum_W.has_value()};
+    numbers[found++] = i;
   }
   if (found == 0) return;
-  passWithRows(passages, found, time_step);
+  applyAddedMassChanges(moved, found, time_step);
   for (int i = 0; i < found; ++i) {
-    ends[places[i]].twist = passages[i].twist.twist;
-    ends[places[i]].energy_removed += passages[i].twist.energy_removed;
+    ends[numbers[i]].twist = moved[i].twist.twist;
+    ends[numbers[i]].energy_removed += moved[i].twist.energy_removed;
   }
 }
 
 void setVelocity(const MovedBody& moved_body, const BoundedTwist& end, double time_step,
-                 Complaints& complaints) {
+                 Warnings& warnings) {
   AmbientBody& ambient = *moved_body.ambient;
   Twist change_B = Twist::fromVector(end.twist - moved_body.moved);
   if (ambient.surface()) change_B.angular = ambient.surface()->withoutStill(change_B.angular);
@@ -237,7 +238,7 @@ void setVelocity(const MovedBody& moved_body, const BoundedTwist& end, double ti
   if (may_be_locked) change_W = onFreeAxes(change_W, axisFactors(*ambient.body));
   if (!change_W.vector().allFinite()) {
     ++ambient.counters.rejected;
-    complaints.say(Complaint::kNotFinite);
+    warnings.warnOnce(Warning::kNotFinite);
     return;
   }
   ambient.counters.energy_removed += end.energy_removed;
@@ -281,7 +282,7 @@ void beginRowMotions(RowBatch& batch, RowBodies& row_bodies,
 }
 
 void endRowMotions(AmbientBody* const* bodies, int count, double time_step,
-                   Complaints& complaints) noexcept {
+                   Warnings& warnings) noexcept {
   AMBIENT_ASSERT(count > 0 && count <= kFlightsTogether);
   MovedBody moved_bodies[kFlightsTogether];
   BoundedTwist ends[kFlightsTogether];
@@ -289,9 +290,8 @@ void endRowMotions(AmbientBody* const* bodies, int count, double time_step,
   const int moved_count = findMovedBodies(bodies, count, time_step, moved_bodies);
   keepMomenta(moved_bodies, moved_count, time_step, ends);
   for (int i = 0; i < moved_count; ++i) boundTurnEnergy(moved_bodies[i], ends[i]);
-  passSurfaces(moved_bodies, moved_count, time_step, ends);
-  for (int i = 0; i < moved_count; ++i)
-    setVelocity(moved_bodies[i], ends[i], time_step, complaints);
+  changeAtSurface(moved_bodies, moved_count, time_step, ends);
+  for (int i = 0; i < moved_count; ++i) setVelocity(moved_bodies[i], ends[i], time_step, warnings);
 }
 
 AMBIENT_END

@@ -8,7 +8,7 @@
 #include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/bullet/rows/row_rewriting.h"
 #include "bullet_ambient/immersed/ambient_body.h"
-#include "bullet_ambient/immersed/complaints.h"
+#include "bullet_ambient/immersed/warnings.h"
 #include "bullet_ambient/motion/lanes/flight_lanes.h"
 
 AMBIENT_BEGIN
@@ -52,6 +52,6 @@ void beginRowMotions(RowBatch& batch, RowBodies& row_bodies,
 /// the bodies; turns them to the attitudes of their ways. Does nothing for a body that is not on
 /// its way from the start along xi, because others have moved it. At most kFlightsTogether bodies.
 void endRowMotions(AmbientBody* const* bodies, int count, double time_step,
-                   Complaints& complaints) noexcept;
+                   Warnings& warnings) noexcept;
 
 AMBIENT_END

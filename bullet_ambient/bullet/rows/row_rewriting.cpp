@@ -63,10 +63,10 @@ WorldBasis makeLockedBasis(const Matrix6& inertia, double mass, const Matrix3& r
 namespace {
 
 // One side of a row. `ambient`: null if the body is not ambient.
-struct Party {
+struct RowSide {
   RowBody* ambient;
   const btSolverBody& solver_body;
-  RowSide side;
+  RowJacobian jacobian;
 };
 
 // Returns v M = M^T v.
@@ -80,18 +80,18 @@ struct PartProducts {
 };
 
 // Returns products of J and e at one side, with e of row_rewriting.h. The linear part has the
-// opposite sign: e_l = -velocity_aside.
-AMBIENT_INLINE PartProducts unseenProducts(RowKind kind, const Party& party) {
-  if (!party.ambient) return {anyZero(), anyZero()};
-  const RowBody& body = *party.ambient;
-  const btVector3 spin = kind == RowKind::kContact ? -body.spin_aside : body.spin_change;
-  return {load(party.side.angular) * load(spin),
-          load(party.side.linear) * load(body.velocity_aside)};
+// opposite sign: e_l = -velocity_excess.
+AMBIENT_INLINE PartProducts unseenProducts(RowKind kind, const RowSide& side) {
+  if (!side.ambient) return {anyZero(), anyZero()};
+  const RowBody& body = *side.ambient;
+  const btVector3 spin = kind == RowKind::kContact ? -body.spin_excess : body.spin_change;
+  return {load(side.jacobian.angular) * load(spin),
+          load(side.jacobian.linear) * load(body.velocity_excess)};
 }
 
 // Returns J e of both sides: the velocity change along the row outside the rows, minus the one that
 // Bullet has put into the right-hand side.
-AMBIENT_INLINE btScalar unseenChange(RowKind kind, const Party& a, const Party& b) {
+AMBIENT_INLINE btScalar unseenChange(RowKind kind, const RowSide& a, const RowSide& b) {
   if (kind == RowKind::kJoint) return 0;
   const PartProducts of_a = unseenProducts(kind, a), of_b = unseenProducts(kind, b);
   const Four sums = sumsOfThree(of_a.angular, of_a.linear, of_b.angular, of_b.linear);
@@ -99,79 +99,81 @@ AMBIENT_INLINE btScalar unseenChange(RowKind kind, const Party& a, const Party& 
 }
 
 // Sets J' = J T. Returns the products of J' D J'^T; the linear ones without the inverse mass.
-AMBIENT_INLINE PartProducts changedProducts(const RowBody& body, const RowSide& side) {
+AMBIENT_INLINE PartProducts changedProducts(const RowBody& body, const RowJacobian& jacobian) {
   const WorldBasis& T = body.basis;
-  Four linear = product(side.linear, T.linear);
-  if (body.has_coupling) linear = linear + product(side.angular, T.coupling);
-  const Four angular = product(side.angular, T.angular);
-  store(side.linear, linear);
-  store(side.angular, angular);
-  const Four component = product(side.angular, body.inverse_inertia_T);
-  store(side.angular_component, component);
+  Four linear = product(jacobian.linear, T.linear);
+  if (body.has_coupling) linear = linear + product(jacobian.angular, T.coupling);
+  const Four angular = product(jacobian.angular, T.angular);
+  store(jacobian.linear, linear);
+  store(jacobian.angular, angular);
+  const Four component = product(jacobian.angular, body.inverse_inertia_T);
+  store(jacobian.angular_component, component);
   return {angular * component, linear * linear};
 }
 
 // Returns the products of J' D J'^T at one side; brings an ambient body's side into its basis.
-AMBIENT_INLINE PartProducts responseProducts(const Party& party) {
-  const RowSide& side = party.side;
-  if (party.ambient) return changedProducts(*party.ambient, side);
-  const Four linear = load(side.linear);
-  return {load(side.angular) * load(side.angular_component),
-          linear * (linear * load(party.solver_body.m_invMass))};
+AMBIENT_INLINE PartProducts responseProducts(const RowSide& side) {
+  const RowJacobian& jacobian = side.jacobian;
+  if (side.ambient) return changedProducts(*side.ambient, jacobian);
+  const Four linear = load(jacobian.linear);
+  return {load(jacobian.angular) * load(jacobian.angular_component),
+          linear * (linear * load(side.solver_body.m_invMass))};
 }
 
 // Returns the sum of J' D J'^T over both sides; brings the sides of ambient bodies into their
 // bases.
-AMBIENT_INLINE btScalar inverseEffectiveMass(const Party& a, const Party& b) {
+AMBIENT_INLINE btScalar inverseEffectiveMass(const RowSide& a, const RowSide& b) {
   const PartProducts of_a = responseProducts(a), of_b = responseProducts(b);
   const Four sums = sumsOfThree(of_a.linear, of_a.angular, of_b.linear, of_b.angular);
-  const auto massOf = [](const Party& party) {
-    return party.ambient ? party.ambient->inverse_mass : btScalar(1);
+  const auto massOf = [](const RowSide& side) {
+    return side.ambient ? side.ambient->inverse_mass : btScalar(1);
   };
   return (sums[0] * massOf(a) + sums[1]) + (sums[2] * massOf(b) + sums[3]);
 }
 
 // Returns J D J^T at an ambient body.
-btScalar diagonal(const RowBody& body, const RowSide& side) {
-  return side.linear.length2() * body.inverse_mass + side.angular.dot(side.angular_component);
+btScalar diagonal(const RowBody& body, const RowJacobian& jacobian) {
+  return jacobian.linear.length2() * body.inverse_mass +
+         jacobian.angular.dot(jacobian.angular_component);
 }
 
 // Returns J K^-1 J^T at one side; does not change the row.
-btScalar responseOf(const Party& party) {
-  btVector3 angular = party.side.angular, linear = party.side.linear;
-  btVector3 angular_component = party.side.angular_component;
-  const RowSide copy{angular, linear, angular_component};
-  return party.ambient ? changeBasis(*party.ambient, copy)
-                       : inverseEffectiveMass(party.solver_body, copy);
+btScalar responseOf(const RowSide& side) {
+  btVector3 angular = side.jacobian.angular, linear = side.jacobian.linear;
+  btVector3 angular_component = side.jacobian.angular_component;
+  const RowJacobian copy{angular, linear, angular_component};
+  return side.ambient ? changeBasis(*side.ambient, copy)
+                      : inverseEffectiveMass(side.solver_body, copy);
 }
 
 // Replaces J at an ambient body by J P sqrt(D)^-1, where P projects on the locked axes. This row
 // moves nothing, because T is zero along locked axes, and is orthogonal to all rows that move the
 // body. Returns its J D J^T.
-btScalar pointAlongLockedAxes(const Party& party) {
-  if (!party.ambient) return 0;
-  const RowBody& body = *party.ambient;
-  const RowSide& side = party.side;
-  side.angular = body.root_inertia * (side.angular * body.locked_angular);
-  side.linear = side.linear * body.locked_linear / btSqrt(body.inverse_mass);
-  store(side.angular_component, product(side.angular, body.inverse_inertia_T));
-  return diagonal(body, side);
+btScalar pointAlongLockedAxes(const RowSide& side) {
+  if (!side.ambient) return 0;
+  const RowBody& body = *side.ambient;
+  const RowJacobian& jacobian = side.jacobian;
+  jacobian.angular = body.root_inertia * (jacobian.angular * body.locked_angular);
+  jacobian.linear = jacobian.linear * body.locked_linear / btSqrt(body.inverse_mass);
+  store(jacobian.angular_component, product(jacobian.angular, body.inverse_inertia_T));
+  return diagonal(body, jacobian);
 }
 
 // Scales Jacobian and response at an ambient body.
-void scaleSide(const Party& party, btScalar factor) {
-  if (!party.ambient) return;
-  party.side.angular *= factor;
-  party.side.linear *= factor;
-  party.side.angular_component *= factor;
+void scaleSide(const RowSide& side, btScalar factor) {
+  if (!side.ambient) return;
+  side.jacobian.angular *= factor;
+  side.jacobian.linear *= factor;
+  side.jacobian.angular_component *= factor;
 }
 
-bool isLocked(const Party& party) { return party.ambient && party.ambient->is_locked; }
+bool isLocked(const RowSide& side) { return side.ambient && side.ambient->is_locked; }
 
 // Switches off a row that acts along locked axes only. The row stays in its pool, and
 // complementarity solvers divide by its diagonal entry, which therefore keeps its value without
 // fluid, `old_denominator`.
-void suspendRow(btSolverConstraint& row, const Party& a, const Party& b, btScalar old_denominator) {
+void suspendRow(btSolverConstraint& row, const RowSide& a, const RowSide& b,
+                btScalar old_denominator) {
   const btScalar found = pointAlongLockedAxes(a) + pointAlongLockedAxes(b);
   const btScalar factor = found > 0 ? btSqrt(old_denominator / found) : btScalar(0);
   scaleSide(a, factor);
@@ -181,22 +183,23 @@ void suspendRow(btSolverConstraint& row, const Party& a, const Party& b, btScala
 
 // Returns |P J_l|^2 / m, where P projects on the locked axes: the response along locked axes that
 // Bullet's effective mass contains and the body does not have.
-btScalar lockedResponse(const Party& party) {
-  if (!party.ambient) return 0;
-  return (party.side.linear * party.ambient->locked_linear).length2() * party.ambient->inverse_mass;
+btScalar lockedResponse(const RowSide& side) {
+  if (!side.ambient) return 0;
+  return (side.jacobian.linear * side.ambient->locked_linear).length2() *
+         side.ambient->inverse_mass;
 }
 
 // Returns the relaxation factor of a row whose bodies have locked axes, above 0 and at most 1: the
 // share of free axes in `old_denominator`, the inverse of Bullet's effective mass, which knows no
 // locks. A row almost along a locked axis has a small response; without this factor its large
 // impulse would throw the body about.
-btScalar lockedRelaxation(const Party& a, const Party& b, btScalar old_denominator) {
+btScalar lockedRelaxation(const RowSide& a, const RowSide& b, btScalar old_denominator) {
   const btScalar share = 1 - (lockedResponse(a) + lockedResponse(b)) / old_denominator;
   return btMax(share, kNoResponse);
 }
 
-AMBIENT_INLINE void rewriteRow(btSolverConstraint& row, RowKind kind, const Party& a,
-                               const Party& b, btScalar relaxation) {
+AMBIENT_INLINE void rewriteRow(btSolverConstraint& row, RowKind kind, const RowSide& a,
+                               const RowSide& b, btScalar relaxation) {
   const btScalar old_inverse = row.m_jacDiagABInv;
   if (!(old_inverse > 0)) {  // Bullet has switched it off: its Jacobian is as good as zero
     inverseEffectiveMass(a, b);
@@ -236,10 +239,12 @@ AMBIENT_INLINE void rewriteAll(btConstraintArray& rows, RowKind kind, btScalar r
     RowBody* a = bodies.find(row.m_solverBodyIdA);
     RowBody* b = bodies.find(row.m_solverBodyIdB);
     if (!a && !b) continue;
-    const RowSide side_a{row.m_relpos1CrossNormal, row.m_contactNormal1, row.m_angularComponentA};
-    const RowSide side_b{row.m_relpos2CrossNormal, row.m_contactNormal2, row.m_angularComponentB};
-    rewriteRow(row, kind, {a, solver_bodies[row.m_solverBodyIdA], side_a},
-               {b, solver_bodies[row.m_solverBodyIdB], side_b}, relaxation);
+    const RowJacobian jacobian_a{row.m_relpos1CrossNormal, row.m_contactNormal1,
+                                 row.m_angularComponentA};
+    const RowJacobian jacobian_b{row.m_relpos2CrossNormal, row.m_contactNormal2,
+                                 row.m_angularComponentB};
+    rewriteRow(row, kind, {a, solver_bodies[row.m_solverBodyIdA], jacobian_a},
+               {b, solver_bodies[row.m_solverBodyIdB], jacobian_b}, relaxation);
     ++(a ? a : b)->rows;
   }
 }
@@ -271,14 +276,14 @@ RowBody& RowBodies::add(int solver_body) {
   return bodies_.emplace_back();
 }
 
-btScalar changeBasis(const RowBody& body, RowSide side) noexcept {
-  changedProducts(body, side);
-  return diagonal(body, side);
+btScalar changeBasis(const RowBody& body, RowJacobian jacobian) noexcept {
+  changedProducts(body, jacobian);
+  return diagonal(body, jacobian);
 }
 
-btScalar inverseEffectiveMass(const btSolverBody& body, const RowSide& side) noexcept {
-  return side.linear.dot(side.linear * body.internalGetInvMass()) +
-         side.angular.dot(side.angular_component);
+btScalar inverseEffectiveMass(const btSolverBody& body, const RowJacobian& jacobian) noexcept {
+  return jacobian.linear.dot(jacobian.linear * body.internalGetInvMass()) +
+         jacobian.angular.dot(jacobian.angular_component);
 }
 
 void rewriteRows(btConstraintArray& rows, RowKind kind, btScalar relaxation, RowBodies& bodies,

@@ -97,8 +97,8 @@ struct RowBody {
   btScalar inverse_mass = 0;       ///< inverse mass of the dry body [1/kg]
   btVector3 spin_change{0, 0, 0};  ///< k + X of eq. (28): velocity change outside the rows [rad/s]
   btVector3 velocity_change{0, 0, 0};  ///< [m/s]
-  btVector3 spin_aside{0, 0, 0};       ///< k' - k of eq. (28b), added while Bullet sets up contacts
-  btVector3 velocity_aside{0, 0, 0};   ///< [m/s]
+  btVector3 spin_excess{0, 0, 0};      ///< k' - k of eq. (28b), added while Bullet sets up contacts
+  btVector3 velocity_excess{0, 0, 0};  ///< [m/s]
   btVector3 spin_by_load{0, 0, 0};     ///< part of spin_change by surface loads; 0: no bounces
   btVector3 velocity_by_load{0, 0, 0};  ///< [m/s]
   bool is_anchored = false;  ///< true: has a joint, or a contact with a body that cannot move
@@ -153,7 +153,7 @@ inline int rigidBodyB(const btMultiBodySolverConstraint& row) {
 enum class RowKind { kContact, kFriction, kTorsionalFriction, kJoint };
 
 /// References to the Jacobian and the response of a row at one of its bodies.
-struct RowSide {
+struct RowJacobian {
   btVector3& angular;
   btVector3& linear;
   btVector3& angular_component;  ///< spin change by a unit impulse
@@ -164,10 +164,10 @@ struct RowSide {
 constexpr btScalar kNoResponse = 64 * SIMD_EPSILON;
 
 /// Sets J' = J T at an ambient body, docs/theory.md eq. (27). Returns J' D J'^T [1/kg].
-btScalar changeBasis(const RowBody& body, RowSide side) noexcept;
+btScalar changeBasis(const RowBody& body, RowJacobian jacobian) noexcept;
 
 /// Returns J D J^T at a body that is not ambient [1/kg].
-btScalar inverseEffectiveMass(const btSolverBody& body, const RowSide& side) noexcept;
+btScalar inverseEffectiveMass(const btSolverBody& body, const RowJacobian& jacobian) noexcept;
 
 /// Rewrites all rows of a pool that touch ambient bodies, eq. (27). `relaxation`: m_sor of the
 /// solver for contact and friction rows, 1 for others.

@@ -68,8 +68,8 @@ struct Approach {
   bool is_in_fluid = false;
   btScalar start = 0;  // at the start of the step
   btScalar seen = 0;   // in the right-hand side of the row
-  btScalar push = 0;   // change of members by all forces
-  btScalar load = 0;   // change of members by surface loads
+  btScalar push = 0;   // change of ambient bodies by all forces
+  btScalar load = 0;   // change of ambient bodies by surface loads
 };
 
 // Adds a rigid body. `is_beside_links`: the row is one of multibodies, where Bullet sees the dry
@@ -80,15 +80,15 @@ void add(const RigidSide& side, bool is_beside_links, btScalar step, const Conta
   const btScalar start = side.along(body.m_linearVelocity, body.m_angularVelocity);
   sum.start += start;
   sum.seen += start;
-  const RowBody* const member = rows.bodies.find(side.body);
-  if (member) {
+  const RowBody* const ambient = rows.bodies.find(side.body);
+  if (ambient) {
     sum.is_in_fluid = true;
-    sum.push += side.along(member->velocity_change, member->spin_change);
-    sum.load += side.along(member->velocity_by_load, member->spin_by_load);
+    sum.push += side.along(ambient->velocity_change, ambient->spin_change);
+    sum.load += side.along(ambient->velocity_by_load, ambient->spin_by_load);
   }
   if (!is_beside_links) {
     sum.seen += side.along(body.m_externalForceImpulse, body.m_externalTorqueImpulse);
-    if (member) sum.seen += side.along(member->velocity_aside, member->spin_aside);
+    if (ambient) sum.seen += side.along(ambient->velocity_excess, ambient->spin_excess);
   } else if (const btRigidBody* const dry = body.m_originalBody) {
     sum.seen += step * side.along(dry->getTotalForce() * dry->getInvMass(),
                                   dry->getTotalTorque() * dry->getInvInertiaTensorWorld());
@@ -137,7 +137,7 @@ const btManifoldPoint& pointOf(const void* contact) {
   return *static_cast<const btManifoldPoint*>(contact);
 }
 
-// Returns the change of velocity along a row by the rows, of members.
+// Returns the change of velocity along a row by the rows, of ambient bodies.
 template <class Row>
 btScalar speedByRows(const Row& row, const ContactRows& rows) {
   btScalar sum = 0;
@@ -196,14 +196,14 @@ void Bounces::find(const ContactRows& rows, const btContactSolverInfo& info) noe
   if (rows.multibodies) findIn(rows.multibodies->contacts, rows, info);
 }
 
-void Bounces::hold(const ContactRows& rows) noexcept {
+void Bounces::suspend(const ContactRows& rows) noexcept {
   visit(rows, [](Bounce& bounce, auto& row) {
     bounce.right_side = row.m_rhs;
     row.m_rhs = -BT_LARGE_FLOAT;  // the impulse stays at its lower limit, 0
   });
 }
 
-void Bounces::release(const ContactRows& rows) noexcept {
+void Bounces::resume(const ContactRows& rows) noexcept {
   visit(rows, [&](const Bounce& bounce, auto& row) {
     row.m_rhs = bounce.right_side;
     if (row.m_rhs == 0) return;  // suspended: it acts along locked axes alone

@@ -18,7 +18,7 @@ struct ContactRows {
 };
 
 /// Contacts of a group whose bodies bounce in this step. Bullet asks for the speed of the bounce at
-/// the end of the step; members of a fluid then have also moved all of the step by it, and would
+/// the end of the step; bodies in a fluid then have also moved all of the step by it, and would
 /// gain the work of their weight on this way. So the speed is lessened by what the forces change in
 /// the step, docs/theory.md eq. (28e). That takes an iteration without the bounces: find(), hold(),
 /// iterations, release(). Without restitution each call costs a test per contact. Reuses its
@@ -30,9 +30,9 @@ class Bounces {
   bool empty() const { return bounces_.empty(); }
   void clear() { bounces_.clear(); }
   /// Keeps these contacts from pushing. @pre the rows are rewritten
-  void hold(const ContactRows& rows) noexcept;
+  void suspend(const ContactRows& rows) noexcept;
   /// Lets them push, and sets the velocities that they ask for by what the rows have changed since.
-  void release(const ContactRows& rows) noexcept;
+  void resume(const ContactRows& rows) noexcept;
 
  private:
   struct Bounce {

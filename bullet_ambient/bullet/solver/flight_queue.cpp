@@ -10,16 +10,16 @@ AMBIENT_BEGIN
 
 void FlightQueue::fly() noexcept {
   if (const int count = std::exchange(trees_.count, 0))
-    flySingleLinks(trees_.members, trees_.of, count, time_step_);
+    flySingleLinks(trees_.flyers, trees_.of, count, time_step_);
   const int count = std::exchange(bodies_.count, 0);
   if (count == 0) return;
   StartStates starts;
   Twist changes_W[kFlightsTogether];
-  readStartStates(bodies_.members, count, starts);
-  beginFlights(bodies_.members, starts, count, time_step_, changes_W);
+  readStartStates(bodies_.flyers, count, starts);
+  beginFlights(bodies_.flyers, starts, count, time_step_, changes_W);
   for (int i = 0; i < count; ++i) {
-    addVelocity(*bodies_.members[i]->body, changes_W[i]);
-    reportFlight(*bodies_.members[i], bodies_.of[i]->complaints);
+    addVelocity(*bodies_.flyers[i]->body, changes_W[i]);
+    reportFlight(*bodies_.flyers[i], bodies_.of[i]->warnings);
   }
 }
 

@@ -38,17 +38,17 @@ class FlightQueue {
   }
 
  private:
-  template <class Member>
+  template <class Flyer>
   struct Waiting {
-    Member* members[kFlightsTogether] = {};
+    Flyer* flyers[kFlightsTogether] = {};
     AmbientBodies* of[kFlightsTogether] = {};
     int count = 0;
   };
-  template <class Member>
-  void add(Waiting<Member>& waiting, Member& member, AmbientBodies& of, double time_step) noexcept {
+  template <class Flyer>
+  void add(Waiting<Flyer>& waiting, Flyer& flyer, AmbientBodies& of, double time_step) noexcept {
     if (time_step != time_step_) fly();
     time_step_ = time_step;
-    waiting.members[waiting.count] = &member;
+    waiting.flyers[waiting.count] = &flyer;
     waiting.of[waiting.count++] = &of;
     if (waiting.count == kFlightsTogether) fly();
   }

@@ -46,14 +46,14 @@ class FluidSolver : public Base {
       std::is_base_of_v<btSequentialImpulseConstraintSolverMt, Base>;
 
  public:
-  /// `members`: bodies and trees of a fluid; makeSolver() takes them from a Fluid. Passes all
+  /// `bodies`: bodies and trees of a fluid; makeSolver() takes them from a Fluid. Passes all
   /// further arguments to Base. Solves like Base once the fluid is destroyed.
   template <class... Args>
-  explicit FluidSolver(std::shared_ptr<AmbientBodies> members, Args&&... args)
+  explicit FluidSolver(std::shared_ptr<AmbientBodies> bodies, Args&&... args)
       : Base(std::forward<Args>(args)...),
-        members_(std::move(members)),
-        group_(*members_),
-        trees_(*members_) {}
+        bodies_(std::move(bodies)),
+        group_(*bodies_),
+        trees_(*bodies_) {}
 
   /// Returns a pointer that expires when the solver is destroyed, whoever destroys it.
   std::weak_ptr<const void> life() const { return life_; }
@@ -65,7 +65,7 @@ class FluidSolver : public Base {
 
   void allSolved(const btContactSolverInfo& info, btIDebugDraw* debug_drawer) override {
     Base::allSolved(info, debug_drawer);
-    group_.passOn();
+    group_.goOn();
     if constexpr (kHasMultiBodies) trees_.finish(info);
   }
 
@@ -186,9 +186,9 @@ class FluidSolver : public Base {
   void solveWithoutBounces(const Iterate& iterate) {
     if (!group_.hasBounces()) return;
     withMultiBodyRows([&](const MultiBodyRows* multibodies) {
-      group_.holdBounces(this->m_tmpSolverBodyPool, pools(), multibodies);
+      group_.suspendBounces(this->m_tmpSolverBodyPool, pools(), multibodies);
       iterate();
-      group_.releaseBounces(this->m_tmpSolverBodyPool, pools(), multibodies);
+      group_.resumeBounces(this->m_tmpSolverBodyPool, pools(), multibodies);
     });
   }
 
@@ -371,7 +371,7 @@ class FluidSolver : public Base {
             this->m_tmpSolverNonContactConstraintPool};
   }
 
-  const std::shared_ptr<AmbientBodies> members_;
+  const std::shared_ptr<AmbientBodies> bodies_;
   const std::shared_ptr<const void> life_ = std::make_shared<char>();
   SolverGroup group_;
   TreeGroup trees_;

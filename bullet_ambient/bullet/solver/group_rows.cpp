@@ -20,7 +20,7 @@
 #include "bullet_ambient/bullet/rows/row_rewriting.h"
 #include "bullet_ambient/bullet/solver/solver_group.h"
 #include "bullet_ambient/immersed/floating_state.h"
-#include "bullet_ambient/immersed/fluid_reading.h"
+#include "bullet_ambient/immersed/wrench_sensor.h"
 #include "bullet_ambient/motion/flight/flight.h"
 #include "bullet_ambient/motion/rows/row_velocity.h"
 #include "bullet_ambient/spatial/rotation.h"
@@ -64,9 +64,9 @@ void lock(RowBody& row_body, const btRigidBody& body, const Matrix6& row_inertia
   solver_body.internalSetInvMass(btVector3(1, 1, 1) * body.getInvMass());
 }
 
-// Finds the stands of the bodies at a water surface, side by side.
-void standAll(AmbientBody* const* bodies, const RigidState* states, int count, double time_step,
-              Complaints& complaints) {
+// Finds the flotations of the bodies at a water surface, side by side.
+void updateAllFlotations(AmbientBody* const* bodies, const RigidState* states, int count,
+                         double time_step, Warnings& warnings) {
   AmbientBody* at_surface[kFlightsTogether] = {};
   RigidState there[kFlightsTogether];
   int found = 0;
@@ -76,8 +76,8 @@ void standAll(AmbientBody* const* bodies, const RigidState* states, int count, d
     there[found++] = states[i];
   }
   if (found == 0) return;
-  standAt(at_surface, there, found, kBulletRounding);
-  for (int i = 0; i < found; ++i) warnOfShortPeriod(*at_surface[i], time_step, complaints);
+  updateFlotations(at_surface, there, found, kBulletRounding);
+  for (int i = 0; i < found; ++i) warnOfShortPeriod(*at_surface[i], time_step, warnings);
 }
 
 // Leaves a body of revolution at a surface its spin about its axis, docs/theory.md eq. (66a).
@@ -108,7 +108,7 @@ void keepWithinReach(AmbientBody& ambient, const RigidState& start, const Surrou
 // Adds the kicks by waves, wind and water that comes in to a velocity change, and counts what it
 // cost. Sets it to zero if it is not finite. `inertia`: of the free body, in B.
 void complete(AmbientBody& ambient, const Matrix6& inertia, const RigidState& start,
-              const Surroundings& s, double time_step, Complaints& complaints, RowVelocity& row) {
+              const Surroundings& s, double time_step, Warnings& warnings, RowVelocity& row) {
   if (ambient.surface()) {
     const AxisFactors factors = axisFactors(*ambient.body);
     if (factors.areFree()) keepSpin(*ambient.surface(), start, row);
@@ -131,7 +131,7 @@ void complete(AmbientBody& ambient, const Matrix6& inertia, const RigidState& st
   ambient.counters.guarded += row.count.guarded;
   if (row.change_W.vector().allFinite()) return;
   ++ambient.counters.rejected;
-  complaints.say(Complaint::kNotFinite);
+  warnings.warnOnce(Warning::kNotFinite);
   row.change_W = row.turning_W = row.isotropic_excess_W = {};
   row.settled_inertia.reset();
 }
@@ -176,8 +176,8 @@ void fillRowBody(const AmbientBody& ambient, const BodyModel& model, const Matri
   row_body.inverse_mass = body.getInvMass();
   row_body.spin_change = solver_body.m_externalTorqueImpulse;
   row_body.velocity_change = solver_body.m_externalForceImpulse;
-  row_body.spin_aside = toBullet(row.isotropic_excess_W.angular);
-  row_body.velocity_aside = toBullet(row.isotropic_excess_W.linear);
+  row_body.spin_excess = toBullet(row.isotropic_excess_W.angular);
+  row_body.velocity_excess = toBullet(row.isotropic_excess_W.linear);
   if (row_body.is_locked) return;
   const bool is_diagonal = model.has_diagonal_inertia;
   const Matrix6 basis_B = basisOf(ambient, model, row);
@@ -228,7 +228,7 @@ void SolverGroup::prepareForRows(Member* const* members, int count,
   }
   StartStates starts;
   readStartStates(batch.bodies, count, starts);
-  standAll(batch.bodies, starts.states, count, time_step_, bodies_.complaints);
+  updateAllFlotations(batch.bodies, starts.states, count, time_step_, bodies_.warnings);
   std::optional<StepModel> step_models[kFlightsTogether];
   const BodyModel* models[kFlightsTogether] = {};
   for (int i = 0; i < count; ++i)
@@ -259,7 +259,7 @@ void SolverGroup::prepareForRows(Member* const* members, int count,
     if (models[i]->loads && mayBounce(*ambient.body))
       by_load = changeByLoad(*ambient.body, taskOf(i), start.orientation, row);
     complete(ambient, models[i]->inertia, start, starts.surroundings[i], time_step_,
-             bodies_.complaints, row);
+             bodies_.warnings, row);
     setConserved(start, row, time_step_, i, batch);
     btSolverBody& solver_body = solver_bodies[member.solver_body];
     setExternalImpulse(solver_body, withoutTraces(row.change_W, time_step_));
@@ -393,7 +393,7 @@ void SolverGroup::finishBatch(RowBatch& batch, double turn_share,
     } else if (finishRows(ambient, row_body, solver_body)) {
       is_moved = true;
     } else {
-      bodies_.complaints.say(Complaint::kNotFinite);
+      bodies_.warnings.warnOnce(Warning::kNotFinite);
     }
     batch.lanes.active[i] = is_moved;
     is_any_moved = is_any_moved || is_moved;
@@ -401,7 +401,7 @@ void SolverGroup::finishBatch(RowBatch& batch, double turn_share,
   if (!is_any_moved) return;
   beginRowMotions(batch, *row_bodies_, solver_bodies, turn_share, time_step_);
   for (int i = 0; i < batch.count; ++i)
-    if (batch.lanes.active[i] != 0 && batch.bodies[i]->reading)
+    if (batch.lanes.active[i] != 0 && batch.bodies[i]->sensor)
       readRows(*batch.bodies[i], changeByRows(solver_bodies[batch.solver_bodies[i]]),
                batch.settled_inertia[i], time_step_);
 }
@@ -416,7 +416,7 @@ void SolverGroup::noteJointError(AmbientBody& ambient, const RowBody& row_body) 
       static_cast<std::int16_t>(is_open ? std::min(ambient.open_joint_steps + 1, kMostSteps) : 0);
   if (ambient.open_joint_steps != kStepsToReport) return;
   const Member* other = memberOf(row_body.joined_to);
-  bodies_.complaints.sayOpenJoint(*ambient.def, other ? other->ambient->def.get() : nullptr);
+  bodies_.warnings.warnOfOpenJoint(*ambient.def, other ? other->ambient->def.get() : nullptr);
 }
 
 AMBIENT_END

@@ -29,7 +29,7 @@
 #include "bullet_ambient/bullet/rows/row_rewriting.h"
 #include "bullet_ambient/bullet/solver/bounces.h"
 #include "bullet_ambient/bullet/solver/flight_queue.h"
-#include "bullet_ambient/immersed/fluid_reading.h"
+#include "bullet_ambient/immersed/wrench_sensor.h"
 #include "bullet_ambient/motion/flight/flight.h"
 #include "bullet_ambient/motion/rows/row_velocity.h"
 
@@ -141,7 +141,7 @@ GroupBodies SolverGroup::select(const GroupBodies& bodies, const GroupInput& inp
   if (bodies_.size() == 0) return bodies;
   bodies_.solved.fetch_add(1, std::memory_order_relaxed);
   if (!std::isfinite(time_step_)) {
-    is_disabled_ = holdAll(bodies);
+    is_disabled_ = disableAll(bodies);
     return bodies;
   }
   if (!hasAmbientBody(bodies)) return bodies;
@@ -183,10 +183,10 @@ void SolverGroup::findMembers(const GroupBodies& bodies, bool all_stay) noexcept
       converted_.push_back(&object);
       continue;
     }
-    stopIfNotFinite(*ambient, bodies_.complaints);
+    stopIfNotFinite(*ambient, bodies_.warnings);
     const Marks marks = marksOf(object);
     const bool is_locked = !axisFactors(*ambient->body).areFree();
-    if (ambient->reading)
+    if (ambient->sensor)
       beginBodyReading(*ambient, readState(*ambient->body), readSurroundings(*ambient), is_locked);
     if (all_stay || is_locked || marks.is_near) {
       converted_.push_back(&object);
@@ -203,13 +203,13 @@ void SolverGroup::findMembers(const GroupBodies& bodies, bool all_stay) noexcept
 }
 
 // Disables the ambient bodies, so that Bullet does not move them. Returns true if there are any.
-bool SolverGroup::holdAll(const GroupBodies& bodies) noexcept {
+bool SolverGroup::disableAll(const GroupBodies& bodies) noexcept {
   bool is_any = false;
   for (int i = 0; i < bodies.count; ++i) {
     AmbientBody* ambient = bodies_.find(bodies.first[i]);
     if (!ambient || !ambient->isInFluid() || ambient->body->isStaticOrKinematicObject()) continue;
     is_any = true;
-    hold(*ambient, bodies_);
+    disable(*ambient, bodies_);
   }
   return is_any;
 }
@@ -233,7 +233,7 @@ void SolverGroup::flyFreely(SolverBodies* solver_bodies) noexcept {
       runner ? std::clamp(count / kLeastGroups, 1, kFlightsTogether) : kFlightsTogether;
   const auto fly = [&](int group) {
     const int first = group * together;
-    flyTogether(first, std::min(together, count - first), solver_bodies);
+    flyGroup(first, std::min(together, count - first), solver_bodies);
   };
   const int groups = (count + together - 1) / together;
   if (runner) {
@@ -241,15 +241,15 @@ void SolverGroup::flyFreely(SolverBodies* solver_bodies) noexcept {
   } else {
     for (int i = 0; i < groups; ++i) fly(i);
   }
-  for (const FreeBody& body : free_) reportFlight(*body.ambient, bodies_.complaints);
+  for (const FreeBody& body : free_) reportFlight(*body.ambient, bodies_.warnings);
   free_.clear();
 }
 
-void SolverGroup::passOn() noexcept {
+void SolverGroup::goOn() noexcept {
   if (bodies_.flight_queue) bodies_.flight_queue->goOn();
 }
 
-void SolverGroup::flyTogether(int first, int count, SolverBodies* solver_bodies) const noexcept {
+void SolverGroup::flyGroup(int first, int count, SolverBodies* solver_bodies) const noexcept {
   AmbientBody* bodies[kFlightsTogether] = {};
   Twist changes_W[kFlightsTogether];
   const FreeBody* free = free_.data() + first;
@@ -274,8 +274,8 @@ void SolverGroup::showExternalChange(SolverBodies& solver_bodies, ExternalChange
     solver_body.m_externalTorqueImpulse = row_body->spin_change;
     solver_body.m_externalForceImpulse = row_body->velocity_change;
     if (change == ExternalChange::kTrue) continue;
-    solver_body.m_externalTorqueImpulse += row_body->spin_aside;
-    solver_body.m_externalForceImpulse += row_body->velocity_aside;
+    solver_body.m_externalTorqueImpulse += row_body->spin_excess;
+    solver_body.m_externalForceImpulse += row_body->velocity_excess;
   }
 }
 
@@ -336,14 +336,14 @@ int SolverGroup::solveJoints(SolverBodies& solver_bodies, btConstraintArray& joi
 
 bool SolverGroup::hasBounces() const noexcept { return !bounces_->empty(); }
 
-void SolverGroup::holdBounces(SolverBodies& solver_bodies, const RowPools& rows,
-                              const MultiBodyRows* multibodies) noexcept {
-  bounces_->hold({rows.contacts, multibodies, *row_bodies_, solver_bodies});
+void SolverGroup::suspendBounces(SolverBodies& solver_bodies, const RowPools& rows,
+                                 const MultiBodyRows* multibodies) noexcept {
+  bounces_->suspend({rows.contacts, multibodies, *row_bodies_, solver_bodies});
 }
 
-void SolverGroup::releaseBounces(SolverBodies& solver_bodies, const RowPools& rows,
-                                 const MultiBodyRows* multibodies) noexcept {
-  bounces_->release({rows.contacts, multibodies, *row_bodies_, solver_bodies});
+void SolverGroup::resumeBounces(SolverBodies& solver_bodies, const RowPools& rows,
+                                const MultiBodyRows* multibodies) noexcept {
+  bounces_->resume({rows.contacts, multibodies, *row_bodies_, solver_bodies});
 }
 
 void SolverGroup::reapplyWarmStart(SolverBodies& solver_bodies, const RowPools& rows,
@@ -428,7 +428,7 @@ void TreeGroup::detachReplacedTrees() noexcept {
     const btMultiBody& body = *world.getMultiBody(i);
     const AmbientTree* tree = bodies_.trees.at(&body);
     if (!tree || (tree->isSame() && hasLinksOf(body, tree->tree))) continue;
-    bodies_.complaints.say(Complaint::kOtherLinks);
+    bodies_.warnings.warnOnce(Warning::kOtherLinks);
     bodies_.trees.erase(body);
     if (bodies_.trees.empty()) return;
   }
@@ -442,7 +442,7 @@ void TreeGroup::begin() noexcept {
   is_begun_ = true;
   forEachTree(*bodies_.trees.world(), bodies_.trees, [this](AmbientTree& tree) {
     TreeStep& step = tree.step;
-    if (isSolved(tree)) bodies_.complaints.say(Complaint::kNoAction);
+    if (isSolved(tree)) bodies_.warnings.warnOnce(Warning::kNoAction);
     step.outcome = Outcome::kNotSolved;
     step.was_awake = !isAsleep(*tree.multi_body);
     step.turns_rows = false;
@@ -487,7 +487,7 @@ const AmbientTrees* TreeGroup::solvedTrees() const noexcept {
 
 void TreeGroup::finish(const btContactSolverInfo& info) noexcept {
   if (bodies_.trees.empty()) return;
-  if (is_begun_) bodies_.complaints.say(Complaint::kNoMultiBodySolver);
+  if (is_begun_) bodies_.warnings.warnOnce(Warning::kNoMultiBodySolver);
   is_begun_ = false;
   const TreeTask task = taskOf(bodies_, info.m_timeStep);
   forEachTree(*bodies_.trees.world(), bodies_.trees,

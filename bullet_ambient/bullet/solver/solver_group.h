@@ -109,10 +109,10 @@ class SolverGroup {
   bool hasBounces() const noexcept;
   /// Call around iterations before the others: those without the bounces, which tell the velocities
   /// that these ask for, docs/theory.md eq. (28e).
-  void holdBounces(SolverBodies& solver_bodies, const RowPools& rows,
-                   const MultiBodyRows* multibodies) noexcept;
-  void releaseBounces(SolverBodies& solver_bodies, const RowPools& rows,
+  void suspendBounces(SolverBodies& solver_bodies, const RowPools& rows,
                       const MultiBodyRows* multibodies) noexcept;
+  void resumeBounces(SolverBodies& solver_bodies, const RowPools& rows,
+                     const MultiBodyRows* multibodies) noexcept;
 
   /// Call after the iterations, before Bullet writes velocities back. Maps velocity changes from
   /// the bases to world axes, du = T du', and flies the members that no row has
@@ -122,7 +122,7 @@ class SolverGroup {
 
   /// Call when all groups of the world are solved. If it steps together with others: makes their
   /// steps, and flies the bodies of all.
-  void passOn() noexcept;
+  void goOn() noexcept;
 
  private:
   static constexpr int kAlone = -1;  // solver body of a body that Bullet does not convert
@@ -150,7 +150,7 @@ class SolverGroup {
   bool hasAmbientBody(const GroupBodies& bodies) const noexcept;
   void reserve(int bodies) noexcept;
   void findMembers(const GroupBodies& bodies, bool all_stay) noexcept;
-  bool holdAll(const GroupBodies& bodies) noexcept;
+  bool disableAll(const GroupBodies& bodies) noexcept;
   void prepareForRows(Member* const* members, int count, SolverBodies& solver_bodies) noexcept;
   void prepareJoinedToMultiBodies(
       SolverBodies& solver_bodies,
@@ -163,7 +163,7 @@ class SolverGroup {
   void finishBatch(RowBatch& batch, double turn_share, SolverBodies& solver_bodies) noexcept;
   void flyLater(const FreeBody& body, SolverBodies* solver_bodies) noexcept;
   void flyFreely(SolverBodies* solver_bodies) noexcept;
-  void flyTogether(int first, int count, SolverBodies* solver_bodies) const noexcept;
+  void flyGroup(int first, int count, SolverBodies* solver_bodies) const noexcept;
   Member* memberOf(int solver_body) noexcept;
   const Member* memberOf(int solver_body) const noexcept;
 

@@ -135,8 +135,8 @@ std::vector<btMultiBodyConstraint*> multiBodyJointsOf(btCollisionWorld& world) {
 MultiBodyState saveMultiBody(btMultiBody& body) {
   auto s = fromBullet<MultiBodyState>(body);
   for (int i = -1; i < body.getNumLinks(); ++i) {
-    LinkPlace place(body, i);
-    s.links.push_back(fromBullet<MultiBodyLinkState>(place));
+    LinkAccess access(body, i);
+    s.links.push_back(fromBullet<MultiBodyLinkState>(access));
     if (const btMultiBodyLinkCollider* collider = colliderOf(body, i))
       s.links.back().collider = fromBullet<ObjectState>(*collider);
   }
@@ -187,8 +187,8 @@ void restoreMultiBody(const MultiBodyState& state, btMultiBody& body) {
   body.clearForcesAndTorques();  // there is no setter
   toBullet(state, body);
   for (int i = -1; i < body.getNumLinks(); ++i) {
-    LinkPlace place(body, i);
-    toBullet(state.links[static_cast<std::size_t>(i) + 1], place);
+    LinkAccess access(body, i);
+    toBullet(state.links[static_cast<std::size_t>(i) + 1], access);
   }
   forEachCollider(state, body, toBullet<ObjectState, btMultiBodyLinkCollider>);
 }
@@ -226,8 +226,8 @@ void wakeColliders(btMultiBody& body) {
 }
 
 bool floatAgain(AmbientBody& ambient, const RigidState& now, const FluidRegions& regions) noexcept {
-  if (!ambient.place.is_at_surface || !lastPlane(ambient)) return false;
-  const auto entry = regions.all().find(ambient.place.region);
+  if (!ambient.location.is_at_surface || !lastPlane(ambient)) return false;
+  const auto entry = regions.all().find(ambient.location.region);
   if (entry == regions.all().end()) return false;
   const int media = ambient.models->findSurface(SurfaceKind(entry->second.region));
   if (media >= 0) restoreFloating(ambient, now, media);
@@ -258,7 +258,7 @@ AmbientState saveAmbient(const AmbientBody& ambient, const InverseMass& mass) {
   flight.memory.load_W = ambient.outcome.lastLoad();
   AmbientState state{*ambient.def,
                      ambient.medium,
-                     ambient.place,
+                     ambient.location,
                      ambient.flow,
                      flight.memory,
                      ambient.floating ? ambient.floating->waves : WaveMemory{},
@@ -335,16 +335,16 @@ AmbientBody makeAmbient(const AmbientState& saved, const InverseMass& mass,
   AmbientBody ambient;
   AttachDef def = saved.def;
   if (before) def.flow.foils = before->def->flow.foils;
-  ambient.def = shareDef(std::move(def), registered.load_tables);
+  ambient.def = internDef(std::move(def), registered.load_tables);
   refreshModels(ambient, mass, registered.regions, registered.load_tables);
   fillHolds(saved, ambient);
   // A region that does not exist here is left to the next step.
-  enterMedium(ambient, saved.place, saved.medium);
+  enterMedium(ambient, saved.location, saved.medium);
   ambient.flow = saved.flow;
   LastFlight& flight = ambient.outcome.flight();
   flight.memory = saved.memory;
   flight.left_W = saved.left_W;
-  if (ambient.floating && ambient.place.is_at_surface) {
+  if (ambient.floating && ambient.location.is_at_surface) {
     ambient.floating->waves = saved.waves;
     if (ambient.vessel) ambient.vessel->sloshing.now = saved.sloshing;
     if (saved.plane_B) ambient.floating->setPlane(*saved.plane_B);
@@ -375,7 +375,7 @@ void insertLinks(const MultiBodyState& state, std::vector<std::unique_ptr<Ambien
   if (!tree) return;
   tree->step.reserve = state.turn_reserve;
   for (const auto& link : tree->links) link->now.gravity = toVector3(world.getGravity());
-  placeLinksNow(*tree);
+  computeLinkPosesNow(*tree);
   tree->step.end = tree->step.start;
   for (const auto& link : tree->links)
     if (floatAgain(link->ambient, link->now.state, registered.regions))

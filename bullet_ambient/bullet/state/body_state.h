@@ -59,8 +59,8 @@ void saveFluids(const AmbientTree& tree, MultiBodyState& state);
 AmbientBody makeAmbient(const AmbientState& saved, const InverseMass& mass,
                         AmbientBodies& registered, const AmbientBody* before);
 
-/// Gives a body or link at a surface the stand that its last substep has left. Returns false, and
-/// changes nothing, if it is at none.
+/// Gives a body or link at a surface the flotation that its last substep has left. Returns false,
+/// and changes nothing, if it is at none.
 bool floatAgain(AmbientBody& ambient, const RigidState& now, const FluidRegions& regions) noexcept;
 
 /// Makes the entries of all links of a multibody that are in a fluid, from a saved state, as

@@ -37,14 +37,14 @@ class ObjectNumbers {
 };
 
 // A manifold, Bullet's place for the contact points of a pair or a part of one.
-struct Place {
+struct PairManifold {
   btPersistentManifold* manifold;
   PairState pair;
   int part;
 };
 
 // Places of the contacts of pairs, without predictive contacts, which last for one step.
-std::vector<Place> placesOf(btCollisionWorld& world) {
+std::vector<PairManifold> pairManifoldsOf(btCollisionWorld& world) {
   btManifoldArray manifolds;
   btOverlappingPairCache& cache = *world.getPairCache();
   for (int i = 0; i < cache.getNumOverlappingPairs(); ++i) {
@@ -53,13 +53,13 @@ std::vector<Place> placesOf(btCollisionWorld& world) {
   }
   const ObjectNumbers numbers(world);
   std::map<std::pair<int, int>, int> parts;
-  std::vector<Place> places;
+  std::vector<PairManifold> pair_manifolds;
   for (int i = 0; i < manifolds.size(); ++i) {
     const PairState pair = numbers.pair(manifolds[i]->getBody0(), manifolds[i]->getBody1());
     if (pair.object_a < 0) continue;
-    places.push_back({manifolds[i], pair, parts[{pair.object_a, pair.object_b}]++});
+    pair_manifolds.push_back({manifolds[i], pair, parts[{pair.object_a, pair.object_b}]++});
   }
-  return places;
+  return pair_manifolds;
 }
 
 void fillManifold(btPersistentManifold& manifold, const std::vector<btManifoldPoint>& points) {
@@ -185,7 +185,7 @@ class CollisionsAllowed {
 // Makes places for contacts like Bullet's near callback, but also for pairs that do not collide at
 // present: because they sleep, or were joined since, which leaves their last points in force.
 // `move_b`: moves the second object for the search.
-void makePlaces(btBroadphasePair& pair, const btVector3& move_b, btCollisionWorld& world) {
+void makeManifolds(btBroadphasePair& pair, const btVector3& move_b, btCollisionWorld& world) {
   auto& a = *static_cast<btCollisionObject*>(pair.m_pProxy0->m_clientObject);
   auto& b = *static_cast<btCollisionObject*>(pair.m_pProxy1->m_clientObject);
   const CollisionsAllowed allowed(a, b);
@@ -224,31 +224,32 @@ std::pair<int, int> inOrder(const PairState& pair) {
 
 // Name of a place that is the same before and after: the pair, and the parts of compounds that
 // touch, which Bullet writes in the points; without points, or parts, the number of the place.
-using PlaceName = std::tuple<int, int, int, int, int>;
-using PlacesByName = std::map<PlaceName, btPersistentManifold*>;
-using PartNames = std::map<const btPersistentManifold*, PlaceName>;
+using ManifoldKey = std::tuple<int, int, int, int, int>;
+using ManifoldsByKey = std::map<ManifoldKey, btPersistentManifold*>;
+using PartKeys = std::map<const btPersistentManifold*, ManifoldKey>;
 
 bool hasParts(const btManifoldPoint& point) {
   return point.m_partId0 == -1 && point.m_partId1 == -1 &&
          (point.m_index0 >= 0 || point.m_index1 >= 0);
 }
 
-PlaceName nameOf(const PairState& pair, int part, const btManifoldPoint* point) {
+ManifoldKey keyOf(const PairState& pair, int part, const btManifoldPoint* point) {
   if (!point || !hasParts(*point)) return {pair.object_a, pair.object_b, -1, -1, part};
   return {pair.object_a, pair.object_b, point->m_index0, point->m_index1, 0};
 }
 
-PlaceName nameOf(const ContactState& contact) {
-  return nameOf(contact.pair, contact.part,
-                contact.points.empty() ? nullptr : &contact.points.front());
+ManifoldKey keyOf(const ContactState& contact) {
+  return keyOf(contact.pair, contact.part,
+               contact.points.empty() ? nullptr : &contact.points.front());
 }
 
 // Finds or makes the places of saved contacts.
-class PlaceMaker {
+class ManifoldMaker {
  public:
-  explicit PlaceMaker(btCollisionWorld& world) : world_(world), objects_(world), numbers_(world) {}
+  explicit ManifoldMaker(btCollisionWorld& world)
+      : world_(world), objects_(world), numbers_(world) {}
 
-  PlacesByName placesFor(const std::vector<ContactState>& contacts) {
+  ManifoldsByKey manifoldsFor(const std::vector<ContactState>& contacts) {
     std::map<std::pair<int, int>, std::vector<const ContactState*>> touching;
     for (const ContactState& contact : contacts)
       touching[inOrder(contact.pair)].push_back(&contact);
@@ -260,21 +261,21 @@ class PlaceMaker {
       const auto saved = touching.find(inOrder(found));
       if (saved != touching.end()) makeFor(pair, saved->second);
     }
-    PlacesByName places;
-    for (const Place& place : placesOf(world_)) {
-      const auto named = names_.find(place.manifold);
-      places.emplace(
-          named != names_.end() ? named->second : nameOf(place.pair, place.part, nullptr),
-          place.manifold);
+    ManifoldsByKey pair_manifolds;
+    for (const PairManifold& of_pair : pairManifoldsOf(world_)) {
+      const auto known = keys_.find(of_pair.manifold);
+      pair_manifolds.emplace(
+          known != keys_.end() ? known->second : keyOf(of_pair.pair, of_pair.part, nullptr),
+          of_pair.manifold);
     }
-    return places;
+    return pair_manifolds;
   }
 
  private:
   // Bullet keeps a contact of two parts of compounds across gaps at which it would not find it
   // anew: then the second object is moved into contact, which tells the parts, too.
   void makeFor(btBroadphasePair& pair, const std::vector<const ContactState*>& contacts) {
-    makePlaces(pair, btVector3(0, 0, 0), world_);
+    makeManifolds(pair, btVector3(0, 0, 0), world_);
     noteParts(pair);
     for (const ContactState* contact : contacts) {
       if (contact->points.empty() || isThere(pair, *contact)) continue;
@@ -284,7 +285,7 @@ class PlaceMaker {
           first.getWorldTransform() * point.m_localPointA -
           objects_[contact->pair.object_b]->getWorldTransform() * point.m_localPointB;
       const bool is_in_order = pair.m_pProxy0->m_clientObject == &first;
-      makePlaces(pair, is_in_order ? 2 * gap : -2 * gap, world_);
+      makeManifolds(pair, is_in_order ? 2 * gap : -2 * gap, world_);
       noteParts(pair);
     }
   }
@@ -300,8 +301,8 @@ class PlaceMaker {
     for (int i = 0; i < manifolds.size(); ++i) {
       btPersistentManifold& manifold = *manifolds[i];
       if (manifold.getNumContacts() == 0 || !hasParts(manifold.getContactPoint(0))) continue;
-      names_[&manifold] = nameOf(numbers_.pair(manifold.getBody0(), manifold.getBody1()), 0,
-                                 &manifold.getContactPoint(0));
+      keys_[&manifold] = keyOf(numbers_.pair(manifold.getBody0(), manifold.getBody1()), 0,
+                               &manifold.getContactPoint(0));
     }
   }
 
@@ -309,8 +310,8 @@ class PlaceMaker {
     const btManifoldArray manifolds = manifoldsOf(pair);
     if (!hasParts(contact.points.front())) return manifolds.size() > contact.part;
     for (int i = 0; i < manifolds.size(); ++i) {
-      const auto named = names_.find(manifolds[i]);
-      if (named != names_.end() && named->second == nameOf(contact)) return true;
+      const auto known = keys_.find(manifolds[i]);
+      if (known != keys_.end() && known->second == keyOf(contact)) return true;
     }
     return false;
   }
@@ -318,7 +319,7 @@ class PlaceMaker {
   btCollisionWorld& world_;
   const Objects objects_;
   const ObjectNumbers numbers_;
-  PartNames names_;
+  PartKeys keys_;
 };
 
 }  // namespace
@@ -338,15 +339,16 @@ std::vector<PairState> savePairs(btCollisionWorld& world) {
 
 // In the order of Bullet's array of manifolds, which is that of the rows of a solver.
 std::vector<ContactState> saveContacts(btCollisionWorld& world) {
-  std::vector<Place> places = placesOf(world);
-  std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
-    return a.manifold->m_index1a < b.manifold->m_index1a;
-  });
+  std::vector<PairManifold> pair_manifolds = pairManifoldsOf(world);
+  std::sort(pair_manifolds.begin(), pair_manifolds.end(),
+            [](const PairManifold& a, const PairManifold& b) {
+              return a.manifold->m_index1a < b.manifold->m_index1a;
+            });
   std::vector<ContactState> contacts;
-  for (const Place& place : places) {
-    ContactState contact{place.pair, place.part, {}};
-    for (int p = 0; p < place.manifold->getNumContacts(); ++p) {
-      contact.points.push_back(place.manifold->getContactPoint(p));
+  for (const PairManifold& of_pair : pair_manifolds) {
+    ContactState contact{of_pair.pair, of_pair.part, {}};
+    for (int p = 0; p < of_pair.manifold->getNumContacts(); ++p) {
+      contact.points.push_back(of_pair.manifold->getContactPoint(p));
       contact.points.back().m_userPersistentData = nullptr;
     }
     contacts.push_back(std::move(contact));
@@ -373,16 +375,16 @@ void restoreContacts(const WorldState& state, btCollisionWorld& world) {
   world.computeOverlappingPairs();
   restorePairs(state, Objects(world), world);
   wakeAll(world);
-  PlacesByName places = PlaceMaker(world).placesFor(state.contacts);
-  for (const auto& [name, manifold] : places) manifold->clearManifold();
+  ManifoldsByKey pair_manifolds = ManifoldMaker(world).manifoldsFor(state.contacts);
+  for (const auto& [name, manifold] : pair_manifolds) manifold->clearManifold();
   btPersistentManifold** array = world.getDispatcher()->getInternalManifoldPointer();
   int restored = 0;
   for (const ContactState& contact : state.contacts) {
-    const auto found = places.find(nameOf(contact));
-    if (found == places.end()) continue;
+    const auto found = pair_manifolds.find(keyOf(contact));
+    if (found == pair_manifolds.end()) continue;
     fillManifold(*found->second, contact.points);
     swapManifolds(restored++, found->second->m_index1a, array);
-    places.erase(found);
+    pair_manifolds.erase(found);
   }
   restoreBoxes(state, Objects(world), world);
 }

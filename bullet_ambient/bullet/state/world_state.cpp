@@ -49,14 +49,15 @@ void checkFits(const WorldState& state, btDynamicsWorld& world) {
 // Models are built before anything is changed, so that a medium that is refused changes nothing.
 std::vector<std::optional<AmbientBody>> makeAmbientBodies(const WorldState& state,
                                                           const std::vector<btRigidBody*>& bodies,
-                                                          AmbientBodies& members) {
+                                                          AmbientBodies& registered) {
   std::vector<std::optional<AmbientBody>> result;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     result.emplace_back();
     if (!state.bodies[i].ambient) continue;
     const InverseMass mass{static_cast<double>(state.bodies[i].inverse_mass),
                            toVector3(state.bodies[i].inverse_inertia)};
-    result.back() = makeAmbient(*state.bodies[i].ambient, mass, members, members.find(bodies[i]));
+    result.back() =
+        makeAmbient(*state.bodies[i].ambient, mass, registered, registered.find(bodies[i]));
     result.back()->body = bodies[i];
   }
   return result;
@@ -65,21 +66,21 @@ std::vector<std::optional<AmbientBody>> makeAmbientBodies(const WorldState& stat
 using Links = std::vector<std::unique_ptr<AmbientLink>>;
 
 std::vector<Links> makeAllLinks(const WorldState& state, btDynamicsWorld& world,
-                                AmbientBodies& members) {
+                                AmbientBodies& registered) {
   const std::vector<btMultiBody*> bodies = multiBodiesOf(world);
   std::vector<Links> result;
   for (std::size_t i = 0; i < bodies.size(); ++i)
-    result.push_back(makeLinks(state.multi_bodies[i], *bodies[i], members));
+    result.push_back(makeLinks(state.multi_bodies[i], *bodies[i], registered));
   return result;
 }
 
 void restoreMultiBodies(const WorldState& state, std::vector<Links> links, btDynamicsWorld& world,
-                        AmbientBodies& members) {
+                        AmbientBodies& registered) {
   const std::vector<btMultiBody*> bodies = multiBodiesOf(world);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     restoreMultiBody(state.multi_bodies[i], *bodies[i]);
     insertLinks(state.multi_bodies[i], std::move(links[i]),
-                static_cast<btMultiBodyDynamicsWorld&>(world), *bodies[i], members);
+                static_cast<btMultiBodyDynamicsWorld&>(world), *bodies[i], registered);
   }
   const std::vector<btMultiBodyConstraint*> joints = multiBodyJointsOf(world);
   for (std::size_t i = 0; i < joints.size(); ++i)
@@ -97,19 +98,19 @@ btSequentialImpulseConstraintSolver* shufflingSolver(btDynamicsWorld& world) {
 
 }  // namespace
 
-WorldState saveState(const btDynamicsWorld& world, const AmbientBodies& members) {
+WorldState saveState(const btDynamicsWorld& world, const AmbientBodies& registered) {
   // Bullet's accessors are not const.
   auto& source = const_cast<btDynamicsWorld&>(world);
   WorldState state;
   for (const btRigidBody* body : rigidBodiesOf(source)) {
     state.bodies.push_back(fromBullet<BodyState>(*body));
-    if (const AmbientBody* ambient = members.find(body)) {
+    if (const AmbientBody* ambient = registered.find(body)) {
       state.bodies.back().ambient = saveAmbient(*ambient, inverseMassOf(*body));
     }
   }
   for (btMultiBody* body : multiBodiesOf(source)) {
     state.multi_bodies.push_back(saveMultiBody(*body));
-    if (const AmbientTree* tree = members.trees.find(body))
+    if (const AmbientTree* tree = registered.trees.find(body))
       saveFluids(*tree, state.multi_bodies.back());
   }
   for (btMultiBodyConstraint* joint : multiBodyJointsOf(source))
@@ -119,31 +120,31 @@ WorldState saveState(const btDynamicsWorld& world, const AmbientBodies& members)
   saveBoxes(source, state);
   for (int i = 0; i < source.getNumConstraints(); ++i)
     state.joints.push_back(fromBullet<JointState>(*source.getConstraint(i)));
-  state.time = members.regions.time;
+  state.time = registered.regions.time;
   if (const auto* solver = shufflingSolver(source)) state.random_seed = solver->getRandSeed();
   return state;
 }
 
-void restoreState(const WorldState& state, btDynamicsWorld& world, AmbientBodies& members) {
-  members.requireChangeable("restoreState");
+void restoreState(const WorldState& state, btDynamicsWorld& world, AmbientBodies& registered) {
+  registered.requireChangeable("restoreState");
   const std::vector<btRigidBody*> bodies = rigidBodiesOf(world);
   checkFits(state, world);
   checkNumbers(state);
-  auto ambient_bodies = makeAmbientBodies(state, bodies, members);
-  std::vector<Links> links = makeAllLinks(state, world, members);
+  auto ambient_bodies = makeAmbientBodies(state, bodies, registered);
+  std::vector<Links> links = makeAllLinks(state, world, registered);
 
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     restoreMass(state.bodies[i], *bodies[i]);
     restoreBody(state.bodies[i], *bodies[i]);
     if (ambient_bodies[i]) {
-      AmbientBody& ambient = members.insert(std::move(*ambient_bodies[i]));
-      if (ambient.vessel) floatAgain(ambient, readState(*bodies[i]), members.regions);
+      AmbientBody& ambient = registered.insert(std::move(*ambient_bodies[i]));
+      if (ambient.vessel) floatAgain(ambient, readState(*bodies[i]), registered.regions);
     } else {
-      members.erase(*bodies[i]);
+      registered.erase(*bodies[i]);
     }
   }
-  restoreMultiBodies(state, std::move(links), world, members);
-  members.regions.time = state.time;
+  restoreMultiBodies(state, std::move(links), world, registered);
+  registered.regions.time = state.time;
   restoreJoints(state, world);
   restoreContacts(state, world);
   for (std::size_t i = 0; i < bodies.size(); ++i) restoreSleep(state.bodies[i], *bodies[i]);

@@ -37,11 +37,11 @@ struct Numbers {
 };
 
 /// A link of a multibody, or its base.
-struct LinkPlace {
+struct LinkAccess {
   btMultiBody& body;
   btMultibodyLink* link;  ///< null: the base
 
-  LinkPlace(btMultiBody& of, int number)
+  LinkAccess(btMultiBody& of, int number)
       : body(of), link(number < 0 ? nullptr : &of.getLink(number)) {}
 
   /// Returns the first numbers of an array of the joint, as many as the joint uses; none for a
@@ -191,7 +191,7 @@ void fields(V& v, HoldState& s) {
 template <class V>
 void fields(V& v, Sloshing& s) {
   each(v, kAny, s.is_known);
-  each(v, finite("hold has water that sloshes without a finite way and velocity"), s.way_W,
+  each(v, finite("hold has water that sloshes without a finite way and velocity"), s.displacement_W,
        s.velocity_W);
 }
 
@@ -215,7 +215,7 @@ void fields(V& v, AmbientState& s) {
   fields(v, s.def);
   fields(v, s.medium);
   v.check("medium is not physical", [&m = s.medium] { return !faultOf(m); });
-  each(v, kAny, s.place.region, s.place.is_above, s.place.is_at_surface);
+  each(v, kAny, s.location.region, s.location.is_above, s.location.is_at_surface);
   each(v, kAny, s.flow.until, s.flow.position, s.flow.velocity, s.flow.change, s.flow.parts,
        s.flow.region, s.flow.is_above);
   v.check("fluid has had a place, velocity or change that is not finite", [&f = s.flow] {
@@ -306,7 +306,7 @@ void fields(V& v, BodyState& s) {
 template <class V>
 void fields(V& v, MultiBodyLinkState& s) {
   using Link = btMultibodyLink;
-  using Place = LinkPlace;
+  using Access = LinkAccess;
   constexpr Rule kMass = finiteNotNegative("mass is negative or not finite: ");
   constexpr Rule kInertia = finiteNotNegative("inertia is negative or not finite");
   constexpr Rule kForce = finite("force or torque is not finite");
@@ -316,8 +316,8 @@ void fields(V& v, MultiBodyLinkState& s) {
     using Field = std::remove_reference_t<decltype(field)>;
     v(
         field, rule,
-        [=](Place& l) -> Field { return l.link ? l.link->*of_link : std::invoke(get, l.body); },
-        [=](Place& l, const Field& x) {
+        [=](Access& l) -> Field { return l.link ? l.link->*of_link : std::invoke(get, l.body); },
+        [=](Access& l, const Field& x) {
           l.link ? void(l.link->*of_link = x) : std::invoke(set, l.body, x);
         });
   };
@@ -329,15 +329,15 @@ void fields(V& v, MultiBodyLinkState& s) {
   linkField(s.force, kForce, &Link::m_appliedForce, &Body::getBaseForce, &Body::addBaseForce);
   linkField(s.torque, kForce, &Link::m_appliedTorque, &Body::getBaseTorque, &Body::addBaseTorque);
   v(s.joint_position, kPosition,
-    [](Place& l) { return l.joint(&Link::m_jointPos, &Link::m_posVarCount); });
+    [](Access& l) { return l.joint(&Link::m_jointPos, &Link::m_posVarCount); });
   v(s.joint_force, kForce,
-    [](Place& l) { return l.joint(&Link::m_jointTorque, &Link::m_dofCount); });
+    [](Access& l) { return l.joint(&Link::m_jointTorque, &Link::m_dofCount); });
   v(
       s.turn_in_parent, kPosition,
-      [](Place& l) {
+      [](Access& l) {
         return l.link ? l.link->m_cachedRotParentToThis : btQuaternion::getIdentity();
       },
-      [](Place& l, const btQuaternion& x) {
+      [](Access& l, const btQuaternion& x) {
         if (l.link)
           l.link->m_cachedRotParentToThis = l.link->m_cachedRotParentToThis_interpolate = x;
       });
@@ -345,14 +345,16 @@ void fields(V& v, MultiBodyLinkState& s) {
           [&s] { return std::abs(s.turn_in_parent.length2() - 1) < btScalar(0.01); });
   v(
       s.way_from_parent, kPosition,
-      [](Place& l) { return l.link ? l.link->m_cachedRVector : btVector3(0, 0, 0); },
-      [](Place& l, const btVector3& x) {
+      [](Access& l) { return l.link ? l.link->m_cachedRVector : btVector3(0, 0, 0); },
+      [](Access& l, const btVector3& x) {
         if (l.link) l.link->m_cachedRVector = l.link->m_cachedRVector_interpolate = x;
       });
   v(
       s.pose, kPosition,
-      [](Place& l) { return l.link ? l.link->m_cachedWorldTransform : btTransform::getIdentity(); },
-      [](Place& l, const btTransform& x) {
+      [](Access& l) {
+        return l.link ? l.link->m_cachedWorldTransform : btTransform::getIdentity();
+      },
+      [](Access& l, const btTransform& x) {
         if (l.link) l.link->m_cachedWorldTransform = x;
       });
   v.optional(s.collider);

@@ -26,7 +26,7 @@ AMBIENT_BEGIN
 struct AmbientState {
   AttachDef def;
   Medium medium;  ///< medium around the body now
-  RegionPlace place;
+  RegionLocation location;
   FlowMemory flow;
   FlightMemory memory;
   WaveMemory waves;

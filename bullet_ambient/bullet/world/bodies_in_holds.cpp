@@ -34,25 +34,25 @@ bool isInside(const Surface& surface, const Vector3& point) {
   return std::abs(angle) > 2 * kPi;
 }
 
-MotionView nowOf(const PlacedMember& member) {
-  return member.link ? member.link->now : motionOf(*member.body->body);
+MotionView nowOf(const MovingBody& moving) {
+  return moving.link ? moving.link->now : motionOf(*moving.body->body);
 }
-bool isAwake(const PlacedMember& member) {
-  return member.link ? !isAsleep(*member.body->multi_body) : member.body->body->isActive();
+bool isAwake(const MovingBody& moving) {
+  return moving.link ? !isAsleep(*moving.body->multi_body) : moving.body->body->isActive();
 }
 
 /// Gathers what moves in this world from west to east, and places links.
-void gatherMembers(const btCollisionWorld& world, AmbientBodies& bodies) {
-  std::vector<PlacedMember>& placed = bodies.placed;
-  placed.clear();
+void gatherMovingBodies(const btCollisionWorld& world, AmbientBodies& bodies) {
+  std::vector<MovingBody>& west_to_east = bodies.west_to_east;
+  west_to_east.clear();
   std::size_t count = 0;
   bodies.forEach([&count](AmbientBody& body) {
     body.in_hold = -1;
     ++count;
   });
-  placed.reserve(count);
+  west_to_east.reserve(count);
   const auto place = [&](AmbientBody& body, const AmbientLink* link, const Vector3& centre) {
-    if (centre.allFinite()) placed.push_back({centre, placed.size(), &body, link});
+    if (centre.allFinite()) west_to_east.push_back({centre, west_to_east.size(), &body, link});
   };
   const btCollisionObjectArray& objects = world.getCollisionObjectArray();
   for (int i = 0; i < objects.size(); ++i) {
@@ -62,39 +62,39 @@ void gatherMembers(const btCollisionWorld& world, AmbientBodies& bodies) {
   }
   if (isOf(world, bodies.trees))
     forEachTree(*bodies.trees.world(), bodies.trees, [&](AmbientTree& tree) {
-      placeLinksNow(tree);
+      computeLinkPosesNow(tree);
       for (const auto& link : tree.links)
         if (link->mass.mass > 0) place(link->ambient, link.get(), link->now.centre());
     });
-  std::sort(placed.begin(), placed.end(), [](const PlacedMember& a, const PlacedMember& b) {
+  std::sort(west_to_east.begin(), west_to_east.end(), [](const MovingBody& a, const MovingBody& b) {
     return a.centre.x() < b.centre.x() || (a.centre.x() == b.centre.x() && a.number < b.number);
   });
 }
 
-bool isVesselAtSurface(const PlacedMember& member) {
-  return member.body->vessel && member.body->surface();
+bool isVesselAtSurface(const MovingBody& moving) {
+  return moving.body->vessel && moving.body->surface();
 }
 
-/// Calls visit(const PlacedMember&) for the others whose centre is no farther from that of a vessel
+/// Calls visit(const MovingBody&) for the others whose centre is no farther from that of a vessel
 /// than the vessel reaches, from west to east. `vessel`: one of `placed`.
 template <class Visit>
-void forEachNear(const std::vector<PlacedMember>& placed, const PlacedMember& vessel,
+void forEachNear(const std::vector<MovingBody>& west_to_east, const MovingBody& vessel,
                  const Visit& visit) {
   const double reach = vessel.body->surface()->radius;
   const double west = vessel.centre.x() - reach, east = vessel.centre.x() + reach;
-  const PlacedMember *member = &vessel, *const end = placed.data() + placed.size();
-  while (member != placed.data() && !(member[-1].centre.x() < west)) --member;
-  for (; member != end && member->centre.x() <= east; ++member)
-    if (member->body != vessel.body &&
-        (member->centre - vessel.centre).squaredNorm() < reach * reach)
-      visit(*member);
+  const MovingBody *moving = &vessel, *const end = west_to_east.data() + west_to_east.size();
+  while (moving != west_to_east.data() && !(moving[-1].centre.x() < west)) --moving;
+  for (; moving != end && moving->centre.x() <= east; ++moving)
+    if (moving->body != vessel.body &&
+        (moving->centre - vessel.centre).squaredNorm() < reach * reach)
+      visit(*moving);
 }
 
 /// A vessel at its present pose.
 struct Vessel {
-  Vessel(const PlacedMember& of, AmbientBodies& among)
+  Vessel(const MovingBody& of, AmbientBodies& among)
       : place(of),
-        members(among),
+        bodies(among),
         ambient(*of.body),
         now(nowOf(of)),
         is_awake(isAwake(of)),
@@ -104,8 +104,8 @@ struct Vessel {
         normal_W(-(now.gravity - ambient.medium.acceleration).normalized()),
         normal_F(R_WF.transpose() * normal_W) {}
 
-  const PlacedMember& place;
-  AmbientBodies& members;
+  const MovingBody& place;
+  AmbientBodies& bodies;
   AmbientBody& ambient;
   MotionView now;
   bool is_awake;
@@ -130,13 +130,13 @@ HoldAround* aroundOf(const AmbientBody& body, FluidRegions& regions) {
 }
 
 /// Puts a body near a vessel into the hold that has its centre, unless it is in a smaller vessel.
-void enterHold(const Vessel& vessel, const PlacedMember& member) {
-  AmbientBody& body = *member.body;
-  FluidRegions& regions = vessel.members.regions;
+void enterHold(const Vessel& vessel, const MovingBody& moving) {
+  AmbientBody& body = *moving.body;
+  FluidRegions& regions = vessel.bodies.regions;
   const double size = vessel.ambient.metric().reference_length;
   const HoldAround* const known = aroundOf(body, regions);
   if (known && !(size < known->size)) return;
-  const Vector3 place_F = vessel.R_WF.transpose() * (member.centre - vessel.origin_W);
+  const Vector3 place_F = vessel.R_WF.transpose() * (moving.centre - vessel.origin_W);
   const std::vector<Hold>& holds = vessel.ambient.vessel->shape->holds;
   for (std::size_t i = 0; i < holds.size(); ++i) {
     if (!(body.def->fluid_body->volume < holds[i].volume)) continue;
@@ -148,7 +148,7 @@ void enterHold(const Vessel& vessel, const PlacedMember& member) {
     HoldAround& around = *aroundOf(body, regions);
     around.vessel = &vessel.ambient;
     around.hold = i;
-    around.region = vessel.ambient.place.region;
+    around.region = vessel.ambient.location.region;
     around.size = size;
     around.is_awake = vessel.is_awake;
     around.normal_W = vessel.normal_W;
@@ -158,38 +158,38 @@ void enterHold(const Vessel& vessel, const PlacedMember& member) {
   }
 }
 
-/// Calls visit(const PlacedMember&, HoldAround&) for what is in a vessel, from west to east: the
-/// same bits of sums in each order of the members.
+/// Calls visit(const MovingBody&, HoldAround&) for what is in a vessel, from west to east: the
+/// same bits of sums in each order of the bodies.
 template <class Visit>
-void forEachInside(const PlacedMember& vessel, AmbientBodies& bodies, const Visit& visit) {
-  forEachNear(bodies.placed, vessel, [&](const PlacedMember& member) {
-    HoldAround* const around = aroundOf(*member.body, bodies.regions);
-    if (around && around->vessel == vessel.body) visit(member, *around);
+void forEachInside(const MovingBody& vessel, AmbientBodies& bodies, const Visit& visit) {
+  forEachNear(bodies.west_to_east, vessel, [&](const MovingBody& moving) {
+    HoldAround* const around = aroundOf(*moving.body, bodies.regions);
+    if (around && around->vessel == vessel.body) visit(moving, *around);
   });
 }
 template <class Visit>
 void forEachInHold(const Vessel& vessel, std::size_t hold, const Visit& visit) {
-  forEachInside(vessel.place, vessel.members, [&](const PlacedMember& member, HoldAround& around) {
-    if (around.hold == hold) visit(member, around);
+  forEachInside(vessel.place, vessel.bodies, [&](const MovingBody& moving, HoldAround& around) {
+    if (around.hold == hold) visit(moving, around);
   });
 }
 
 /// Whether the level of a hold hangs on other bodies, or did so a step before.
-bool isShared(const PlacedMember& vessel, AmbientBodies& bodies) {
+bool isShared(const MovingBody& vessel, AmbientBodies& bodies) {
   const std::vector<HoldState>& holds = vessel.body->vessel->holds;
   bool is_any = std::any_of(holds.begin(), holds.end(),
                             [](const HoldState& hold) { return hold.displaced != 0; });
   if (bodies.regions.in_holds.empty()) return is_any;
-  forEachInside(vessel, bodies, [&](const PlacedMember&, HoldAround&) { is_any = true; });
+  forEachInside(vessel, bodies, [&](const MovingBody&, HoldAround&) { is_any = true; });
   return is_any;
 }
 
 /// Volume and area of a body below a level of the vessel's hold, a height in F.
-Waterplane displacedBy(const PlacedMember& member, const Vessel& vessel, double height,
+Waterplane displacedBy(const MovingBody& moving, const Vessel& vessel, double height,
                        double& volume) {
-  const FluidModels& models = *member.body->models;
+  const FluidModels& models = *moving.body->models;
   if (models.surfaces.empty()) return {};
-  const MotionView now = nowOf(member);
+  const MotionView now = nowOf(moving);
   const Vector3& normal = vessel.normal_W;
   const SurfacePlane plane_W{normal, height + normal.dot(vessel.origin_W), 0, 0};
   const WetVolume wet =
@@ -218,8 +218,8 @@ void findLevel(const Vessel& vessel, std::size_t hold) {
       const WetVolume full = computeWetVolume(shape.hull(), {normal_F, height, 0, 0});
       double area = full.waterplane.area;
       displaced = 0;
-      forEachInHold(vessel, hold, [&](const PlacedMember& member, HoldAround&) {
-        area -= displacedBy(member, vessel, height, displaced).area;
+      forEachInHold(vessel, hold, [&](const MovingBody& moving, HoldAround&) {
+        area -= displacedBy(moving, vessel, height, displaced).area;
       });
       const double error = full.volume - displaced - state.volume;
       if (std::abs(error) <= kAccuracy * shape.capacity()) break;
@@ -232,10 +232,10 @@ void findLevel(const Vessel& vessel, std::size_t hold) {
   if (displaced != state.displaced) vessel.ambient.floating->is_valid = false;
   state.displaced = displaced;
   const double height_W = height + vessel.normal_W.dot(vessel.origin_W);
-  forEachInHold(vessel, hold, [&](const PlacedMember& member, HoldAround& around) {
+  forEachInHold(vessel, hold, [&](const MovingBody& moving, HoldAround& around) {
     around.is_dry = is_dry;
     around.height = height_W;
-    if (!is_dry && around.is_awake && !isAwake(member)) wake(*member.body);
+    if (!is_dry && around.is_awake && !isAwake(moving)) wake(*moving.body);
   });
 }
 
@@ -244,15 +244,15 @@ void findLevel(const Vessel& vessel, std::size_t hold) {
 void gatherReactions(const Vessel& vessel) {
   VesselState& state = *vessel.ambient.vessel;
   const Vector3 centre = vessel.now.centre();
-  forEachInside(vessel.place, vessel.members, [&](const PlacedMember& member, HoldAround& around) {
-    const auto* const last = std::get_if<LastFlight>(&member.body->outcome.motion);
-    if (around.is_dry || member.link || !isAwake(member) || !last || !last->memory.has_load) return;
+  forEachInside(vessel.place, vessel.bodies, [&](const MovingBody& moving, HoldAround& around) {
+    const auto* const last = std::get_if<LastFlight>(&moving.body->outcome.motion);
+    if (around.is_dry || moving.link || !isAwake(moving) || !last || !last->memory.has_load) return;
     const Wrench& drag = last->memory.load_W;
-    const Vector3 arm = member.centre - centre;
+    const Vector3 arm = moving.centre - centre;
     state.reaction_W -= Wrench{drag.torque + arm.cross(drag.force), drag.force};
     const Twist& of_vessel = vessel.now.twist_W;
     const Vector3 past =
-        nowOf(member).twist_W.linear - of_vessel.linear - of_vessel.angular.cross(arm);
+        nowOf(moving).twist_W.linear - of_vessel.linear - of_vessel.angular.cross(arm);
     state.reaction_speed = std::max(state.reaction_speed, past.norm());
   });
 }
@@ -260,25 +260,25 @@ void gatherReactions(const Vessel& vessel) {
 }  // namespace
 
 void findBodiesInHolds(btCollisionWorld& world, AmbientBodies& bodies) noexcept {
-  gatherMembers(world, bodies);
-  const std::vector<PlacedMember>& placed = bodies.placed;
+  gatherMovingBodies(world, bodies);
+  const std::vector<MovingBody>& west_to_east = bodies.west_to_east;
   bodies.regions.in_holds.clear();
-  bodies.regions.in_holds.reserve(placed.size());
-  for (const PlacedMember& member : placed) {
-    if (!isVesselAtSurface(member)) continue;
+  bodies.regions.in_holds.reserve(west_to_east.size());
+  for (const MovingBody& moving : west_to_east) {
+    if (!isVesselAtSurface(moving)) continue;
     std::optional<Vessel> vessel;
-    forEachNear(placed, member, [&](const PlacedMember& other) {
-      if (!vessel) vessel.emplace(member, bodies);
+    forEachNear(west_to_east, moving, [&](const MovingBody& other) {
+      if (!vessel) vessel.emplace(moving, bodies);
       enterHold(*vessel, other);
     });
   }
-  for (const PlacedMember& member : placed) {
-    if (!isVesselAtSurface(member)) continue;
-    member.body->vessel->reaction_W = {};
-    member.body->vessel->reaction_speed = 0;
-    if (!isShared(member, bodies)) continue;
-    const Vessel vessel(member, bodies);
-    for (std::size_t i = 0; i < member.body->vessel->holds.size(); ++i) findLevel(vessel, i);
+  for (const MovingBody& moving : west_to_east) {
+    if (!isVesselAtSurface(moving)) continue;
+    moving.body->vessel->reaction_W = {};
+    moving.body->vessel->reaction_speed = 0;
+    if (!isShared(moving, bodies)) continue;
+    const Vessel vessel(moving, bodies);
+    for (std::size_t i = 0; i < moving.body->vessel->holds.size(); ++i) findLevel(vessel, i);
     gatherReactions(vessel);
   }
 }

@@ -10,7 +10,7 @@ AMBIENT_BEGIN
 /// surface of water, and the level there with what they displace: AmbientBody::in_hold of these,
 /// and HoldState::displaced of the vessels, for the next substep. A body is
 /// in no hold that it is larger than, and in the smallest vessel of several. Wakes what floats in a
-/// vessel that is awake. Cost: the order of all members from west to east; for a
+/// vessel that is awake. Cost: the order of all bodies from west to east; for a
 /// body near a vessel the triangles of its holds; for a hold with bodies and water some clips of
 /// all of them; the poses of links. Allocates nothing but for bodies that are new.
 void findBodiesInHolds(btCollisionWorld& world, AmbientBodies& bodies) noexcept;

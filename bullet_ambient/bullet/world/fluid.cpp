@@ -35,55 +35,55 @@ void knowFluids(AmbientBodies& bodies, const FluidRegion& region, bool is_coming
 }
 
 // Makes room for what differs of the fluid along each body, after a change of regions.
-void takeAllStations(AmbientBodies& bodies, bool knew, bool knew_layers) {
+void makeAllStations(AmbientBodies& bodies, bool knew, bool knew_layers) {
   if (bodies.regions.mayDiffer() == knew && bodies.regions.haveLayers() == knew_layers) return;
-  bodies.forEach([&](AmbientBody& ambient) { takeStations(ambient, bodies.regions); });
+  bodies.forEach([&](AmbientBody& ambient) { makeStations(ambient, bodies.regions); });
 }
 
-// Reports a new member that is light beside what it displaces. Returns the member.
-const AmbientBody& reportIfLight(AmbientBodies& members, const AmbientBody& ambient,
-                                 const btVector3& gravity) {
-  if (const auto mass = risingMass(ambient, members.trees, gravity))
-    warnOfLightBody(members.complaints, *ambient.def, *mass, 1);
+// Warns of a new body or link that is light beside what it displaces. Returns it.
+const AmbientBody& warnIfLight(AmbientBodies& bodies, const AmbientBody& ambient,
+                               const btVector3& gravity) {
+  if (const auto mass = risingMass(ambient, bodies.trees, gravity))
+    warnOfLightBody(bodies.warnings, *ambient.def, *mass, 1);
   return ambient;
 }
 
 }  // namespace
 
-AmbientBodies& membersOf(const Fluid& fluid) { return *fluid.members_; }
+AmbientBodies& ambientBodiesOf(const Fluid& fluid) { return *fluid.bodies_; }
 
 Fluid::Fluid(btDynamicsWorld& world, SolverOwner owner)
-    : members_(std::make_shared<AmbientBodies>()),
-      action_(std::make_unique<FluidAction>(*members_, drawing)),
-      connection_(std::make_unique<WorldConnection>(world, members_, *action_, owner)) {
+    : bodies_(std::make_shared<AmbientBodies>()),
+      action_(std::make_unique<FluidAction>(*bodies_, drawing)),
+      connection_(std::make_unique<WorldConnection>(world, bodies_, *action_, owner)) {
   setReport([](const std::string& text) { std::fprintf(stderr, "%s\n", text.c_str()); });
 }
 
-// Solvers of the program may keep the members, without anything of the program's.
-Fluid::~Fluid() { members_->close(); }
+// Solvers of the program may keep the bodies, without anything of the program's.
+Fluid::~Fluid() { bodies_->close(); }
 
 void Fluid::refit() { connection_->refit(); }
 
 Immersed Fluid::add(btRigidBody& body, AttachDef def) {
   const btDynamicsWorld& world = connection_->world();
-  members_->requireChangeable("add");
-  const AmbientBody& ambient = attachBody(*members_, body, std::move(def));
-  return Immersed(*members_, reportIfLight(*members_, ambient, world.getGravity()));
+  bodies_->requireChangeable("add");
+  const AmbientBody& ambient = attachBody(*bodies_, body, std::move(def));
+  return Immersed(*bodies_, warnIfLight(*bodies_, ambient, world.getGravity()));
 }
 
 Immersed Fluid::add(btMultiBody& multi_body, int link, AttachDef def) {
   btMultiBodyDynamicsWorld& world = connection_->multiBodyWorld("add");
-  members_->requireChangeable("add");
-  const AmbientBody& ambient = attachLink(*members_, world, multi_body, link, std::move(def));
-  return Immersed(*members_, reportIfLight(*members_, ambient, world.getGravity()));
+  bodies_->requireChangeable("add");
+  const AmbientBody& ambient = attachLink(*bodies_, world, multi_body, link, std::move(def));
+  return Immersed(*bodies_, warnIfLight(*bodies_, ambient, world.getGravity()));
 }
 
 AttachReport Fluid::addAll(FluidBodySource& shapes, const Medium& medium, AttachSettings settings) {
   btDiscreteDynamicsWorld& world = connection_->world();
-  members_->requireChangeable("addAll");
+  bodies_->requireChangeable("addAll");
   const bool later_bodies = settings.later_bodies;
   auto attachment =
-      std::make_unique<WorldAttachment>(*members_, shapes, medium, std::move(settings));
+      std::make_unique<WorldAttachment>(*bodies_, shapes, medium, std::move(settings));
   AttachReport report = attachment->attachNew(world);
   if (later_bodies) action_->follow(std::move(attachment));
   return report;
@@ -91,93 +91,93 @@ AttachReport Fluid::addAll(FluidBodySource& shapes, const Medium& medium, Attach
 
 void Fluid::addLaterBodies() {
   btDiscreteDynamicsWorld& world = connection_->world();
-  members_->requireChangeable("addLaterBodies");
+  bodies_->requireChangeable("addLaterBodies");
   action_->attachLater(world);
 }
 
 std::optional<Immersed> Fluid::find(const btRigidBody& body) const {
-  const AmbientBody* ambient = members_->find(&body);
+  const AmbientBody* ambient = bodies_->find(&body);
   if (!ambient) return std::nullopt;
-  return Immersed(*members_, *ambient);
+  return Immersed(*bodies_, *ambient);
 }
 
 std::optional<Immersed> Fluid::find(const btMultiBody& multi_body, int link) const {
-  const AmbientLink* found = members_->trees.find(&multi_body, link);
+  const AmbientLink* found = bodies_->trees.find(&multi_body, link);
   if (!found) return std::nullopt;
-  return Immersed(*members_, found->ambient);
+  return Immersed(*bodies_, found->ambient);
 }
 
 std::size_t Fluid::size() const {
   std::size_t size = 0;
-  members_->forEach([&size](const AmbientBody&) { ++size; });
+  bodies_->forEach([&size](const AmbientBody&) { ++size; });
   return size;
 }
 
 void Fluid::clear() {
-  members_->requireChangeable("clear");
-  members_->clear();
+  bodies_->requireChangeable("clear");
+  bodies_->clear();
   action_->followNothing();
 }
 
 RegionId Fluid::addRegion(FluidRegion region) {
-  members_->requireChangeable("addRegion");
-  FluidRegions& regions = members_->regions;
+  bodies_->requireChangeable("addRegion");
+  FluidRegions& regions = bodies_->regions;
   checkRegion(regions.next(), region);
-  knowFluids(*members_, region, true);
+  knowFluids(*bodies_, region, true);
   const bool knew = regions.mayDiffer(), knew_layers = regions.haveLayers();
   const RegionId id = regions.add(std::move(region));
-  takeAllStations(*members_, knew, knew_layers);
+  makeAllStations(*bodies_, knew, knew_layers);
   return id;
 }
 
 void Fluid::setRegion(RegionId id, FluidRegion region) {
-  members_->requireChangeable("setRegion");
-  FluidRegions& regions = members_->regions;
+  bodies_->requireChangeable("setRegion");
+  FluidRegions& regions = bodies_->regions;
   checkRegion(id, region);
   const FluidRegion before = regions.require(id);
-  knowFluids(*members_, region, true);
+  knowFluids(*bodies_, region, true);
   const bool knew = regions.mayDiffer(), knew_layers = regions.haveLayers();
   regions.set(id, std::move(region));
-  takeAllStations(*members_, knew, knew_layers);
-  knowFluids(*members_, before, false);
+  makeAllStations(*bodies_, knew, knew_layers);
+  knowFluids(*bodies_, before, false);
 }
 
 bool Fluid::removeRegion(RegionId id) {
-  members_->requireChangeable("removeRegion");
-  FluidRegions& regions = members_->regions;
+  bodies_->requireChangeable("removeRegion");
+  FluidRegions& regions = bodies_->regions;
   const auto found = regions.all().find(id);
   if (found == regions.all().end()) return false;
   const FluidRegion before = found->second.region;
   regions.remove(id);
-  knowFluids(*members_, before, false);
+  knowFluids(*bodies_, before, false);
   return true;
 }
 
-WorldState Fluid::save() const { return saveState(connection_->world(), *members_); }
+WorldState Fluid::save() const { return saveState(connection_->world(), *bodies_); }
 
 void Fluid::restore(const WorldState& state) {
   btDynamicsWorld& world = connection_->world();
-  restoreState(state, world, *members_);
-  if (members_->has_vessels) findBodiesInHolds(world, *members_);
+  restoreState(state, world, *bodies_);
+  if (bodies_->has_vessels) findBodiesInHolds(world, *bodies_);
 }
 
-double Fluid::time() const { return members_->regions.time; }
+double Fluid::time() const { return bodies_->regions.time; }
 
 AmbientCounters Fluid::counters() const {
   AmbientCounters sum;
-  members_->forEach([&](const AmbientBody& ambient) { sum += ambient.counters; });
+  bodies_->forEach([&](const AmbientBody& ambient) { sum += ambient.counters; });
   return sum;
 }
 
 void Fluid::setReport(std::function<void(const std::string&)> report) {
-  members_->complaints.setReport(std::move(report));
+  bodies_->warnings.setReport(std::move(report));
 }
 
 void Fluid::setNaming(std::function<std::string(const btCollisionObject&)> naming) {
-  members_->naming = std::move(naming);
+  bodies_->naming = std::move(naming);
 }
 
-void Fluid::setTaskRunner(TaskRunner runner) { members_->task_runner = std::move(runner); }
+void Fluid::setTaskRunner(TaskRunner runner) { bodies_->task_runner = std::move(runner); }
 
 void stepTogether(Fluid* const* fluids, int count, const std::function<void(int)>& step) {
   for (int i = 0; i < count; ++i)
@@ -185,9 +185,9 @@ void stepTogether(Fluid* const* fluids, int count, const std::function<void(int)
       throw std::invalid_argument("stepTogether: world " + std::to_string(i) +
                                   " solves on several threads; must be on one");
   FlightQueue queue(count, &step);
-  for (int i = 0; i < count; ++i) fluids[i]->members_->flight_queue = &queue;
+  for (int i = 0; i < count; ++i) fluids[i]->bodies_->flight_queue = &queue;
   queue.goOn();
-  for (int i = 0; i < count; ++i) fluids[i]->members_->flight_queue = nullptr;
+  for (int i = 0; i < count; ++i) fluids[i]->bodies_->flight_queue = nullptr;
 }
 
 AMBIENT_END

@@ -16,8 +16,8 @@
 #include "bullet_ambient/bullet/rows/row_motion.h"
 #include "bullet_ambient/bullet/world/bodies_in_holds.h"
 #include "bullet_ambient/drawing.h"
-#include "bullet_ambient/immersed/fluid_reading.h"
 #include "bullet_ambient/immersed/fluid_regions.h"
+#include "bullet_ambient/immersed/wrench_sensor.h"
 
 AMBIENT_BEGIN
 
@@ -47,7 +47,7 @@ bool isMoved(const AmbientBody& ambient) {
          !ambient.body->isStaticOrKinematicObject();
 }
 
-bool hasAwakeMember(const btCollisionWorld& world, const AmbientBodies& bodies) {
+bool hasAwakeBody(const btCollisionWorld& world, const AmbientBodies& bodies) {
   bool is_awake = false;
   forEachIn(world, bodies, [&is_awake](const AmbientBody& ambient) {
     is_awake |= ambient.body ? isMoved(ambient) : !isAsleep(*ambient.multi_body);
@@ -71,12 +71,11 @@ bool isStillIn(const btCollisionWorld& world, const AmbientBody& ambient) {
 // side by side.
 class Completion {
  public:
-  Completion(double time_step, Complaints& complaints)
-      : time_step_(time_step), complaints_(complaints) {}
+  Completion(double time_step, Warnings& warnings) : time_step_(time_step), warnings_(warnings) {}
 
   void add(Outcome kind, AmbientBody& ambient) {
-    if (kind == Outcome::kDisabled) return release(ambient);
-    const Twist before_W = ambient.reading ? velocityOf(*ambient.body) : Twist{};
+    if (kind == Outcome::kDisabled) return restoreActivation(ambient);
+    const Twist before_W = ambient.sensor ? velocityOf(*ambient.body) : Twist{};
     if (kind == Outcome::kFlown) {
       endFlight(ambient, time_step_);
       finish(kind, before_W, ambient);
@@ -91,7 +90,7 @@ class Completion {
   // Call after the last add().
   void completeRows() {
     if (count_ == 0) return;
-    endRowMotions(bodies_, count_, time_step_, complaints_);
+    endRowMotions(bodies_, count_, time_step_, warnings_);
     for (int i = 0; i < count_; ++i) finish(kinds_[i], before_W_[i], *bodies_[i]);
     count_ = 0;
   }
@@ -99,12 +98,12 @@ class Completion {
  private:
   void finish(Outcome kind, const Twist& before_W, AmbientBody& ambient) const {
     keepAwake(ambient, kind);
-    if (ambient.reading)
+    if (ambient.sensor)
       finishBodyReading(ambient, kind, motionOf(*ambient.body), before_W, time_step_);
   }
 
   double time_step_;
-  Complaints& complaints_;
+  Warnings& warnings_;
   AmbientBody* bodies_[kFlightsTogether] = {};
   Outcome kinds_[kFlightsTogether] = {};
   Twist before_W_[kFlightsTogether];
@@ -134,8 +133,8 @@ void forgetBrokenImpulses(btCollisionWorld& world) {
   }
 }
 
-// Wakes the sleeping members whose mass was changed: it is another load. Models without a mass are
-// of a body that has none that is physical.
+// Wakes the sleeping bodies and links whose mass was changed: it is another load. Models without a
+// mass are of a body that has none that is physical.
 void wakeReloaded(const btCollisionWorld& world, const AmbientBodies& bodies) {
   const btCollisionObjectArray& objects = world.getCollisionObjectArray();
   for (int i = 0; bodies.size() > 0 && i < objects.size(); ++i) {
@@ -168,13 +167,13 @@ bool FluidAction::isSolverMissing(const btCollisionWorld& world) {
   const unsigned solved = bodies_.solved;
   const bool is_missing = std::exchange(solved_, solved) == solved &&
                           (bodies_.size() > 0 || !bodies_.trees.empty()) &&
-                          hasAwakeMember(world, bodies_);
+                          hasAwakeBody(world, bodies_);
   return std::exchange(was_missing_, is_missing) && is_missing;
 }
 
 void FluidAction::updateAction(btCollisionWorld* world, btScalar time_step) {
   world_ = world;
-  Completion completion(static_cast<double>(time_step), bodies_.complaints);
+  Completion completion(static_cast<double>(time_step), bodies_.warnings);
   for (AmbientBody* ambient = bodies_.takeSolved(); ambient; ambient = ambient->next_solved) {
     const Outcome kind = std::exchange(ambient->outcome.kind, Outcome::kNotSolved);
     if (kind == Outcome::kStock || !isStillIn(*world, *ambient)) continue;
@@ -185,7 +184,7 @@ void FluidAction::updateAction(btCollisionWorld* world, btScalar time_step) {
   if (std::isfinite(time_step)) {
     bodies_.regions.time += static_cast<double>(time_step);
   } else if (bodies_.size() > 0 || !bodies_.trees.empty() || !bodies_.regions.empty()) {
-    bodies_.complaints.say(Complaint::kDuration);
+    bodies_.warnings.warnOnce(Warning::kDuration);
     forgetBrokenImpulses(*world);
   }
   if (bodies_.has_vessels) findBodiesInHolds(*world, bodies_);
@@ -193,7 +192,7 @@ void FluidAction::updateAction(btCollisionWorld* world, btScalar time_step) {
   wakeReloaded(*world, bodies_);
   if (isSolverMissing(*world)) {
     const bool has_multibodies = dynamic_cast<const btMultiBodyDynamicsWorld*>(world);
-    bodies_.complaints.say(has_multibodies ? Complaint::kNoMultiBodySolver : Complaint::kNoSolver);
+    bodies_.warnings.warnOnce(has_multibodies ? Warning::kNoMultiBodySolver : Warning::kNoSolver);
   }
   attachLater(*world);
 }
@@ -224,7 +223,7 @@ void FluidAction::debugDraw(btIDebugDraw* drawer) {
     }
   }
   forEachTreeIn(*world_, bodies_, [&](AmbientTree& tree) {
-    placeLinksNow(tree);
+    computeLinkPosesNow(tree);
     for (const auto& link : tree.links)
       if (link->ambient.isInFluid() && link->mass.mass > 0)
         drawFluid(link->ambient, link->now, drawing_, *drawer);

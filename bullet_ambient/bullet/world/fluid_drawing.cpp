@@ -10,8 +10,8 @@
 #include "bullet_ambient/force/surface/hydrostatics.h"
 #include "bullet_ambient/immersed/ambient_body.h"
 #include "bullet_ambient/immersed/floating_state.h"
-#include "bullet_ambient/immersed/fluid_reading.h"
 #include "bullet_ambient/immersed/wet_state.h"
+#include "bullet_ambient/immersed/wrench_sensor.h"
 
 AMBIENT_BEGIN
 namespace {
@@ -81,9 +81,9 @@ void drawFaces(const AmbientBody& ambient, const Twist& relative, const FluidDra
     drawFaces(body->form.faces, tables.shape().get(), ambient, relative, what, arrows);
 }
 
-void drawReading(const FluidReading& reading, const Vector3& place, double length_per_force,
-                 btIDebugDraw& drawer) {
-  const FluidWrench& wrench = reading.wrench;
+void drawWrenches(const WrenchSensor& sensor, const Vector3& place, double length_per_force,
+                  btIDebugDraw& drawer) {
+  const FluidWrench& wrench = sensor.wrench;
   const btVector3 from = toBullet(place);
   const auto draw = [&](const Wrench& part, const btVector3& colour) {
     drawer.drawLine(from, toBullet(Vector3(place + length_per_force * part.force)), colour);
@@ -179,8 +179,8 @@ void drawFluid(const AmbientBody& ambient, const MotionView& now, const FluidDra
     arrows.draw(Vector3::Zero(), what.length_per_force * total.force, fluid_colours::kForce);
     arrows.draw(Vector3::Zero(), what.length_per_torque * total.torque, fluid_colours::kTorque);
   }
-  if (what.read_forces && ambient.reading)
-    drawReading(*ambient.reading, state.position, what.length_per_force, drawer);
+  if (what.read_forces && ambient.sensor)
+    drawWrenches(*ambient.sensor, state.position, what.length_per_force, drawer);
   if (what.centre_of_volume) {
     arrows.drawCross(centre, what.normal_length * model.reference_length / 2,
                      fluid_colours::kBuoyancy);

@@ -17,13 +17,13 @@
 #include "bullet_ambient/bullet/world/tree_now.h"
 #include "bullet_ambient/fluid.h"
 #include "bullet_ambient/immersed/floating_state.h"
-#include "bullet_ambient/immersed/fluid_reading.h"
+#include "bullet_ambient/immersed/wrench_sensor.h"
 
 AMBIENT_BEGIN
 namespace {
 
 // Returns the present pose of a body or link, and its motion; of a link that at the last
-// placeLinks().
+// computeLinkPoses().
 MotionView presentMotion(const AmbientBody& ambient, const AmbientBodies& bodies) {
   if (ambient.body) return motionOf(*ambient.body);
   AmbientLink& link = bodies.trees.linkOf(ambient);
@@ -32,7 +32,7 @@ MotionView presentMotion(const AmbientBody& ambient, const AmbientBodies& bodies
 }
 
 void replaceDef(AmbientBody& ambient, AttachDef def, AmbientBodies& bodies) {
-  const auto before = std::exchange(ambient.def, shareDef(std::move(def), bodies.load_tables));
+  const auto before = std::exchange(ambient.def, internDef(std::move(def), bodies.load_tables));
   const InverseMass mass =
       ambient.body ? inverseMassOf(*ambient.body) : bodies.trees.linkOf(ambient).mass;
   try {
@@ -65,7 +65,7 @@ bool changeMedium(AmbientBody& ambient, const Medium& medium, AmbientBodies& bod
   if (medium.velocity == before.velocity && medium.acceleration == before.acceleration)
     return false;
   ambient.def = std::make_shared<const AttachDef>(std::move(def));
-  if (ambient.place.region == RegionId::kNone) {
+  if (ambient.location.region == RegionId::kNone) {
     ambient.medium = medium;
     ambient.flow.change.setZero();
   }
@@ -150,101 +150,101 @@ Immersed::Access Immersed::lock() const noexcept {
 
 Immersed::Access Immersed::require(const char* function) const {
   Access access = lock();
-  if (access.member) return access;
+  if (access.ambient) return access;
   const bool is_closed = !access.bodies || access.bodies->is_closed;
   throw std::logic_error(std::string(function) +
                          (is_closed ? ": the Fluid of this Immersed was destroyed"
                                     : ": this Immersed was removed from its Fluid"));
 }
 
-bool Immersed::isValid() const noexcept { return lock().member; }
+bool Immersed::isValid() const noexcept { return lock().ambient; }
 
 void Immersed::setMedium(const Medium& medium) const {
   const Access access = require("setMedium");
   access.bodies->requireChangeable("setMedium");
-  if (changeMedium(*access.member, medium, *access.bodies)) wake(*access.member);
+  if (changeMedium(*access.ambient, medium, *access.bodies)) wake(*access.ambient);
 }
 
 void Immersed::setFluidBody(std::shared_ptr<const FluidBody> fluid_body,
                             const std::optional<FrameOffset>& fluid_frame) const {
   const Access access = require("setFluidBody");
   access.bodies->requireChangeable("setFluidBody");
-  changeFluidBody(*access.member, std::move(fluid_body), fluid_frame, *access.bodies);
-  wake(*access.member);
+  changeFluidBody(*access.ambient, std::move(fluid_body), fluid_frame, *access.bodies);
+  wake(*access.ambient);
 }
 
 void Immersed::setFactors(double added_mass, double loads) const {
   const Access access = require("setFactors");
   access.bodies->requireChangeable("setFactors");
-  AttachDef def = *access.member->def;
+  AttachDef def = *access.ambient->def;
   if (added_mass == def.added_mass_factor && loads == def.load_factor) return;
   def.added_mass_factor = added_mass;
   def.load_factor = loads;
   checkDef("setFactors: " + nameOf(def), def);
-  replaceDef(*access.member, std::move(def), *access.bodies);
-  wake(*access.member);
+  replaceDef(*access.ambient, std::move(def), *access.bodies);
+  wake(*access.ambient);
 }
 
 Medium Immersed::medium() const {
   const Access access = require("medium");
-  Medium medium = access.member->medium;
-  medium.velocity += access.member->flow.change;
+  Medium medium = access.ambient->medium;
+  medium.velocity += access.ambient->flow.change;
   return medium;
 }
 
 std::shared_ptr<const FluidBody> Immersed::fluidBody() const {
-  return require("fluidBody").member->def->fluid_body;
+  return require("fluidBody").ambient->def->fluid_body;
 }
 
-RegionId Immersed::region() const { return require("region").member->place.region; }
+RegionId Immersed::region() const { return require("region").ambient->location.region; }
 
 Matrix6 Immersed::inertia() const {
   const Access access = require("inertia");
-  return modelNow(*access.member, presentMotion(*access.member, *access.bodies)).inertia;
+  return modelNow(*access.ambient, presentMotion(*access.ambient, *access.bodies)).inertia;
 }
 
 double Immersed::kineticEnergy() const {
   const Access access = require("kineticEnergy");
-  if (!access.member->body) placeLinksNow(access.bodies->trees.treeOf(*access.member));
-  return kineticEnergyNow(*access.member, presentMotion(*access.member, *access.bodies));
+  if (!access.ambient->body) computeLinkPosesNow(access.bodies->trees.treeOf(*access.ambient));
+  return kineticEnergyNow(*access.ambient, presentMotion(*access.ambient, *access.bodies));
 }
 
-AmbientCounters Immersed::counters() const { return require("counters").member->counters; }
+AmbientCounters Immersed::counters() const { return require("counters").ambient->counters; }
 
 void Immersed::readWrench(bool is_read) const {
   const Access access = require("readWrench");
   access.bodies->requireChangeable("readWrench");
-  AmbientBody& ambient = *access.member;
-  if (is_read == (ambient.reading != nullptr)) return;
-  ambient.reading = is_read ? std::make_shared<FluidReading>() : nullptr;
+  AmbientBody& ambient = *access.ambient;
+  if (is_read == (ambient.sensor != nullptr)) return;
+  ambient.sensor = is_read ? std::make_shared<WrenchSensor>() : nullptr;
   if (!is_read) return;
-  if (!access.member->body) placeLinksNow(access.bodies->trees.treeOf(*access.member));
-  ambient.reading->wrench = wrenchNow(ambient, presentMotion(*access.member, *access.bodies));
+  if (!access.ambient->body) computeLinkPosesNow(access.bodies->trees.treeOf(*access.ambient));
+  ambient.sensor->wrench = wrenchNow(ambient, presentMotion(*access.ambient, *access.bodies));
 }
 
 FluidWrench Immersed::wrench() const {
   const Access access = require("wrench");
-  const AmbientBody& ambient = *access.member;
-  if (!ambient.reading)
+  const AmbientBody& ambient = *access.ambient;
+  if (!ambient.sensor)
     throw std::logic_error("wrench: it is not read; call readWrench(true) before a step");
-  return ambient.isInFluid() ? ambient.reading->wrench : FluidWrench{};
+  return ambient.isInFluid() ? ambient.sensor->wrench : FluidWrench{};
 }
 
 WetState Immersed::wet() const {
   const Access access = require("wet");
-  return wetStateOf(*access.member, presentMotion(*access.member, *access.bodies),
+  return wetStateOf(*access.ambient, presentMotion(*access.ambient, *access.bodies),
                     access.bodies->regions);
 }
 
 std::vector<HoldWater> Immersed::holds() const {
   const Access access = require("holds");
-  return holdsOf(*access.member, presentMotion(*access.member, *access.bodies));
+  return holdsOf(*access.ambient, presentMotion(*access.ambient, *access.bodies));
 }
 
 void Immersed::setWater(int hold, double volume) const {
   const Access access = require("setWater");
   access.bodies->requireChangeable("setWater");
-  AmbientBody& ambient = *access.member;
+  AmbientBody& ambient = *access.ambient;
   HoldState& state = holdOf("setWater", ambient, hold);
   checkWater("setWater: " + nameOf(*ambient.def), hold, volume,
              ambient.vessel->shape->holds[static_cast<std::size_t>(hold)].volume);
@@ -253,24 +253,24 @@ void Immersed::setWater(int hold, double volume) const {
   ambient.vessel->sloshing.now[static_cast<std::size_t>(hold)] = {};
   ambient.vessel->is_known = true;
   if (ambient.floating) ambient.floating->is_valid = false;
-  wake(*access.member);
+  wake(*access.ambient);
 }
 
 void Immersed::pump(int hold, double rate) const {
   const Access access = require("pump");
   access.bodies->requireChangeable("pump");
-  HoldState& state = holdOf("pump", *access.member, hold);
+  HoldState& state = holdOf("pump", *access.ambient, hold);
   if (!std::isfinite(rate))
     throw std::invalid_argument("pump: the rate [m^3/s] is " + std::to_string(rate) +
                                 ", must be finite");
   state.pump = rate;
-  wake(*access.member);
+  wake(*access.ambient);
 }
 
 void Immersed::setOpening(int hold, int opening, bool is_open) const {
   const Access access = require("setOpening");
   access.bodies->requireChangeable("setOpening");
-  const AmbientBody& ambient = *access.member;
+  const AmbientBody& ambient = *access.ambient;
   holdOf("setOpening", ambient, hold);
   const int found = findOpening(*ambient.vessel, hold, opening);
   if (found < 0)
@@ -278,13 +278,13 @@ void Immersed::setOpening(int hold, int opening, bool is_open) const {
                                 nameOf(*ambient.def) + " has no opening with the number " +
                                 std::to_string(opening));
   ambient.vessel->changes.is_shut[static_cast<std::size_t>(found)] = !is_open;
-  wake(*access.member);
+  wake(*access.ambient);
 }
 
 int Immersed::addOpening(int hold, const Vector3& place, const Vector3& normal, double area) const {
   const Access access = require("addOpening");
   access.bodies->requireChangeable("addOpening");
-  const AmbientBody& ambient = *access.member;
+  const AmbientBody& ambient = *access.ambient;
   holdOf("addOpening", ambient, hold);
   checkHole(*ambient.def, place, normal, area);
   VesselState& vessel = *ambient.vessel;
@@ -294,7 +294,7 @@ int Immersed::addOpening(int hold, const Vector3& place, const Vector3& normal, 
   hole.normal = normal.normalized();
   hole.area = area;
   addHole(hole, vessel);
-  wake(*access.member);
+  wake(*access.ambient);
   const auto& holes = vessel.changes.holes;
   const auto added = std::count_if(holes.begin(), holes.end(),
                                    [&](const AddedHole& other) { return other.hold == hold; });
@@ -305,22 +305,22 @@ int Immersed::addOpening(int hold, const Vector3& place, const Vector3& normal, 
 void Immersed::applyImpulse(const Wrench& impulse) const {
   const Access access = require("applyImpulse");
   const AmbientTrees& trees = access.bodies->trees;
-  if (access.member->body) {
-    applyImpulseToBody(*access.member, impulse);
+  if (access.ambient->body) {
+    applyImpulseToBody(*access.ambient, impulse);
   } else {
-    applyImpulseToLink(trees, trees.treeOf(*access.member), trees.linkOf(*access.member).link,
+    applyImpulseToLink(trees, trees.treeOf(*access.ambient), trees.linkOf(*access.ambient).link,
                        impulse);
   }
-  wake(*access.member);
+  wake(*access.ambient);
 }
 
 bool Immersed::remove() const {
   const Access access = lock();
-  if (!access.member) return false;
+  if (!access.ambient) return false;
   access.bodies->requireChangeable("remove");
-  if (access.member->body) return access.bodies->erase(*access.member->body);
+  if (access.ambient->body) return access.bodies->erase(*access.ambient->body);
   AmbientTrees& trees = access.bodies->trees;
-  return trees.erase(*access.member->multi_body, trees.linkOf(*access.member).link);
+  return trees.erase(*access.ambient->multi_body, trees.linkOf(*access.ambient).link);
 }
 
 AMBIENT_END

@@ -60,7 +60,7 @@ void TreeNow::immerse(AmbientLink& ambient, const btMultiBody& body, const Vecto
   link.surroundings.gravity = gravity;
   link.surroundings.ambient_velocity = ambient.ambient.medium.velocity;
   link.surroundings.ambient_acceleration = ambient.ambient.medium.acceleration;
-  link.surroundings.load_share = ambient.ambient.load_share;
+  link.surroundings.load_scale = ambient.ambient.load_scale;
   addFlowAlong(ambient.ambient, ambient.now.state.orientation, link.surroundings);
 }
 
@@ -124,7 +124,7 @@ btMatrix3x3 dryInverseMass(const btRigidBody& body, const btVector3& r) {
 
 btMatrix3x3 inverseEffectiveMass(const Fluid& fluid, const btRigidBody& body,
                                  const btVector3& relative_position) {
-  AmbientBody* ambient = membersOf(fluid).find(&body);
+  AmbientBody* ambient = ambientBodiesOf(fluid).find(&body);
   if (!ambient || !ambient->isInFluid() || body.isStaticOrKinematicObject())
     return dryInverseMass(body, relative_position);
   const Matrix6 response = inverseInertia(*ambient);
@@ -137,12 +137,12 @@ btMatrix3x3 inverseEffectiveMass(const Fluid& fluid, const btRigidBody& body,
 }
 
 Eigen::MatrixXd ambientMassMatrix(const Fluid& fluid, const btMultiBody& multi_body) {
-  return TreeNow(membersOf(fluid).trees, multi_body).dynamics().massMatrix();
+  return TreeNow(ambientBodiesOf(fluid).trees, multi_body).dynamics().massMatrix();
 }
 
 Eigen::VectorXd ambientInverseDynamics(const Fluid& fluid, const btMultiBody& multi_body,
                                        const Eigen::VectorXd& acceleration) {
-  TreeNow now(membersOf(fluid).trees, multi_body);
+  TreeNow now(ambientBodiesOf(fluid).trees, multi_body);
   if (acceleration.size() != now.velocity.size()) {
     throw std::invalid_argument("ambientInverseDynamics: the acceleration has " +
                                 std::to_string(acceleration.size()) +
@@ -156,7 +156,7 @@ Eigen::VectorXd ambientInverseDynamics(const Fluid& fluid, const btMultiBody& mu
 }
 
 double kineticEnergy(const Fluid& fluid, const btMultiBody& multi_body) {
-  const TreeNow now(membersOf(fluid).trees, multi_body);
+  const TreeNow now(ambientBodiesOf(fluid).trees, multi_body);
   return now.dynamics().kineticEnergy(now.velocity);
 }
 

@@ -266,7 +266,7 @@ AttachReport WorldAttachment::attachNew(btCollisionWorld& world) {
   multibody_world_ = nullptr;
   report.fluid_bodies = static_cast<int>(tally.shapes.size());
   if (tally.lightest) {
-    warnOfLightBody(bodies_.complaints, *tally.lightest, tally.mass, tally.light_count);
+    warnOfLightBody(bodies_.warnings, *tally.lightest, tally.mass, tally.light_count);
   }
   return report;
 }
@@ -286,7 +286,7 @@ void WorldAttachment::update(btCollisionWorld& world) noexcept {
   try {
     if (hasMetAll(world)) return;
     for (const AttachReport::Refusal& refusal : attachNew(world).refused)
-      bodies_.complaints.tell("bullet_ambient: " + refusal.reason);
+      bodies_.warnings.report("bullet_ambient: " + refusal.reason);
   } catch (...) {
     // Out of memory, which must not unwind through Bullet's step: the next one tries again.
   }

@@ -96,7 +96,7 @@ ViscousForm unpack(const file::ViscousForm& packed, const std::string& source) {
 constexpr std::size_t kSymmetricNumbers = 21;  // entries of the upper triangle of 6x6
 
 template <typename Next>
-Matrix6 takeSymmetric(const Next& next) {
+Matrix6 readSymmetric(const Next& next) {
   Matrix6 matrix;
   for (int row = 0; row < 6; ++row)
     for (int column = row; column < 6; ++column) matrix(row, column) = matrix(column, row) = next();
@@ -115,7 +115,7 @@ std::vector<AddedMassPart> unpackParts(const flatbuffers::Vector<float>& packed,
   for (AddedMassPart& part : parts) {
     for (double& value : part.centre) value = next();
     for (double& value : part.spread) value = next();
-    part.inertia = takeSymmetric(next);
+    part.inertia = readSymmetric(next);
   }
   return parts;
 }
@@ -130,7 +130,7 @@ WaterlineTable unpack(const file::WaterlineTable& packed, const std::string& sou
   std::size_t at = 0;
   const auto next = [&] { return static_cast<double>(elementOf(numbers, at++)); };
   table.corrections.resize(numbers.size() / kSymmetricNumbers);
-  for (Matrix6& correction : table.corrections) correction = takeSymmetric(next);
+  for (Matrix6& correction : table.corrections) correction = readSymmetric(next);
   return table;
 }
 

@@ -18,11 +18,11 @@ class Lattice {
   explicit Lattice(const Surface& surface) : surface_(surface) {
     double size = 0;
     for (const double x : surface.vertices) size = std::max(size, std::abs(x));
-    const double per_step = size > 0 ? 1 / (kHullRounding * size) : 0;
+    const double inverse_step = size > 0 ? 1 / (kHullRounding * size) : 0;
     for (std::size_t i = 0; i + 2 < surface.vertices.size(); i += 3) {
       const double* x = &surface.vertices[i];
-      places_.push_back({std::llround(x[0] * per_step), std::llround(x[1] * per_step),
-                         std::llround(x[2] * per_step)});
+      places_.push_back({std::llround(x[0] * inverse_step), std::llround(x[1] * inverse_step),
+                         std::llround(x[2] * inverse_step)});
       sorted_.emplace_back(places_.back(), static_cast<std::int32_t>(i / 3));
     }
     std::sort(sorted_.begin(), sorted_.end());

@@ -51,15 +51,15 @@ PackedFaces::PackedFaces(const FaceTable& faces, const FormShape* shape)
   AMBIENT_ASSERT(length_unit_ > 0 && area_unit_ > 0);
   const Order order = orderOf(faces, length_unit_);
   const std::size_t count = (size() + FaceBlock::kFaces - 1) / FaceBlock::kFaces;
-  const std::size_t groups = (count + FacePlaces::kBlocks - 1) / FacePlaces::kBlocks;
+  const std::size_t groups = (count + FaceBoxes::kBlocks - 1) / FaceBoxes::kBlocks;
   const bool are_chosen = count >= FaceBlocks::kFewestChosen;
   blocks_.reserve(count);
   for (std::size_t block = 0; block < count; ++block)
     blocks_.push_back(packBlock(faces, order, block));
-  places_.resize(groups);  // all zero
+  boxes_.resize(groups);  // all zero
   if (are_chosen) bounds_.resize(groups);
   for (std::size_t block = 0; block < count; ++block) {
-    setPlace(block);
+    setBox(block);
     if (are_chosen) setBounds(block);
   }
   if (shape) packForm(faces, order, *shape);
@@ -126,23 +126,23 @@ void PackedFaces::setBounds(std::size_t block) {
   }
 }
 
-void PackedFaces::setPlace(std::size_t block) {
+void PackedFaces::setBox(std::size_t block) {
   // Rounding of a depth in single precision, and the addition to the disc in eq. (59).
   constexpr float kRounding = 4e-6f;
   constexpr double kWider = 1 + 1e-4;
   const FaceBlock& of = blocks_[block];
   const auto size = static_cast<std::ptrdiff_t>(sizeOf(block));
-  FacePlaces& places = places_[block / FacePlaces::kBlocks];
-  const std::size_t lane = block % FacePlaces::kBlocks;
+  FaceBoxes& boxes = boxes_[block / FaceBoxes::kBlocks];
+  const std::size_t lane = block % FaceBoxes::kBlocks;
   for (int axis = 0; axis < 3; ++axis) {
     const float* values = of.centroid[axis];
     const auto [low, high] = std::minmax_element(values, values + size);
-    places.centre[axis][lane] = 0.5f * (*low + *high);
-    places.half[axis][lane] = 0.5f * (*high - *low) + kRounding;
+    boxes.centre[axis][lane] = 0.5f * (*low + *high);
+    boxes.half[axis][lane] = 0.5f * (*high - *low) + kRounding;
   }
   const double largest = static_cast<double>(*std::max_element(of.area, of.area + size));
   const double radius = kWider * std::sqrt(largest * area_unit_ / kPi) / length_unit_;
-  places.radius[lane] = static_cast<float>(radius) + kRounding;
+  boxes.radius[lane] = static_cast<float>(radius) + kRounding;
 }
 
 namespace {

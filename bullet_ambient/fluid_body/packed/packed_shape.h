@@ -29,8 +29,8 @@ class PackedFaces {
 
   FaceBlocks blocks() const {
     const auto orNull = [](const auto& all) { return all.empty() ? nullptr : all.data(); };
-    return {blocks_.data(),     places_.data(), blocks_.size(), orNull(bounds_),
-            orNull(sharpness_), orNull(arms_),  orNull(lee_)};
+    return {blocks_.data(),     boxes_.data(), blocks_.size(), orNull(bounds_),
+            orNull(sharpness_), orNull(arms_), orNull(lee_)};
   }
   std::size_t size() const { return size_; }
   double lengthUnit() const { return length_unit_; }  ///< [m]
@@ -43,13 +43,13 @@ class PackedFaces {
   FaceBlock packBlock(const FaceTable& faces, const Order& order, std::size_t block) const;
   std::size_t sizeOf(std::size_t block) const;
   void setBounds(std::size_t block);
-  void setPlace(std::size_t block);
+  void setBox(std::size_t block);
   void packForm(const FaceTable& faces, const Order& order, const FormShape& shape);
   void addLee(const FaceTable& faces, std::size_t face, double by_lee);
 
   std::size_t size_;
   std::vector<FaceBlock> blocks_;
-  std::vector<FacePlaces> places_;
+  std::vector<FaceBoxes> boxes_;
   std::vector<FaceBounds> bounds_;
   std::vector<FaceColumn> sharpness_, arms_;
   std::vector<double> lee_;  ///< 6 x 21, column by column

@@ -110,8 +110,8 @@ struct HullRows {
     // lp = u.z / (u.z - p.z) and lq = u.z / (u.z - q.z): places of the cut on the edges from u. One
     // division serves both.
     const Doubles to_p = u.z - p.z, to_q = u.z - q.z, product = to_p * to_q;
-    const Doubles per = is_cut ? u.z / (product > zero ? product : one) : zero;
-    const Doubles lp = per * to_q, lq = per * to_p;
+    const Doubles ratio = is_cut ? u.z / (product > zero ? product : one) : zero;
+    const Doubles lp = ratio * to_q, lq = ratio * to_p;
     const Doubles px = u.x + lp * (p.x - u.x), py = u.y + lp * (p.y - u.y);
     const Doubles qx = u.x + lq * (q.x - u.x), qy = u.y + lq * (q.y - u.y);
     const Doubles by_depth = (lp * lq) * flux * u.z;

@@ -25,30 +25,30 @@ inline Doubles depthOf(const PartBlock& block, int lane, const PartPlane& plane)
 /// those of the part.
 struct Depths {
   Doubles above, middle, below;
-  Doubles way;       // difference in depth between the outer points and the middle one
-  Doubles slope[3];  // derivative of way^2 / 2 with respect to s
+  Doubles offset;    // difference in depth between the outer points and the middle one
+  Doubles slope[3];  // derivative of offset^2 / 2 with respect to s
 
   Depths(const PartBlock& block, int lane, const PartPlane& plane) {
     const double(&s)[3] = plane.normal;
     const auto spread = [&](int k) { return loadDoubles(block.spread[k] + lane); };
     middle = depthOf(block, lane, plane);
-    // way^2 = kNode s.C s: Gauss points lie at sqrt(3/5) of the half width sqrt(3 s.C s).
+    // offset^2 = kNode s.C s: Gauss points lie at sqrt(3/5) of the half width sqrt(3 s.C s).
     constexpr double kNode = 9.0 / 5;
     slope[0] = kNode * (s[0] * spread(0) + s[1] * spread(3) + s[2] * spread(4));
     slope[1] = kNode * (s[0] * spread(3) + s[1] * spread(1) + s[2] * spread(5));
     slope[2] = kNode * (s[0] * spread(4) + s[1] * spread(5) + s[2] * spread(2));
     const Doubles square = s[0] * slope[0] + s[1] * slope[1] + s[2] * slope[2];
     const Doubles zero = {};
-    way = squareRoot(square > zero ? square : zero);
-    above = middle - way;
-    below = middle + way;
+    offset = squareRoot(square > zero ? square : zero);
+    above = middle - offset;
+    below = middle + offset;
   }
 };
 
 /// Weights zeta / (zeta + reach) of the three points of a part; 0 above the surface. One division
 /// serves all three.
 struct Weights {
-  Doubles depth[3], sum[3], per;
+  Doubles depth[3], sum[3], inverse_product;
 
   Weights(const Depths& depths, double reach) {
     constexpr double kLeast = 1e-100;  // avoids 0 / 0
@@ -58,18 +58,20 @@ struct Weights {
       depth[i] = *points[i] > zero ? *points[i] : zero;
       sum[i] = depth[i] + (reach + kLeast);
     }
-    per = 1.0 / (sum[0] * sum[1] * sum[2]);
+    inverse_product = 1.0 / (sum[0] * sum[1] * sum[2]);
   }
   /// Returns 1 / sum[i].
-  Doubles perSum(int i) const { return per * (sum[(i + 1) % 3] * sum[(i + 2) % 3]); }
+  Doubles inverseSum(int i) const {
+    return inverse_product * (sum[(i + 1) % 3] * sum[(i + 2) % 3]);
+  }
   /// Returns the mean weight of the part, by the Gauss weights 5/18, 8/18, 5/18.
   Doubles share() const {
-    const Doubles outer = 5 * (depth[0] * perSum(0)) + 5 * (depth[2] * perSum(2));
-    return (1.0 / 18) * (outer + 8 * (depth[1] * perSum(1)));
+    const Doubles outer = 5 * (depth[0] * inverseSum(0)) + 5 * (depth[2] * inverseSum(2));
+    return (1.0 / 18) * (outer + 8 * (depth[1] * inverseSum(1)));
   }
   /// Returns the derivative of the weight of point i with respect to its depth.
   Doubles slope(int i, double reach) const {
-    const Doubles zero = {}, p = perSum(i);
+    const Doubles zero = {}, p = inverseSum(i);
     return depth[i] > zero ? reach * (p * p) : zero;
   }
 };
@@ -203,7 +205,7 @@ struct WetSlope {
     const Weights weights(depths, reach);
     const Doubles above = 5 * weights.slope(0, reach), below = 5 * weights.slope(2, reach);
     by_height[image] = above + 8 * weights.slope(1, reach) + below;
-    by_spread[image] = depths.way > zero ? (below - above) / depths.way : zero;
+    by_spread[image] = depths.offset > zero ? (below - above) / depths.offset : zero;
     for (int axis = 0; axis < 3; ++axis) spread[image][axis] = depths.slope[axis];
   }
   void scale(int image, const Doubles& factor) {

@@ -15,7 +15,7 @@ namespace {
 constexpr int kRun = 16;      ///< number of blocks summed in single precision
 constexpr int kChoice = 256;  ///< number of blocks per pass of chooseBlocks()
 static_assert(FaceBlock::kFaces == kLanes, "a block has one face per lane");
-static_assert(FacePlaces::kBlocks == kLanes, "bounds are those of one block per lane");
+static_assert(FaceBoxes::kBlocks == kLanes, "bounds are those of one block per lane");
 static_assert(kRun == kLanes, "a run has its own bounds");
 
 /// Returns `strength` if the flow is attached, n.u > cos(alpha) |u|, else 0. Test without a root,
@@ -91,13 +91,13 @@ struct Sides {
   std::int32_t of[kChoice];
 
   /// Finds them for `size` blocks. @pre size is at most kChoice
-  Sides(const FacePlaces* places, int size, const SingleCut& cut) {
+  Sides(const FaceBoxes* boxes, int size, const SingleCut& cut) {
     const Cuts cuts(&cut);
     const Vectors& s = cuts.normal;
     const Vectors slope = {magnitude(s.x), magnitude(s.y), magnitude(s.z)};
     for (int first = 0; first < size; first += kLanes)
       for (int lane = 0; lane < kLanes; lane += kFloatWidth) {
-        const FacePlaces& at = places[first / kLanes];
+        const FaceBoxes& at = boxes[first / kLanes];
         const Floats depth = cuts.height - dot(s, load(at.centre, lane));
         const Floats reach = dot(slope, load(at.half, lane)) + load(at.radius + lane);
         const Ints dry = depth<-reach, wet = depth> reach, side = dry - wet;
@@ -296,9 +296,9 @@ void sumRuns(const FaceBlocks& faces, const Chosen& chosen, const SingleMotion& 
 
 /// Returns the sides of blocks if the water cuts the body.
 template <bool kCut>
-inline auto sidesOf(const FacePlaces* places, int size, const SingleMotion& motion) {
+inline auto sidesOf(const FaceBoxes* boxes, int size, const SingleMotion& motion) {
   if constexpr (kCut)
-    return Sides(places, size, *motion.cut);
+    return Sides(boxes, size, *motion.cut);
   else
     return WhollyWet{};
 }
@@ -320,7 +320,7 @@ LoadSums sumWhereAttached(const FaceBlocks& faces, const SingleMotion& motion) {
   for (std::size_t begin = 0; begin < faces.count; begin += kChoice) {
     const int size = atMost(faces.count - begin, kChoice);
     const FaceBlocks blocks = faces.from(begin);
-    const auto sides = sidesOf<kCut>(faces.places + begin / kLanes, size, motion);
+    const auto sides = sidesOf<kCut>(faces.boxes + begin / kLanes, size, motion);
     chooseBlocks<kRest, Law::kLifts>(faces.bounds + begin / kLanes, size, motion, choice);
     sumRuns<Run, kFriction, kCut>(blocks, {choice.attached, choice.count, sides.of}, motion, total);
     if (kRest)
@@ -343,7 +343,7 @@ LoadSums sumAll(const FaceBlocks& faces, const SingleMotion& motion) {
   WrenchTotal<Law::kLifts> total;
   for (std::size_t begin = 0; begin < faces.count; begin += kRun) {
     const int size = atMost(faces.count - begin, kRun);
-    const auto sides = sidesOf<kCut>(faces.places + begin / kLanes, size, motion);
+    const auto sides = sidesOf<kCut>(faces.boxes + begin / kLanes, size, motion);
     sumChosen<Law, kRightAngle, kFriction, kCut>(faces.from(begin), {kAll, size, sides.of}, motion,
                                                  total);
   }

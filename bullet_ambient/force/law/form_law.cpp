@@ -149,10 +149,10 @@ void FormLift::setWing(const ShapeFactors& factors, double length) {
 }
 
 Wrench FormLift::load(const Vector3& w, const Vector3& v, double density,
-                      double munk_share) const noexcept {
+                      double munk_factor) const noexcept {
   AMBIENT_ASSERT(density >= 0);
   Wrench about_centre{Vector3::Zero(), (circulation_ * w).cross(v)};
-  addStall(w, v, munk_share, about_centre);
+  addStall(w, v, munk_factor, about_centre);
   return density * about_centre;
 }
 
@@ -165,7 +165,7 @@ double FormLift::separatedShare(double phi, double turning) const noexcept {
   return wing_ * of_wings + (1 - wing_) * of_blocks;
 }
 
-void FormLift::addStall(const Vector3& w, const Vector3& v, double munk_share,
+void FormLift::addStall(const Vector3& w, const Vector3& v, double munk_factor,
                         Wrench& about_centre) const noexcept {
   const double speed = v.norm();
   if (!(largest_ > 0) || !(speed > 0)) return;
@@ -173,7 +173,7 @@ void FormLift::addStall(const Vector3& w, const Vector3& v, double munk_share,
   const Vector3 across = direction_ * e;
   const Vector3 munk = across.cross(e);
   const double turning = delay_ * (w.dot(munk) / speed);
-  const double lost = munk_share * separatedShare(e.dot(across), turning) * largest_ * speed;
+  const double lost = munk_factor * separatedShare(e.dot(across), turning) * largest_ * speed;
   about_centre.torque -= lost * speed * munk;
   about_centre.force -= lost * across.cross(w);
 }

@@ -146,8 +146,8 @@ double Wash::shareOf(const Vector3& centre, const Vector3& half) const noexcept 
 Wash washOf(double induced, double advance, double radius, double distance) noexcept {
   const double own = std::abs(induced), along = induced < 0 ? -advance : advance;
   if (!(distance > 0 && own > 0 && along + own > 0)) return {};
-  const double way = distance / std::sqrt(distance * distance + radius * radius);
-  const double velocity = own * (1 + way);
+  const double cosine = distance / std::sqrt(distance * distance + radius * radius);
+  const double velocity = own * (1 + cosine);
   return {velocity, radius * std::sqrt((along + own) / (along + velocity))};
 }
 
@@ -216,12 +216,12 @@ Propeller::Specific Propeller::inTable(double advance) const noexcept {
   return {a.thrust + share * (b.thrust - a.thrust), a.torque + share * (b.torque - a.torque)};
 }
 
-// Turns ahead or none, eq. (165). `turned`: n D [m/s]; `share`: factor on the diagram.
-Propeller::Specific Propeller::ahead(double turned, double advance, double share) const noexcept {
+// Turns ahead or none, eq. (165). `turned`: n D [m/s]; `factor`: on the diagram.
+Propeller::Specific Propeller::ahead(double turned, double advance, double factor) const noexcept {
   const double last = points_.back().advance;
   if (advance >= 0 && advance < last * turned) {
     const Specific k = inTable(advance / turned);
-    const double scale = share * turned * turned;
+    const double scale = factor * turned * turned;
     return {scale * k.thrust, scale * k.torque};
   }
   const double end = advance < 0 ? 0 : last, sign = advance < 0 ? -1 : 1;
@@ -230,7 +230,7 @@ Propeller::Specific Propeller::ahead(double turned, double advance, double share
   const double stopped = (angle - from) / (kPi / 2 - from);
   const double blade_sq = kBladeSpeed * turned * kBladeSpeed * turned;
   const Specific k = inTable(end);
-  const double of_table = (1 - stopped) * share / (end * end + kBladeSpeed * kBladeSpeed);
+  const double of_table = (1 - stopped) * factor / (end * end + kBladeSpeed * kBladeSpeed);
   const double of_stopped = sign * stopped, speed_sq = advance * advance + blade_sq;
   return {speed_sq * (of_table * k.thrust + of_stopped * stopped_.thrust),
           speed_sq * (of_table * k.torque + of_stopped * stopped_.torque)};

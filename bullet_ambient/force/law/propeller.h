@@ -14,8 +14,8 @@ struct PropellerLoad {
   double induced = 0;  ///< v_i: of the fluid through the disc, against the axis [m/s]
 
   /// The load of a part of the disc: v_i stays.
-  friend PropellerLoad operator*(double share, const PropellerLoad& load) {
-    return {share * load.thrust, share * load.torque, share * load.power, load.induced};
+  friend PropellerLoad operator*(double factor, const PropellerLoad& load) {
+    return {factor * load.thrust, factor * load.torque, factor * load.power, load.induced};
   }
 };
 
@@ -80,7 +80,7 @@ class Propeller {
             double pitch_ratio);
   double area() const noexcept;
   PropellerLoad discLoad(double rest_thrust, double advance, double density) const noexcept;
-  Specific ahead(double turned, double advance, double share) const noexcept;
+  Specific ahead(double turned, double advance, double factor) const noexcept;
   Specific inTable(double advance) const noexcept;
 
   double diameter_;

@@ -133,9 +133,9 @@ double ownDrag(const FaceTable& faces, const ShapeFactors& shape, const Vector3&
                double frontal_area) {
   const LoadSettings settings{1, 0, 0, false, PressureLaw::kForm, &shape};
   double force = 0;
-  for (const double way : {1.0, -1.0}) {
-    const Twist x{Vector3::Zero(), way * direction};
-    force -= way * computeFaceLoads(faces, 1, x, settings).pressure.force.dot(direction);
+  for (const double sign : {1.0, -1.0}) {
+    const Twist x{Vector3::Zero(), sign * direction};
+    force -= sign * computeFaceLoads(faces, 1, x, settings).pressure.force.dot(direction);
   }
   return frontal_area > 0 ? force / frontal_area : 0;
 }

@@ -286,10 +286,10 @@ bool isOtherWhereCut(const FluidBody& body, const LoadSettings& settings) {
 }
 
 std::shared_ptr<const SurfaceLoads> lawOf(const Body& body, const LoadSettings& settings,
-                                          const FlowSettings& flow, LoadPlace place) {
+                                          const FlowSettings& flow, FluidExtent extent) {
   checkFaces(*body);
   if (!(settings.density > 0)) return nullptr;
-  const bool is_cut = place == LoadPlace::kWaterline;
+  const bool is_cut = extent == FluidExtent::kWaterline;
   if (flow.own_law && !is_cut) return flow.own_law(withFaces(body), settings);
   FlowSettings chosen = flow;
   if (is_cut) chosen.maximum_load_error = 0;
@@ -300,14 +300,14 @@ std::shared_ptr<const SurfaceLoads> lawOf(const Body& body, const LoadSettings& 
 }
 
 std::shared_ptr<const SurfaceLoads> makeLoads(const Body& body, const Medium& medium,
-                                              const FlowSettings& flow, LoadPlace place) {
+                                              const FlowSettings& flow, FluidExtent extent) {
   const LoadSettings settings = loadSettings(medium, flow);
   checkFlow(*body, flow);
-  if (!isOtherWhereCut(*body, settings)) place = LoadPlace::kUnbounded;
-  const auto make = [&] { return lawOf(body, settings, flow, place); };
+  if (!isOtherWhereCut(*body, settings)) extent = FluidExtent::kUnbounded;
+  const auto make = [&] { return lawOf(body, settings, flow, extent); };
   // Not for a medium without loads, nor for one that later checks reject.
   const bool is_shared = medium.density > 0 && medium.viscosity >= 0 && !flow.own_law;
-  auto loads = is_shared ? LoadTables(body).loads(medium, flow, place, make) : make();
+  auto loads = is_shared ? LoadTables(body).loads(medium, flow, extent, make) : make();
   if (!flow.foils || !(medium.density > 0)) return loads;
   return addFoils(std::move(loads), flow.foils, medium.density);
 }
@@ -353,14 +353,15 @@ LoadSettings loadSettings(const Medium& medium, const FlowSettings& flow) {
 std::shared_ptr<const SurfaceLoads> makeSurfaceLoads(const std::shared_ptr<const FluidBody>& body,
                                                      const Medium& medium,
                                                      const FlowSettings& flow) {
-  return makeLoads(body, medium, flow, LoadPlace::kUnbounded);
+  return makeLoads(body, medium, flow, FluidExtent::kUnbounded);
 }
 
 std::shared_ptr<const SurfaceLoads> makeWaterlineLoads(const std::shared_ptr<const FluidBody>& body,
                                                        const Medium& medium,
                                                        const FlowSettings& flow) {
   const bool has_places = (hasFaces(*body) || body->sphere_radius > 0) && !flow.own_law;
-  return makeLoads(body, medium, flow, has_places ? LoadPlace::kWaterline : LoadPlace::kUnbounded);
+  return makeLoads(body, medium, flow,
+                   has_places ? FluidExtent::kWaterline : FluidExtent::kUnbounded);
 }
 
 }  // namespace ambient

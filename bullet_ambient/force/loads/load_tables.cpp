@@ -12,11 +12,11 @@
 namespace ambient {
 namespace {
 
-using LoadKey = std::tuple<LoadPlace, double, double, double, double, bool, LoadPrecision, double,
+using LoadKey = std::tuple<FluidExtent, double, double, double, double, bool, LoadPrecision, double,
                            PressureLaw, double>;
 
-LoadKey keyOf(const Medium& medium, const FlowSettings& flow, LoadPlace place) {
-  return {place,          medium.density,          medium.viscosity,
+LoadKey keyOf(const Medium& medium, const FlowSettings& flow, FluidExtent extent) {
+  return {extent,         medium.density,          medium.viscosity,
           flow.roughness, flow.separation_angle,   flow.skin_friction,
           flow.precision, flow.maximum_load_error, flow.law,
           flow.stall_lag};
@@ -62,10 +62,10 @@ struct BodyTables {
 
 LoadTables::LoadTables(const Body& body) : body_(body), tables_(body->tables.get<BodyTables>()) {}
 
-LoadTables::Loads LoadTables::loads(const Medium& medium, const FlowSettings& flow, LoadPlace place,
-                                    const std::function<Loads()>& make) const {
+LoadTables::Loads LoadTables::loads(const Medium& medium, const FlowSettings& flow,
+                                    FluidExtent extent, const std::function<Loads()>& make) const {
   const Lock lock(tables_.mutex);
-  return tables_.loads.get(body_, keyOf(medium, flow, place), make);
+  return tables_.loads.get(body_, keyOf(medium, flow, extent), make);
 }
 
 LoadTables::Wetted LoadTables::wettedInertia(const std::function<Wetted()>& make) const {

@@ -62,7 +62,7 @@ class SurfaceLoads;
 class WettedInertia;
 
 /// Kind of loads: body in one fluid, or body that the surface of the water may cut.
-enum class LoadPlace { kUnbounded, kWaterline };
+enum class FluidExtent { kUnbounded, kWaterline };
 
 /// Tables of one fluid body, which all bodies of its shape in all worlds of the process share: each
 /// is made on first use and kept as long as the fluid body. May be used by several threads; only
@@ -80,7 +80,7 @@ class LoadTables {
 
   /// Returns the loads in a medium by these settings; calls make() if nobody uses such loads.
   /// @pre flow.own_law is empty
-  Loads loads(const Medium& medium, const FlowSettings& flow, LoadPlace place,
+  Loads loads(const Medium& medium, const FlowSettings& flow, FluidExtent extent,
               const std::function<Loads()>& make) const;
   /// Returns the added mass at the surface of the water; calls make() if nobody uses it.
   Wetted wettedInertia(const std::function<Wetted()>& make) const;

@@ -46,7 +46,7 @@ double WingHalf::wetShare(const WetPart& wet) const noexcept {
   return share * shareInPool(*plane.sides_F, station, plane.normal, radius_sq);
 }
 
-Wrench WingLift::load(const Twist& x, double density, const MunkShares& munk,
+Wrench WingLift::load(const Twist& x, double density, const MunkFactors& munk,
                       const WetPart* wet) const noexcept {
   const double wet_density = (wet ? wet->share : 1) * density;
   Wrench sum =

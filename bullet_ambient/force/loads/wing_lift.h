@@ -9,7 +9,7 @@
 namespace ambient {
 
 /// Factors of eq. (118) on what stall takes from Munk's moment.
-struct MunkShares {
+struct MunkFactors {
   double rest = 1, wings = 1;
 };
 
@@ -34,7 +34,7 @@ class WingLift {
 
   /// Wrench about F's origin for a twist relative to the flow; density [kg/m^3]. `wet`: of the part
   /// in the fluid; null: all of it is.
-  Wrench load(const Twist& x, double density, const MunkShares& munk,
+  Wrench load(const Twist& x, double density, const MunkFactors& munk,
               const WetPart* wet) const noexcept;
 
  private:

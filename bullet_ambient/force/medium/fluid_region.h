@@ -123,12 +123,12 @@ void checkRegion(const FluidRegion& region);
 enum class RegionId : int { kNone = -1 };
 
 /// Place of a body among the regions at the start of its last step.
-struct RegionPlace {
+struct RegionLocation {
   RegionId region = RegionId::kNone;
   bool is_above = false;       ///< true: the body is above the region's surface
   bool is_at_surface = false;  ///< true: the surface cuts the body or is near
 
-  friend bool operator==(const RegionPlace& a, const RegionPlace& b) {
+  friend bool operator==(const RegionLocation& a, const RegionLocation& b) {
     return a.region == b.region && a.is_above == b.is_above && a.is_at_surface == b.is_at_surface;
   }
 };

@@ -19,9 +19,9 @@ namespace {
   throw std::invalid_argument(sentence.str());
 }
 
-double between(const DensityLevel& low, const DensityLevel& high, double height) noexcept {
-  const double share = (height - low.height) / (high.height - low.height);
-  return low.density + share * (high.density - low.density);
+double interpolated(const DensityLevel& low, const DensityLevel& high, double height) noexcept {
+  const double part = (height - low.height) / (high.height - low.height);
+  return low.density + part * (high.density - low.density);
 }
 
 // Layer of the standard from a geopotential height on [m], with its temperature [K] and lapse rate
@@ -36,9 +36,9 @@ constexpr double kGasConstant = 8314.32 / 28.9644;  // R*/M_0 [J/(kg K)]
 constexpr double kGravity = 9.80665;                // [m/s^2]
 
 // Returns pressure at a height over that at the base of its layer [1].
-double pressureRatio(const AirLayer& base, double way) {
-  if (base.rate == 0) return portable::exp(-kGravity * way / (kGasConstant * base.temperature));
-  const double warmth = (base.temperature + base.rate * way) / base.temperature;
+double pressureRatio(const AirLayer& base, double rise) {
+  if (base.rate == 0) return portable::exp(-kGravity * rise / (kGasConstant * base.temperature));
+  const double warmth = (base.temperature + base.rate * rise) / base.temperature;
   return portable::pow(warmth, -kGravity / (kGasConstant * base.rate));
 }
 
@@ -66,7 +66,7 @@ double DensityLayers::density(double height) const noexcept {
                        [](const DensityLevel& level, double h) { return level.height < h; });
   if (above == levels_.begin()) return levels_.front().density;
   if (above == levels_.end()) return levels_.back().density;
-  return between(*(above - 1), *above, height);
+  return interpolated(*(above - 1), *above, height);
 }
 
 std::shared_ptr<const DensityLayers> layers(std::vector<DensityLevel> levels, const Vector3& up) {
@@ -82,9 +82,9 @@ Medium standardAtmosphere(double height) {
   double pressure = 101325;
   for (; base + 1 < std::end(kAir) && base[1].height < geopotential; ++base)
     pressure *= pressureRatio(*base, base[1].height - base->height);
-  const double way = geopotential - base->height;
-  pressure *= pressureRatio(*base, way);
-  const double temperature = base->temperature + base->rate * way;
+  const double rise = geopotential - base->height;
+  pressure *= pressureRatio(*base, rise);
+  const double temperature = base->temperature + base->rate * rise;
   Medium air;
   air.density = pressure / (kGasConstant * temperature);
   air.viscosity = 1.458e-6 * temperature * std::sqrt(temperature) / (temperature + 110.4);

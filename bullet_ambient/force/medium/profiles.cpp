@@ -92,11 +92,11 @@ FlowField discreteGust(const DiscreteGust& gust) {
   check.require(gust.hold >= 0, "hold [s]", gust.hold, "zero or positive");
   return [gust](const Vector3&, double time) {
     const double since = time - gust.start, until = 2 * gust.rise + gust.hold - since;
-    const double way = std::min(since, until);  // from the nearer end
-    if (!(way > 0)) return FlowSample{};
-    if (way >= gust.rise) return FlowSample{gust.velocity};
+    const double elapsed = std::min(since, until);  // from the nearer end
+    if (!(elapsed > 0)) return FlowSample{};
+    if (elapsed >= gust.rise) return FlowSample{gust.velocity};
     const double rate = kPi / gust.rise;
-    const auto [sine, cosine] = portable::sineAndCosine(rate * way);
+    const auto [sine, cosine] = portable::sineAndCosine(rate * elapsed);
     const double sign = since < until ? 1 : -1;
     return FlowSample{(1 - cosine) / 2 * gust.velocity, sign * rate * sine / 2 * gust.velocity};
   };

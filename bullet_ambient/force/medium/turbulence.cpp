@@ -144,9 +144,9 @@ class KarmanWaves {
   FlowSample sample(const Vector3& point_W, double time) const noexcept;
 
  private:
-  static constexpr int kCubes = 4, kWays = 4 * kCubes;
+  static constexpr int kCubes = 4, kDirections = 4 * kCubes;
 
-  struct Way {
+  struct Direction {
     Vector3 along{0, 0, 0};          // unit
     Vector3 e{0, 0, 0}, f{0, 0, 0};  // across it, unit; f = +- along x e
     double first = 0;                // wave number of its first wave [1/m]
@@ -157,8 +157,8 @@ class KarmanWaves {
   void turnCube(int cube, double first, std::uint64_t seed);
 
   Vector3 carried_;
-  std::array<Way, kWays> ways_;
-  std::array<std::array<Wave, kWays>, kShellsOfCube> waves_{};
+  std::array<Direction, kDirections> directions_;
+  std::array<std::array<Wave, kDirections>, kShellsOfCube> waves_{};
 };
 
 // Returns the share of the energy of von Karman's spectrum from x on, over a shell.
@@ -204,27 +204,27 @@ void KarmanWaves::turnCube(int cube, double first, std::uint64_t seed) {
   for (int i = 0; i < 4; ++i) {
     const Vector3 diagonal(1, i & 1 ? -1 : 1, i & 2 ? -1 : 1);
     const int index = 4 * cube + i;
-    Way& way = ways_[static_cast<std::size_t>(index)];
-    way.along = attitude * (diagonal / std::sqrt(3.0));
-    way.e = attitude * Vector3(0, 1, -diagonal.y() * diagonal.z()) / std::sqrt(2.0);
-    way.f = (turn[3] >> i & 1 ? 1 : -1) * way.along.cross(way.e);
-    way.first = first;
+    Direction& direction = directions_[static_cast<std::size_t>(index)];
+    direction.along = attitude * (diagonal / std::sqrt(3.0));
+    direction.e = attitude * Vector3(0, 1, -diagonal.y() * diagonal.z()) / std::sqrt(2.0);
+    direction.f = (turn[3] >> i & 1 ? 1 : -1) * direction.along.cross(direction.e);
+    direction.first = first;
   }
 }
 
 FlowSample KarmanWaves::sample(const Vector3& point_W, double time) const noexcept {
   const Vector3 place = point_W - time * carried_;
-  std::array<double, kWays> sine, cosine, number;
-  for (std::size_t i = 0; i < kWays; ++i) {
-    number[i] = ways_[i].first;
-    const auto at = portable::sineAndCosine(number[i] * ways_[i].along.dot(place));
+  std::array<double, kDirections> sine, cosine, number;
+  for (std::size_t i = 0; i < kDirections; ++i) {
+    number[i] = directions_[i].first;
+    const auto at = portable::sineAndCosine(number[i] * directions_[i].along.dot(place));
     sine[i] = at.sine;
     cosine[i] = at.cosine;
   }
   // Sums over the waves along each way: velocity along e and f, and its change over the number.
-  std::array<double, kWays> by_e{}, by_f{}, change_e{}, change_f{};
+  std::array<double, kDirections> by_e{}, by_f{}, change_e{}, change_f{};
   for (std::size_t shell = 0; shell < kShellsOfCube; ++shell) {
-    for (std::size_t i = 0; i < kWays; ++i) {
+    for (std::size_t i = 0; i < kDirections; ++i) {
       const Wave& wave = waves_[shell][i];
       const double c = wave.cosine * cosine[i] - wave.sine * sine[i];
       const double s = wave.cosine * sine[i] + wave.sine * cosine[i];
@@ -234,7 +234,7 @@ FlowSample KarmanWaves::sample(const Vector3& point_W, double time) const noexce
       change_f[i] += number[i] * c;
     }
     for (int octave = 0; octave < 3; ++octave)
-      for (std::size_t i = 0; i < kWays; ++i) {
+      for (std::size_t i = 0; i < kDirections; ++i) {
         const double doubled = 2 * sine[i] * cosine[i];
         cosine[i] = 1 - 2 * sine[i] * sine[i];
         sine[i] = doubled;
@@ -242,10 +242,11 @@ FlowSample KarmanWaves::sample(const Vector3& point_W, double time) const noexce
     for (double& k : number) k *= 8;
   }
   FlowSample flow;
-  for (std::size_t i = 0; i < kWays; ++i) {
-    const Way& way = ways_[i];
-    flow.velocity += by_e[i] * way.e + by_f[i] * way.f;
-    flow.gradient += (change_e[i] * way.e + change_f[i] * way.f) * way.along.transpose();
+  for (std::size_t i = 0; i < kDirections; ++i) {
+    const Direction& direction = directions_[i];
+    flow.velocity += by_e[i] * direction.e + by_f[i] * direction.f;
+    flow.gradient +=
+        (change_e[i] * direction.e + change_f[i] * direction.f) * direction.along.transpose();
   }
   flow.acceleration = flow.gradient * (flow.velocity - carried_);
   return flow;

@@ -192,21 +192,21 @@ double volumeThrough(const OpeningShape& opening, const Upward& up, const WaterS
   return fallingRoot(0, first, end, at_far, kAccuracy * std::abs(first), excess);
 }
 
-double SealedAir::productAfter(double taken, double level, const Outside& outside) const noexcept {
-  const double left = volume - taken;
+double SealedAir::productAfter(double inflow, double level, const Outside& outside) const noexcept {
+  const double left = volume - inflow;
   AMBIENT_ASSERT(outside.atmosphere > 0 && outside.weight > 0);
   double after = product;
   if (most < std::numeric_limits<double>::infinity())
     after = std::min(after, most * std::max(left, kept));
   if (inlet < std::numeric_limits<double>::infinity()) {
-    const double cover = std::max(0.0, level - inlet);
-    after = std::max(after, (outside.atmosphere - outside.weight * cover) * left);
+    const double submergence = std::max(0.0, level - inlet);
+    after = std::max(after, (outside.atmosphere - outside.weight * submergence) * left);
   }
   return after;
 }
 
-double SealedAir::headAfter(double taken, double level, const Outside& outside) const noexcept {
-  const double left = std::max(volume - taken, std::numeric_limits<double>::min());
+double SealedAir::headAfter(double inflow, double level, const Outside& outside) const noexcept {
+  const double left = std::max(volume - inflow, std::numeric_limits<double>::min());
   const double pressure = productAfter(volume - left, level, outside) / left;
   return (pressure - outside.atmosphere) / outside.weight;
 }

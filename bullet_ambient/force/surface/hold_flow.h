@@ -111,9 +111,9 @@ struct SealedAir {
 
   /// Returns the product after water has come into the hold, whose level is then at a height.
   /// `taken` by the water; negative: given [m^3].
-  double productAfter(double taken, double level, const Outside& outside) const noexcept;
+  double productAfter(double inflow, double level, const Outside& outside) const noexcept;
   /// Returns its pressure then, less that of the atmosphere, over rho g [m].
-  double headAfter(double taken, double level, const Outside& outside) const noexcept;
+  double headAfter(double inflow, double level, const Outside& outside) const noexcept;
 };
 
 }  // namespace ambient

@@ -182,11 +182,11 @@ HoldModes modesOf(const HoldShape& shape, const HoldFill& fill,
     if (square * square * square < cube * cube) continue;
     SloshMode& mode = found.modes[i];
     const double length = std::sqrt(level.squares[i]), k = kPi / length;
-    const double per_gravity = k * tanhOf(k * depth);
+    const double wave_number_deep = k * tanhOf(k * depth);
     mode.axis = level.axes[i];
     mode.length = length;
-    mode.square = plane_F.gravity * per_gravity;
-    mode.volume = per_gravity * level.moments[i];
+    mode.square = plane_F.gravity * wave_number_deep;
+    mode.volume = wave_number_deep * level.moments[i];
     // The rest of the water keeps a positive inertia.
     constexpr double kMost = 0.9;
     const double turning = level.axes[1 - i].dot(found.turning * level.axes[1 - i]);
@@ -194,9 +194,9 @@ HoldModes modesOf(const HoldShape& shape, const HoldFill& fill,
         std::sqrt(kMost * turning * (volume - mode.volume) / (mode.volume * volume));
     const double rise = std::clamp(depth / 2 - 2 / k * tanhOf(k * depth / 2), -most, most);
     mode.bob = centre + rise * normal;
-    mode.pivot = mode.bob + normal / per_gravity;
+    mode.pivot = mode.bob + normal / wave_number_deep;
     const double head = std::min(mean, (shape.capacity() - volume) / area);
-    mode.farthest = 2 * head / (length * per_gravity);
+    mode.farthest = 2 * head / (length * wave_number_deep);
   }
   return found;
 }

@@ -11,13 +11,13 @@ struct Immersion {
   double low = 0, high = 0;  ///< smallest and largest s.z over the body [m]
   WetVolume wet;
 
-  double size() const { return high - low; }             ///< H [m]
-  double draught() const { return plane.height - low; }  ///< D, depth of the lowest point [m]
-  double cover() const { return plane.height - high; }   ///< depth of the highest point [m]
+  double size() const { return high - low; }                  ///< H [m]
+  double draught() const { return plane.height - low; }       ///< D, depth of the lowest point [m]
+  double submergence() const { return plane.height - high; }  ///< depth of the highest point [m]
   bool isDry() const { return draught() <= 0; }
   /// True if the body is so deep, away from the sides of its pool, that its added mass is that in
   /// unbounded fluid.
-  bool isDeep() const { return !plane.sides_F && cover() >= 2 * size(); }
+  bool isDeep() const { return !plane.sides_F && submergence() >= 2 * size(); }
 };
 
 /// Derivatives of an energy T by the place of the plane.

@@ -18,7 +18,7 @@ namespace {
 /// Plane with the reach kappa H of the weights; kappa fades to 0 at a deep body, eq. (61).
 PartPlane planeOf(const Immersion& at) {
   constexpr double kReach = 0.06;
-  const double x = std::clamp(at.cover() / at.size(), 0.0, 2.0);
+  const double x = std::clamp(at.submergence() / at.size(), 0.0, 2.0);
   const double fade = (9 / (1 + x * x * x) - 1) / 8;
   const Vector3& s = at.plane.normal;
   return {{s.x(), s.y(), s.z()}, at.plane.height, kReach * fade * at.size()};
@@ -120,12 +120,13 @@ WettedTable::WettedTable(std::shared_ptr<const FluidBody> body,
 
 WettedTable::Touch WettedTable::touchAt(const Immersion& immersion) const noexcept {
   Touch touch{immersion};
-  const double draught = nodes_.front() * immersion.size(), way = immersion.draught() / draught;
-  if (!(way < 1)) return touch;
+  const double draught = nodes_.front() * immersion.size(),
+               immersion_ratio = immersion.draught() / draught;
+  if (!(immersion_ratio < 1)) return touch;
   touch.at.plane.height = immersion.low + draught;
   touch.at.wet = computeWetVolume(*hull_, touch.at.plane);
-  touch.share = way * way;
-  touch.slope = 2 * way / draught;
+  touch.factor = immersion_ratio * immersion_ratio;
+  touch.slope = 2 * immersion_ratio / draught;
   return touch;
 }
 
@@ -141,21 +142,21 @@ WettedTable::Weights WettedTable::weightsAt(double immersion) const noexcept {
   weights.of_slope[1] = -6 * t * u / width;
   weights.of_slope[2] = -weights.of_slope[1];
   const auto addSlope = [&](int i, double to_value, double to_slope) {
-    double shares[3] = {0, -1, 1};
+    double slopes[3] = {0, -1, 1};
     const int node = k + i;
     const double after = nodes_[node + 1] - nodes_[node];
     if (node > 0) {
       const double before = nodes_[node] - nodes_[node - 1], both = before + after;
-      shares[0] = -after / (before * both);
-      shares[1] = (after - before) / (before * after);
-      shares[2] = before / (after * both);
+      slopes[0] = -after / (before * both);
+      slopes[1] = (after - before) / (before * after);
+      slopes[2] = before / (after * both);
     } else {
-      shares[1] = -1 / after;
-      shares[2] = 1 / after;
+      slopes[1] = -1 / after;
+      slopes[2] = 1 / after;
     }
     for (int j = 0; j < 3; ++j) {
-      weights.of_value[i + j] += to_value * shares[j];
-      weights.of_slope[i + j] += to_slope * shares[j];
+      weights.of_value[i + j] += to_value * slopes[j];
+      weights.of_slope[i + j] += to_slope * slopes[j];
     }
   };
   addSlope(0, width * t * u * u, u * (u - 2 * t));
@@ -168,13 +169,13 @@ Matrix6 WettedTable::interpolate(const Vector3& normal, int first,
   const std::vector<Matrix6>& corrections = body_->waterline.corrections;
   const std::size_t count = nodes_.size() - 1;  // the last one has no correction
   AMBIENT_ASSERT(isUnit(normal));
-  const OctahedralLattice::Place place = lattice_.placeOf(normal);
+  const OctahedralLattice::Corners corners = lattice_.cornersAround(normal);
   Matrix6 sum = Matrix6::Zero();
   for (int corner = 0; corner < 3; ++corner)
     for (int i = 0; i < 4; ++i) {
       const int node = first + i;
       if (node < 0 || node >= static_cast<int>(count)) continue;
-      sum += place.share[corner] * weights[i] * corrections[place.node[corner] * count + node];
+      sum += corners.weight[corner] * weights[i] * corrections[corners.node[corner] * count + node];
     }
   return sum;
 }
@@ -190,7 +191,7 @@ double WettedTable::shareInPool(const Immersion& at) const noexcept {
 Matrix6 WettedTable::inertiaOf(const Touch& touch) const noexcept {
   const Immersion& at = touch.at;
   const Weights weights = weightsAt(immersionOf(at));
-  return touch.share *
+  return touch.factor *
          (WettedParts::inertiaAt(at) +
           shareInPool(at) * interpolate(at.plane.normal, weights.first, weights.of_value));
 }
@@ -204,7 +205,7 @@ InertiaGradient WettedTable::gradientAt(const Immersion& at, const Twist& twist)
   const Vector6 x = twist.vector();
   const Touch touch = touchAt(at);
   if (touch.slope > 0) {
-    const double by_height = 0.5 * touch.slope / touch.share * x.dot(inertiaOf(touch) * x);
+    const double by_height = 0.5 * touch.slope / touch.factor * x.dot(inertiaOf(touch) * x);
     return {by_height, -by_height * placeOfChange(at.wet)};
   }
   InertiaGradient gradient = WettedParts::gradientAt(at, twist);

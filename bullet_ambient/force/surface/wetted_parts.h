@@ -45,11 +45,11 @@ class WettedTable final : public WettedParts {
     double of_value[4], of_slope[4];
   };
   /// State of a body whose immersion is below the first node of the table. Its added mass is that
-  /// at the first node times a share, which grows with the square of the depth, as for a wedge.
+  /// at the first node times a factor, which grows with the square of the depth, as for a wedge.
   struct Touch {
-    Immersion at;      ///< immersion at the first node, or the body's own if that is deeper
-    double share = 1;  ///< factor on the added mass at `at`
-    double slope = 0;  ///< d share / d height of the plane [1/m]; 0: deeper than the first node
+    Immersion at;       ///< immersion at the first node, or the body's own if that is deeper
+    double factor = 1;  ///< factor on the added mass at `at`
+    double slope = 0;   ///< d factor / d height of the plane [1/m]; 0: deeper than the first node
   };
   Touch touchAt(const Immersion& at) const noexcept;
   /// Share of the wet volume that is between the sides of the pool; 1 where it has none.

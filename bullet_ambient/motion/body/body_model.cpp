@@ -197,7 +197,7 @@ BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_fr
 }
 
 SurfaceLoad computeSurfaceLoad(const BodyModel& model, const Twist& relative_twist,
-                               double load_share, const FlowAlongBody* flow) noexcept {
+                               double load_scale, const FlowAlongBody* flow) noexcept {
   AMBIENT_ASSERT(model.loads);
   const Resistance* const resistance = model.resistance.get();
   return loadAlong(flow, relative_twist, resistance, [&](const Twist& x) -> SurfaceLoad {
@@ -205,7 +205,7 @@ SurfaceLoad computeSurfaceLoad(const BodyModel& model, const Twist& relative_twi
     const bool is_B = frame.isIdentity();
     const SplitLoad split =
         model.loads->split(is_B ? x : frame.toF(x), model.wet ? &*model.wet : nullptr);
-    const Wrench wrench = load_share * (is_B ? split.wrench : frame.toB(split.wrench));
+    const Wrench wrench = load_scale * (is_B ? split.wrench : frame.toB(split.wrench));
     SurfaceLoad load{wrench};
     if (model.loads->needsGuard()) load = removePositivePower(wrench, x, model.inertia);
     load.growth = split.growth;
@@ -257,8 +257,8 @@ Twist twistOf(const BodyModel& model, const WorldMomentum& momentum, const Quate
 
 namespace {
 
-constexpr double kWay = 1.5;        // lambda_w, diameters in which the wake follows the motion
-constexpr double kDeveloped = 0.7;  // share from which on it counts as developed
+constexpr double kWakeLength = 1.5;  // lambda_w, diameters in which the wake follows the motion
+constexpr double kDeveloped = 0.7;   // share from which on it counts as developed
 
 /// Product of motions as velocities of points of a ball of that surface.
 double product(const Twist& a, const Twist& b, double area) {
@@ -272,11 +272,11 @@ double developWake(const Twist& x, double area, double volume, double duration,
   AMBIENT_ASSERT(duration >= 0 && area >= 0 && volume >= 0);
   if (!wake.has_begun) wake = {x, true};
   const double square = product(x, x, area);
-  const double way = area > 0 ? kWay * 6 * volume / area : 0;
-  if (!(square > 0) || !(way > 0)) return 1;
+  const double wake_length = area > 0 ? kWakeLength * 6 * volume / area : 0;
+  if (!(square > 0) || !(wake_length > 0)) return 1;
   const double share =
       std::clamp(product(wake.velocity_W, x, area) / (kDeveloped * square), 0.0, 1.0);
-  const double kept = portable::exp(-std::sqrt(square) * duration / way);
+  const double kept = portable::exp(-std::sqrt(square) * duration / wake_length);
   Twist& w = wake.velocity_W;
   w = {x.angular + kept * (w.angular - x.angular), x.linear + kept * (w.linear - x.linear)};
   return share * share;

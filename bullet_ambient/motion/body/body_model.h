@@ -170,10 +170,10 @@ BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_fr
                         std::shared_ptr<const SurfaceLoads> loads, const FluidEffect& effect = {});
 
 /// The share of pressure and friction in B for a twist in B relative to the ambient flow, after
-/// removePositivePower(); docs/theory.md eq. (13) to (17) and (20). `load_share`: factor of eq.
+/// removePositivePower(); docs/theory.md eq. (13) to (17) and (20). `load_scale`: factor of eq.
 /// (51d). `flow`: how the fluid moves along the body, null: as one; see loadAlong().
 SurfaceLoad computeSurfaceLoad(const BodyModel& model, const Twist& relative_twist,
-                               double load_share = 1, const FlowAlongBody* flow = nullptr) noexcept;
+                               double load_scale = 1, const FlowAlongBody* flow = nullptr) noexcept;
 
 /// Returns the resistance of loads in B times a factor; null: they have none. `frame`: where they
 /// sit in B.

@@ -18,13 +18,13 @@ Wrench externalWrench(const BodyModel& model, const Surroundings& surroundings, 
          buoyancy(model.displaced_mass, model.centre_of_volume, gravity);
 }
 
-double energyOfPlace(const BodyModel& model, const Surroundings& surroundings,
-                     const FrameOffset& place, double of_water) {
+double potentialEnergy(const BodyModel& model, const Surroundings& surroundings,
+                       const FrameOffset& pose, double of_water) {
   const Vector3 force = surroundings.applied.force - model.mass * surroundings.ambient_acceleration;
   const Vector3 buoyancy =
       -model.displaced_mass * (surroundings.gravity - surroundings.ambient_acceleration);
-  const Vector3 arm = place.translation + place.rotation * model.centre_of_volume;
-  return of_water - force.dot(place.translation) - buoyancy.dot(arm);
+  const Vector3 arm = pose.translation + pose.rotation * model.centre_of_volume;
+  return of_water - force.dot(pose.translation) - buoyancy.dot(arm);
 }
 
 double velocityScale(const FlightTask& task) {
@@ -339,7 +339,7 @@ void setState(FlightLanes& lanes, int body, const BodyModel& model,
   // Written so that NaN passes: the flight of a state that is not finite is rejected later.
   AMBIENT_ASSERT(!(std::abs(state.orientation.squaredNorm() - 1) > 1e-6));
   setLane(lanes.orientation, body, state.orientation);
-  setLane(lanes.way_W, body, Vector3(0, 0, 0));
+  setLane(lanes.displacement_W, body, Vector3(0, 0, 0));
   const DualPair motion = pairOfTwist(model, state.twist.vector());
   for (int i = 0; i < 6; ++i) {
     lanes.twist_B[i][body] = motion.twist[i];
@@ -348,7 +348,7 @@ void setState(FlightLanes& lanes, int body, const BodyModel& model,
 }
 
 RigidState stateOf(const FlightLanes& lanes, int body, const Vector3& start) noexcept {
-  return {orientationOf(lanes.orientation, body), start + vectorOf(lanes.way_W, body),
+  return {orientationOf(lanes.orientation, body), start + vectorOf(lanes.displacement_W, body),
           twistOf(lanes.twist_B, body)};
 }
 

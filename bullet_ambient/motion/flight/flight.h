@@ -27,7 +27,7 @@ struct Surroundings {
   Wrench applied;  ///< all other forces, weight included; torque about the centre of mass
   Vector3 ambient_velocity = Vector3::Zero();      ///< at the start of the step [m/s]
   Vector3 ambient_acceleration = Vector3::Zero();  ///< [m/s^2]
-  double load_share = 1;  ///< factor on the surface loads, docs/theory.md eq. (51d)
+  double load_scale = 1;  ///< factor on the surface loads, docs/theory.md eq. (51d)
   /// How the fluid moves along the body besides; null: as one.
   const FlowAlongBody* flow = nullptr;
 
@@ -40,7 +40,7 @@ struct Surroundings {
 /// Computes the surface load of a body in its surroundings.
 inline SurfaceLoad computeSurfaceLoad(const BodyModel& model, const Twist& relative_twist,
                                       const Surroundings& s) noexcept {
-  return computeSurfaceLoad(model, relative_twist, s.load_share, s.flow);
+  return computeSurfaceLoad(model, relative_twist, s.load_scale, s.flow);
 }
 
 struct FlightCount {
@@ -96,10 +96,10 @@ double velocityScale(const FlightTask& task);
 
 /// Computes the potential energy of docs/theory.md eq. (64) without T: `of_water`, energy of
 /// surface and waves, minus the work of constant forces on the way [J].
-/// `place`: B in axes of W, and the displacement of the centre of mass since the motion began, in a
+/// `pose`: B in axes of W, and the displacement of the centre of mass since the motion began, in a
 /// frame that moves with the fluid.
-double energyOfPlace(const BodyModel& model, const Surroundings& surroundings,
-                     const FrameOffset& place, double of_water);
+double potentialEnergy(const BodyModel& model, const Surroundings& surroundings,
+                       const FrameOffset& pose, double of_water);
 
 /// Task and state of a body: start state before flyTogether(), end state afterwards.
 struct Flight {

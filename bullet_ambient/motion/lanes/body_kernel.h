@@ -10,42 +10,42 @@ namespace {
 
 /// Drag and lift of a load F at the twist y of its sample, eq. (23).
 template <class Real>
-struct LoadShares {
+struct DragAndLift {
   const PairsOf<Real>& at;
   MaskOf<Real> moves;    ///< at rest relative to the fluid there is no load
-  Real per_n;            ///< 1/|y|
+  Real inverse_n;        ///< 1/|y|
   Real decay;            ///< d
   PairsOf<Real> across;  ///< a
-  Real f, per_f;         ///< |a|
+  Real f, inverse_f;     ///< |a|
 
-  LoadShares(const PairsOf<Real>& sample, const PairsOf<Real>& load) : at(sample) {
+  DragAndLift(const PairsOf<Real>& sample, const PairsOf<Real>& load) : at(sample) {
     const Real one = all<Real>(1), zero = Real{};
     constexpr double kLeast = 1e-290;  // [2 J] the inverse of less may not be finite
     const Real energy = inner(at, at);
     moves = energy > all<Real>(kLeast);
-    const Real per_energy = one / (moves ? energy : one);
-    per_n = one / squareRoot(moves ? energy : one);
-    const Real along = inner(at, load) * per_energy;
+    const Real inverse_energy = one / (moves ? energy : one);
+    inverse_n = one / squareRoot(moves ? energy : one);
+    const Real along = inner(at, load) * inverse_energy;
     decay = along > zero ? zero : -along;  // NaN of a load that is not finite stays NaN, because
                                            // NaN > 0 is false
     // Lift: K^-1 F minus its part along the twist.
     across = load - along * at;
     f = squareRoot(larger(inner(across, across), zero));
-    per_f = one / (f > zero ? f : one);
+    inverse_f = one / (f > zero ? f : one);
   }
   /// |x|/n.
   Real speedOf(const PairsOf<Real>& x) const {
-    return squareRoot(larger(inner(x, x), Real{})) * per_n;
+    return squareRoot(larger(inner(x, x), Real{})) * inverse_n;
   }
   /// Rot(angle) x. Sine and versine from one tangent: a rotation for any rounding of the tangent.
   PairsOf<Real> turned(const PairsOf<Real>& x, const Real& angle) const {
-    const Real c1 = inner(x, at) * per_n;
-    const Real c2 = inner(x, across) * per_f;
+    const Real c1 = inner(x, at) * inverse_n;
+    const Real c2 = inner(x, across) * inverse_f;
     const Real t = tangent<Real>(0.5 * angle);
     const Real sine = 2 * t / (1 + t * t);
     const Real versine = t * sine;
-    return x + ((-versine * c1 - sine * c2) * per_n) * at +
-           ((sine * c1 - versine * c2) * per_f) * across;
+    return x + ((-versine * c1 - sine * c2) * inverse_n) * at +
+           ((sine * c1 - versine * c2) * inverse_f) * across;
   }
 };
 
@@ -65,11 +65,11 @@ struct LoadShares {
 template <class Real>
 inline PairsOf<Real> passiveKick(const PairsOf<Real>& x, const PairsOf<Real>& at,
                                  const PairsOf<Real>& load, const Real& duration) {
-  const LoadShares<Real> shares(at, load);
-  const Real speed = shares.speedOf(x);
-  const Real z = shares.decay * duration * speed;
-  const Real angle = duration * shares.f * shares.per_n * logarithmRatio(z) * speed;
-  return select(shares.moves, all<Real>(1) / (1 + z) * shares.turned(x, angle), x);
+  const DragAndLift<Real> split(at, load);
+  const Real speed = split.speedOf(x);
+  const Real z = split.decay * duration * speed;
+  const Real angle = duration * split.f * split.inverse_n * logarithmRatio(z) * speed;
+  return select(split.moves, all<Real>(1) / (1 + z) * split.turned(x, angle), x);
 }
 
 /// Returns the error e of a kick, eq. (25). `load_error`: load that was not predicted.

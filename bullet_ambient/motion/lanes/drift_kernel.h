@@ -31,7 +31,7 @@ class MotionSeries {
     const Vectors zero = zeroVectors();
     c_[0] = {start, zero, {zero, all(1)}};
     const Lanes energy = inner(start, start);
-    per_energy_ = 1 / (energy > Lanes{} ? energy : all(1));
+    inverse_energy_ = 1 / (energy > Lanes{} ? energy : all(1));
     is_open_ = moves;
     do {
       addTerm();
@@ -42,17 +42,17 @@ class MotionSeries {
   struct End {
     Lanes fraction;  // largest fraction of the duration at which the series has its precision
     Spatials momentum;
-    Vectors way;
+    Vectors displacement;
     Orientations turn;  // not normalised
   };
   End end() const {
     const Lanes fraction = reach();
     const Coefficient& last = c_[order_];
-    End sum{fraction, last.motion.momentum, last.way, last.turn};
+    End sum{fraction, last.motion.momentum, last.displacement, last.turn};
     for (int k = order_ - 1; k >= 0; --k) {
       const Coefficient& c = c_[k];
       sum.momentum = c.motion.momentum + fraction * sum.momentum;
-      sum.way = c.way + fraction * sum.way;
+      sum.displacement = c.displacement + fraction * sum.displacement;
       sum.turn = {c.turn.u + fraction * sum.turn.u, c.turn.w + fraction * sum.turn.w};
     }
     return sum;
@@ -63,7 +63,7 @@ class MotionSeries {
 
   struct Coefficient {
     Pairs motion;
-    Vectors way;
+    Vectors displacement;
     Orientations turn;
   };
 
@@ -76,7 +76,7 @@ class MotionSeries {
     Vectors l = cross(first.angular, latest.angular) + cross(first.linear, latest.linear);
     Vectors p = cross(first.linear, latest.angular);
     Vectors turn = latest.angular;
-    Vectors way = latest.linear;
+    Vectors displacement = latest.linear;
     Lanes cosine = Lanes{};
     for (int i = 1; i <= k; ++i) {
       const Coefficient& a = c_[i];
@@ -84,7 +84,7 @@ class MotionSeries {
       const Spatials& m = a.motion.momentum;
       l = l + (cross(m.angular, b.angular) + cross(m.linear, b.linear));
       p = p + cross(m.linear, b.angular);
-      way = way + cross(a.way, b.angular);
+      displacement = displacement + cross(a.displacement, b.angular);
       turn = turn + (cross(a.turn.u, b.angular) + a.turn.w * b.angular);
       cosine = cosine - dot(a.turn.u, b.angular);
     }
@@ -93,12 +93,12 @@ class MotionSeries {
     Coefficient& next = c_[k + 1];
     next.motion.momentum = step * Spatials{l, p};
     next.motion.twist = inverse_ * next.motion.momentum;
-    next.way = step * way;
+    next.displacement = step * displacement;
     const Lanes half = 0.5 * step;
     next.turn = {half * turn, half * cosine};
     ++order_;
     const Lanes size_before = size_sq_;
-    size_sq_ = larger(inner(next.motion, next.motion) * per_energy_,
+    size_sq_ = larger(inner(next.motion, next.motion) * inverse_energy_,
                       dot(next.turn.u, next.turn.u) + next.turn.w * next.turn.w);
     const Lanes growth_sq = size_sq_ / (size_before > Lanes{} ? size_before : all(1));
     growth_sq_ = is_open_ ? larger(growth_sq, growth_sq_) : growth_sq_;
@@ -113,8 +113,8 @@ class MotionSeries {
   Mask isRestBelowPrecision() const {
     const Mask are_small = larger(last_sq_, before_sq_) <= precision_sq_;
     if (order_ < kLeastOrder) return are_small;
-    const double per_order_sq = 1.0 / (order_ * order_);
-    const Lanes next = larger(last_sq_, before_sq_ * growth_sq_ * per_order_sq) * growth_sq_;
+    const double inverse_order_sq = 1.0 / (order_ * order_);
+    const Lanes next = larger(last_sq_, before_sq_ * growth_sq_ * inverse_order_sq) * growth_sq_;
     return are_small | (next <= precision_sq_);
   }
 
@@ -141,7 +141,7 @@ class MotionSeries {
   const Inverse& inverse_;
   Lanes duration_;
   Lanes precision_sq_;
-  Lanes per_energy_;
+  Lanes inverse_energy_;
   Mask is_open_;  // bodies that need more terms
   int order_ = 0;
   // Squared sizes of terms, in the norms of K^-1 and of the quaternion.
@@ -152,12 +152,12 @@ class MotionSeries {
 
 struct Motions {
   Orientations orientation;
-  Vectors way_W;
+  Vectors displacement_W;
   Pairs motion;  // in B
 };
 inline Motions select(const Mask& mask, const Motions& a, const Motions& b) {
-  return {select(mask, a.orientation, b.orientation), select(mask, a.way_W, b.way_W),
-          select(mask, a.motion, b.motion)};
+  return {select(mask, a.orientation, b.orientation),
+          select(mask, a.displacement_W, b.displacement_W), select(mask, a.motion, b.motion)};
 }
 
 /// Returns orientations after a turn by rotation vectors in B [rad].
@@ -178,7 +178,7 @@ inline Motions glide(const Motions& start, const Lanes& duration) {
   const Vectors velocity_W = start.orientation.toWorld(x.linear);
   Motions end = start;
   end.orientation = turned(start.orientation, duration * x.angular);
-  end.way_W = start.way_W + duration * velocity_W;
+  end.displacement_W = start.displacement_W + duration * velocity_W;
   end.motion.twist.linear = end.orientation.toBody(velocity_W);
   return end;
 }
@@ -187,13 +187,13 @@ inline Motions glide(const Motions& start, const Lanes& duration) {
 /// momenta, which are conserved.
 template <class Inverse>
 Motions coast(const Inverse& inverse, const Motions& start, const Lanes& duration) {
-  const Vectors way_W = start.orientation.toWorld(duration * start.motion.twist.linear);
+  const Vectors displacement_W = start.orientation.toWorld(duration * start.motion.twist.linear);
   const Spatials& m = start.motion.momentum;
   const Vectors p_W = start.orientation.toWorld(m.linear);
-  const Vectors l_W = start.orientation.toWorld(m.angular) - cross(way_W, p_W);
+  const Vectors l_W = start.orientation.toWorld(m.angular) - cross(displacement_W, p_W);
   Motions end;
   end.orientation = turned(start.orientation, duration * start.motion.twist.angular);
-  end.way_W = start.way_W + way_W;
+  end.displacement_W = start.displacement_W + displacement_W;
   end.motion.momentum = {end.orientation.toBody(l_W), end.orientation.toBody(p_W)};
   end.motion.twist = inverse * end.motion.momentum;
   return end;
@@ -202,13 +202,13 @@ Motions coast(const Inverse& inverse, const Motions& start, const Lanes& duratio
 /// Moves active bodies without loads, docs/theory.md eq. (22), see FlightKernel::drift. A body that
 /// the fluid settles has its turning in the kick, eq. (124).
 template <class Matrices>
-void flow(FlightLanes& bodies, int at, const Mask& active) {
+void drift(FlightLanes& bodies, int at, const Mask& active) {
   constexpr int kMaxPieces = 1024;  // largest number of series, one after another
   const Lanes zero = Lanes{};
   const Matrices inverse(bodies.inverse_inertia, at);
   const Lanes precision = load(bodies.precision + at);
   Motions now{{load(bodies.orientation, at), load(bodies.orientation[3] + at)},
-              load(bodies.way_W, at),
+              load(bodies.displacement_W, at),
               {load6(bodies.twist_B, at), load6(bodies.momentum_B, at)}};
   const Lanes energy = inner(now.motion, now.motion);
   const Mask moves = active & (energy > zero);
@@ -228,7 +228,7 @@ void flow(FlightLanes& bodies, int at, const Mask& active) {
     const auto end = MotionSeries<Matrices>(inverse, now.motion, left, precision, is_left).end();
     Motions next;
     next.orientation = normalized(now.orientation * end.turn);
-    next.way_W = now.way_W + next.orientation.toWorld(end.way);
+    next.displacement_W = now.displacement_W + next.orientation.toWorld(end.displacement);
     next.motion = {inverse * end.momentum, end.momentum};
     now = select(is_left, next, now);
     left = left - end.fraction * left;
@@ -248,9 +248,9 @@ void flow(FlightLanes& bodies, int at, const Mask& active) {
   now.motion = select(moves, scaleWithin(after, energy) * now.motion, start);
   store(bodies.orientation, at, now.orientation.u);
   store(bodies.orientation[3] + at, now.orientation.w);
-  store(bodies.way_W[0] + at, now.way_W.x);
-  store(bodies.way_W[1] + at, now.way_W.y);
-  store(bodies.way_W[2] + at, now.way_W.z);
+  store(bodies.displacement_W[0] + at, now.displacement_W.x);
+  store(bodies.displacement_W[1] + at, now.displacement_W.y);
+  store(bodies.displacement_W[2] + at, now.displacement_W.z);
   store6(bodies.twist_B, at, now.motion.twist);
   store6(bodies.momentum_B, at, now.motion.momentum);
 }

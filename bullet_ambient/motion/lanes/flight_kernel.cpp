@@ -81,7 +81,7 @@ inline Spatials withoutTraces(const Spatials& a, const Lanes& least) {
 
 /// Implements FlightKernel::findEnds.
 inline void findEnds(EndLanes& bodies) noexcept {
-  const Lanes per_duration = all(1 / bodies.duration), least = all(bodies.least);
+  const Lanes inverse_duration = all(1 / bodies.duration), least = all(bodies.least);
   for (int at = 0; at < kFlightLanes; at += kWidth) {
     const Orientations q{load(bodies.orientation, at), load(bodies.orientation[3] + at)};
     const Spatials twist_B = load6(bodies.twist_B, at);
@@ -90,8 +90,8 @@ inline void findEnds(EndLanes& bodies) noexcept {
     const Orientations start_inverse{zeroVectors() - load(bodies.start_orientation, at),
                                      load(bodies.start_orientation[3] + at)};
     const Vectors turn = rotationVectors(normalized(q * start_inverse));
-    const Vectors way = load(bodies.position, at) - load(bodies.start_position, at);
-    const Spatials mean_W{per_duration * turn, per_duration * way};
+    const Vectors displacement = load(bodies.position, at) - load(bodies.start_position, at);
+    const Spatials mean_W{inverse_duration * turn, inverse_duration * displacement};
     store6(bodies.mean_W, at, withoutTraces(mean_W, least));
   }
 }
@@ -183,17 +183,17 @@ void conserve(RowLanes& bodies, int at, const Mask&) {
   const Matrices inertia(bodies.inertia, at), inverse(bodies.inverse_inertia, at);
   const Orientations q = orientationOf(bodies, at);
   const Spatials x = toBody(q, load6(bodies.velocity_W, at));
-  const Spatials share = toBody(q, load6(bodies.turning_W, at));
+  const Spatials turning = toBody(q, load6(bodies.turning_W, at));
   const Spatials by_rows = toBody(q, load6(bodies.by_rows_W, at));
-  const Spatials kept = x - share;
+  const Spatials kept = x - turning;
   const Pairs kept_pair{kept, inertia * kept};
   store6(bodies.momentum_W, at, toWorld(q, kept_pair.momentum));
   const Lanes duration = load(bodies.kick_time + at);
   store(bodies.moved_turn_number + at,
         computeTurnings<Lanes>(inertia, inverse, {x, inertia * x}, duration).turn_number);
-  const Lanes on_share = 2 * dot(share, inertia * by_rows);
-  const Lanes taken = on_share < Lanes{} ? on_share : Lanes{};
-  store(bodies.twice_energy + at, inner(kept_pair, kept_pair) + taken);
+  const Lanes on_turning = 2 * dot(turning, inertia * by_rows);
+  const Lanes by_rows_energy = on_turning < Lanes{} ? on_turning : Lanes{};
+  store(bodies.twice_energy + at, inner(kept_pair, kept_pair) + by_rows_energy);
 }
 
 /// Implements FlightKernel::transport for the lanes from `at` on.
@@ -201,7 +201,7 @@ template <class Matrices>
 void transport(RowLanes& bodies, int at, const Mask&) {
   const Orientations q = orientationOf(bodies, at);
   Spatials m = load6(bodies.momentum_W, at);
-  m.angular = m.angular - cross(load(bodies.way_W, at), m.linear);
+  m.angular = m.angular - cross(load(bodies.displacement_W, at), m.linear);
   const Spatials m_B = toBody(q, m);
   store6(bodies.momentum_B, at, m_B);
   store6(bodies.twist_B, at, Matrices(bodies.inverse_inertia, at) * m_B);
@@ -263,7 +263,7 @@ inline Energies energies(const FlightLanes& bodies, int at) {
   const Vectors buoyancy = load(bodies.buoyancy_W, at);
   const Vectors arm = orientationOf(bodies, at).toWorld(load(bodies.centre_of_volume_B, at));
   const Vectors force = load(bodies.force_W, at) + buoyancy;
-  const Lanes risen = Lanes{} - dot(force, load(bodies.way_W, at));
+  const Lanes risen = Lanes{} - dot(force, load(bodies.displacement_W, at));
   return {inner(x, x), risen - dot(buoyancy, arm), risen};
 }
 
@@ -283,7 +283,7 @@ void withinEnergy(FlightLanes& bodies, int at, const Mask& active) {
   const Mask rises = gains & (left < zero) & (now.risen > zero);
   const Lanes back = rises ? zero - larger(left, zero - now.risen) : zero;
   const Lanes kept = zero + 1 - back / (rises ? now.risen : zero + 1);
-  store(bodies.way_W, at, kept * load(bodies.way_W, at));
+  store(bodies.displacement_W, at, kept * load(bodies.displacement_W, at));
   const Lanes removed = gains ? 0.5 * (now.kinetic2 - allowed) + back : zero;
   store(bodies.energy_removed + at, load(bodies.energy_removed + at) + removed);
   setMotion(bodies, at, gains, scaleWithin(now.kinetic2, allowed) * motionOf(bodies, at));
@@ -310,7 +310,7 @@ void forAll(AnyLanes& bodies) noexcept {
 const FlightKernel AMBIENT_KERNEL(kFlightKernel){
     readStarts,
     findEnds,
-    forAll<flow<DiagonalMatrices>, flow<FullMatrices>>,
+    forAll<drift<DiagonalMatrices>, drift<FullMatrices>>,
     forAll<applyGravity<DiagonalMatrices>, applyGravity<FullMatrices>>,
     forAll<sample<DiagonalMatrices>, sample<FullMatrices>>,
     forAll<kick<DiagonalMatrices>, kick<FullMatrices>>,

@@ -49,8 +49,8 @@ struct alignas(64) BodyLanes {
   FlightLane centre_of_volume_B[3];
 
   // Pose and motion.
-  FlightLane orientation[4];  ///< (x, y, z, w), B to W
-  FlightLane way_W[3];        ///< displacement since the start of the step [m]
+  FlightLane orientation[4];     ///< (x, y, z, w), B to W
+  FlightLane displacement_W[3];  ///< displacement since the start of the step [m]
   FlightLane twist_B[6], momentum_B[6];
   FlightLane kick_time;  ///< duration of the next kick, or of the step with rows [s]
   FlightLane load_B[6];  ///< surface load; 0 for a body without surface loads
@@ -162,7 +162,7 @@ struct alignas(64) RowLanes : BodyLanes {
   // Results of conserve().
   FlightLane
       momentum_W[6];  ///< P of eq. (31) at the start; input of transport(), with orientations at
-                      ///< the end of the step and way_W, which sets twist_B and momentum_B
+                      ///< the end of the step and displacement_W, which sets twist_B and momentum_B
   FlightLane moved_turn_number;  ///< m of eq. (28a) for xi
   FlightLane twice_energy;       ///< 2 E of eq. (31a) [J]
 };

@@ -1,7 +1,7 @@
 #include "bullet_ambient/base/instruction_set.h"
+#include "bullet_ambient/motion/lanes/added_mass_change.h"
 #include "bullet_ambient/motion/lanes/body_kernel.h"
 #include "bullet_ambient/motion/lanes/motion_lanes.h"
-#include "bullet_ambient/motion/lanes/passage_kernel.h"
 #include "bullet_ambient/motion/lanes/spatial_lanes.h"
 #include "bullet_ambient/motion/lanes/surface_lanes.h"
 #include "bullet_ambient/motion/lanes/viscous_kernel.h"
@@ -13,9 +13,9 @@ namespace ambient {
 
 namespace {
 
-Modes modesAt(const StandLanes& stand, int at) {
+Modes modesAt(const FlotationLanes& flotation, int at) {
   Modes modes;
-  forEachNumber(modes, stand.modes,
+  forEachNumber(modes, flotation.modes,
                 [&](Lanes& to, const FlightLane& from) { to = load(from + at); });
   return modes;
 }
@@ -24,22 +24,24 @@ void store(FlightLane (&to)[kSymmetricEntries], int at, const SymmetricOf<Lanes>
   for (int i = 0; i < kSymmetricEntries; ++i) store(to[i] + at, m.entries[i]);
 }
 
-void computeStand(StandLanes& stand, int at) {
-  const FullMatrices inertia(stand.inertia, at);
-  store(stand.inverse, at, PositiveFactor<Lanes>(inertia).inverse());
-  const Mask is_fine = PositiveFactor<Lanes>(inertia - FullMatrices(stand.least, at)).isPositive();
-  store(stand.is_indefinite + at, is_fine ? Lanes{} : all(1));
-  Waterplanes section{load(stand.area + at), load(stand.centroid, at), {}};
-  for (int i = 0; i < 6; ++i) section.spread[i] = load(stand.spread[i] + at);
-  const Lanes specific_weight = load(stand.specific_weight + at);
+void computeFlotation(FlotationLanes& flotation, int at) {
+  const FullMatrices inertia(flotation.inertia, at);
+  store(flotation.inverse, at, PositiveFactor<Lanes>(inertia).inverse());
+  const Mask is_fine =
+      PositiveFactor<Lanes>(inertia - FullMatrices(flotation.least, at)).isPositive();
+  store(flotation.is_indefinite + at, is_fine ? Lanes{} : all(1));
+  Waterplanes section{load(flotation.area + at), load(flotation.centroid, at), {}};
+  for (int i = 0; i < 6; ++i) section.spread[i] = load(flotation.spread[i] + at);
+  const Lanes specific_weight = load(flotation.specific_weight + at);
   Modes modes;
-  setRestoring(section, load(stand.moment, at), load(stand.normal, at), specific_weight, modes);
-  setWaves({section.area, load(stand.volume + at), load(stand.heave_inertia + at),
-            load(stand.damping + at), specific_weight, load(stand.gravity + at)},
+  setRestoring(section, load(flotation.moment, at), load(flotation.normal, at), specific_weight,
+               modes);
+  setWaves({section.area, load(flotation.volume + at), load(flotation.heave_inertia + at),
+            load(flotation.damping + at), specific_weight, load(flotation.gravity + at)},
            modes);
-  forEachNumber(stand.modes, modes,
+  forEachNumber(flotation.modes, modes,
                 [&](FlightLane& to, const Lanes& from) { store(to + at, from); });
-  store(stand.frequency + at, squareRoot(frequencySquared(modes, inertia)));
+  store(flotation.frequency + at, squareRoot(frequencySquared(modes, inertia)));
 }
 
 /// Returns the present twists and momenta.
@@ -54,41 +56,41 @@ Lanes halfKick(const FlightLanes& bodies, int at) { return 0.5 * load(bodies.kic
 
 void see(SurfaceLanes& bodies, int at, const Mask&) {
   const Vectors normal_W = load(bodies.normal_W, at);
-  store(bodies.stand.normal, at, orientationOf(bodies.flight, at).toBody(normal_W));
-  store(bodies.stand.height + at,
-        load(bodies.height_W + at) - dot(normal_W, load(bodies.flight.way_W, at)));
+  store(bodies.flotation.normal, at, orientationOf(bodies.flight, at).toBody(normal_W));
+  store(bodies.flotation.height + at,
+        load(bodies.height_W + at) - dot(normal_W, load(bodies.flight.displacement_W, at)));
 }
 
-void pass(SurfaceLanes& bodies, int at, const Mask& active) {
+void changeInertia(SurfaceLanes& bodies, int at, const Mask& active) {
   FlightLanes& flight = bodies.flight;
-  const FullMatrices before(flight.inertia, at), after(bodies.stand.inertia, at),
-      inverse_after(bodies.stand.inverse, at);
-  const PassedOf<Lanes> passed = passSurface(
-      {before, after, inverse_after, load6(bodies.gradient, at), load(bodies.stand.normal, at),
-       load(bodies.centre_of_buoyancy, at), load(bodies.draught + at), load(bodies.cover + at),
-       load(bodies.stand.gravity + at), load(flight.drift_time + at),
-       load(flight.velocity_scale + at)},
+  const FullMatrices before(flight.inertia, at), after(bodies.flotation.inertia, at),
+      inverse_after(bodies.flotation.inverse, at);
+  const AfterChangeOf<Lanes> changed = applyAddedMassChange(
+      {before, after, inverse_after, load6(bodies.gradient, at), load(bodies.flotation.normal, at),
+       load(bodies.centre_of_buoyancy, at), load(bodies.draught + at),
+       load(bodies.submergence + at), load(bodies.flotation.gravity + at),
+       load(flight.drift_time + at), load(flight.velocity_scale + at)},
       load6(flight.twist_B, at));
-  setTwist(flight, at, active, passed.twist);
-  store(bodies.passage_error + at, passed.error);
+  setTwist(flight, at, active, changed.twist);
+  store(bodies.change_error + at, changed.error);
   const Lanes removed = load(flight.energy_removed + at);
-  store(flight.energy_removed + at, active ? removed + passed.energy_removed : removed);
+  store(flight.energy_removed + at, active ? removed + changed.energy_removed : removed);
   for (int i = 0; i < kSymmetricEntries; ++i) {
     const Lanes old = load(flight.inertia[i] + at),
                 old_inverse = load(flight.inverse_inertia[i] + at);
-    store(flight.inertia[i] + at, active ? load(bodies.stand.inertia[i] + at) : old);
+    store(flight.inertia[i] + at, active ? load(bodies.flotation.inertia[i] + at) : old);
     store(flight.inverse_inertia[i] + at,
-          active ? load(bodies.stand.inverse[i] + at) : old_inverse);
+          active ? load(bodies.flotation.inverse[i] + at) : old_inverse);
   }
 }
 
 Spatials wrenchAt(const SurfaceLanes& bodies, int at) {
   const FlightLanes& flight = bodies.flight;
-  const StandLanes& stand = bodies.stand;
+  const FlotationLanes& flotation = bodies.flotation;
   const Spatials dry = externalWrench(flight, at, orientationOf(flight, at));
-  const Vectors up = load(stand.specific_weight + at) * load(stand.normal, at);
-  return {dry.angular + cross(load(stand.moment, at), up),
-          dry.linear + load(stand.volume + at) * up};
+  const Vectors up = load(flotation.specific_weight + at) * load(flotation.normal, at);
+  return {dry.angular + cross(load(flotation.moment, at), up),
+          dry.linear + load(flotation.volume + at) * up};
 }
 
 void kickByGravity(SurfaceLanes& bodies, int at, const Mask& active) {
@@ -99,7 +101,7 @@ void kickByGravity(SurfaceLanes& bodies, int at, const Mask& active) {
   const Mask is_stiff = active & (load(bodies.is_stiff + at) > Lanes{});
   if (anyOf(is_stiff)) {
     const PositiveFactor<Lanes> stiff(
-        stiffened(inertia, modesAt(bodies.stand, at), load(flight.kick_time + at)));
+        stiffened(inertia, modesAt(bodies.flotation, at), load(flight.kick_time + at)));
     change = select(is_stiff, stiff.solve(wrench), change);
   }
   setTwist(flight, at, active, load6(flight.twist_B, at) + halfKick(flight, at) * change);
@@ -107,7 +109,7 @@ void kickByGravity(SurfaceLanes& bodies, int at, const Mask& active) {
 }
 
 void exchangeWithWaves(SurfaceLanes& bodies, int at, const Mask& active) {
-  const Modes of_body = modesAt(bodies.stand, at);
+  const Modes of_body = modesAt(bodies.flotation, at);
   const Orientations q = orientationOf(bodies.flight, at);
   const ModesAtPose<Lanes> modes{of_body, {q.toWorld(of_body.tilt[0]), q.toWorld(of_body.tilt[1])}};
   WavesOf<Lanes> waves;
@@ -123,7 +125,7 @@ void exchangeWithWaves(SurfaceLanes& bodies, int at, const Mask& active) {
   });
 }
 
-void keepLoad(SurfaceLanes& bodies, int at, const Mask& active) {
+void applyLastLoad(SurfaceLanes& bodies, int at, const Mask& active) {
   FlightLanes& flight = bodies.flight;
   const Spatials load_B = toBody(orientationOf(flight, at), load6(flight.load_W, at));
   const Pairs x = motionOf(flight, at);
@@ -140,7 +142,7 @@ void predictLoad(SurfaceLanes& bodies, int at, const Mask&) {
   sampleLoad<FullMatrices>(flight, at, x, time, false);
 }
 
-void takeLoad(SurfaceLanes& bodies, int at, const Mask& active) {
+void applyLoad(SurfaceLanes& bodies, int at, const Mask& active) {
   FlightLanes& flight = bodies.flight;
   const Lanes time = halfKick(flight, at);
   const Pairs x = underResistance(flight, at, motionOf(flight, at), time);
@@ -156,7 +158,7 @@ void sampleWind(SurfaceLanes& bodies, int at, const Mask&) {
   store6(bodies.flight.sample_twist, at, load6(bodies.flight.twist_B, at) + windAt(bodies, at));
 }
 
-void takeWind(SurfaceLanes& bodies, int at, const Mask& active) {
+void kickByWind(SurfaceLanes& bodies, int at, const Mask& active) {
   FlightLanes& flight = bodies.flight;
   const Spatials seen = load6(flight.sample_twist, at), load_B = load6(flight.load_B, at);
   const Pairs x{seen, FullMatrices(flight.inertia, at) * seen};
@@ -169,13 +171,15 @@ void measure(SurfaceLanes& bodies, int at, const Mask&) {
   const FlightLanes& flight = bodies.flight;
   const Pairs x = motionOf(flight, at);
   const Vectors buoyancy = load(flight.buoyancy_W, at);
-  const Vectors way = load(flight.way_W, at);
-  const Vectors arm = way + orientationOf(flight, at).toWorld(load(flight.centre_of_volume_B, at));
+  const Vectors displacement = load(flight.displacement_W, at);
+  const Vectors arm =
+      displacement + orientationOf(flight, at).toWorld(load(flight.centre_of_volume_B, at));
   const Lanes of_water =
-      load(bodies.stand.specific_weight + at) * load(bodies.stand.depth_integral + at) +
+      load(bodies.flotation.specific_weight + at) * load(bodies.flotation.depth_integral + at) +
       load(bodies.waves.heave_energy + at) + load(bodies.waves.tilt_energy + at);
   store(bodies.kinetic2 + at, inner(x, x));
-  store(bodies.potential + at, of_water - dot(load(flight.force_W, at), way) - dot(buoyancy, arm));
+  store(bodies.potential + at,
+        of_water - dot(load(flight.force_W, at), displacement) - dot(buoyancy, arm));
 }
 
 /// Calls a step for all registers with an active body, which begin with the lane `at`.
@@ -187,23 +191,16 @@ void forAll(SurfaceLanes& bodies) noexcept {
   }
 }
 
-void computeStands(StandLanes& stand) noexcept {
+void computeFlotations(FlotationLanes& flotation) noexcept {
   for (int at = 0; at < kFlightLanes; at += kWidth)
-    if (anyOf(load(stand.active + at) > Lanes{})) computeStand(stand, at);
+    if (anyOf(load(flotation.active + at) > Lanes{})) computeFlotation(flotation, at);
 }
 
 }  // namespace
 
-const SurfaceKernel AMBIENT_KERNEL(kSurfaceKernel){computeStands,
-                                                   forAll<see>,
-                                                   forAll<pass>,
-                                                   forAll<kickByGravity>,
-                                                   forAll<exchangeWithWaves>,
-                                                   forAll<keepLoad>,
-                                                   forAll<predictLoad>,
-                                                   forAll<takeLoad>,
-                                                   forAll<sampleWind>,
-                                                   forAll<takeWind>,
-                                                   forAll<measure>};
+const SurfaceKernel AMBIENT_KERNEL(kSurfaceKernel){
+    computeFlotations,         forAll<see>,           forAll<changeInertia>, forAll<kickByGravity>,
+    forAll<exchangeWithWaves>, forAll<applyLastLoad>, forAll<predictLoad>,   forAll<applyLoad>,
+    forAll<sampleWind>,        forAll<kickByWind>,    forAll<measure>};
 
 }  // namespace ambient

@@ -77,9 +77,9 @@ inline void forEachNumber(FloatingModesOf<To>& to, const FloatingModesOf<From>& 
 }  // namespace
 
 /// Bodies at given positions relative to the water surface: input and output of
-/// SurfaceKernel::stand(). Vectors in B.
-struct alignas(64) StandLanes {
-  FlightLane active;  ///< 1: stand() treats the body
+/// SurfaceKernel::computeFlotations(). Vectors in B.
+struct alignas(64) FlotationLanes {
+  FlightLane active;  ///< 1: computeFlotations() treats the body
 
   // Input.
   FlightLane normal[3], height;           ///< plane of the surface: s and h of docs/theory.md
@@ -101,19 +101,19 @@ struct alignas(64) StandLanes {
 };
 
 /// Bodies in flight near a surface. `flight` holds pose, motion, forces, loads, and the inertia of
-/// the last stand(). Kernels compute the bodies that are active in `flight`.
+/// the last computeFlotations(). Kernels compute the bodies that are active in `flight`.
 struct alignas(64) SurfaceLanes {
   FlightLanes flight;
-  StandLanes stand;
+  FlotationLanes flotation;
 
   FlightLane normal_W[3], height_W;  ///< plane of the surface at the start of the step, in W
   FlightLane is_stiff;               ///< 1: kickByGravity() includes the stiffness of buoyancy
   FlightLane wind_W[3];  ///< velocity of the water minus that of the fluid above, in W [m/s]
 
-  FlightLane gradient[6];     ///< F_K of docs/theory.md eq. (66) at the start of the flow
-  FlightLane draught, cover;  ///< MeanDepths of the flow [m]
+  FlightLane gradient[6];           ///< F_K of docs/theory.md eq. (66) at the start of the flow
+  FlightLane draught, submergence;  ///< MeanDepths of the flow [m]
   FlightLane centre_of_buoyancy[3];
-  FlightLane passage_error;  ///< result of pass(), eq. (68b) [1]
+  FlightLane change_error;  ///< result of changeInertia(), eq. (68b) [1]
 
   WavesOf<FlightLane> waves;
 
@@ -124,30 +124,30 @@ struct alignas(64) SurfaceLanes {
 /// them lasts half of flight.kick_time.
 struct SurfaceKernel {
   /// Computes K^-1, restoring modes, waves and frequencies of the bodies that are active in the
-  /// stand.
-  void (*stand)(StandLanes&) noexcept;
-  /// Sets normal and height of the stand to the plane of the surface in B at the present pose.
+  /// flotation.
+  void (*computeFlotations)(FlotationLanes&) noexcept;
+  /// Sets normal and height of the flotation to the plane of the surface in B at the present pose.
   void (*see)(SurfaceLanes&) noexcept;
-  /// Changes the inertia from that of the flight to that of the stand, and the twist by the passage
-  /// of the surface over drift_time; eq. (66) to (68b).
-  void (*pass)(SurfaceLanes&) noexcept;
+  /// Changes the inertia from that of the flight to that of the flotation, and the twist by the
+  /// change of added mass over drift_time; eq. (66) to (68b).
+  void (*changeInertia)(SurfaceLanes&) noexcept;
   /// Applies weight, applied forces and buoyancy for half a kick. Sets flight.momentum_B.
   void (*kickByGravity)(SurfaceLanes&) noexcept;
-  /// Projects the states of the waves on the modes of the stand, eq. (72), and applies the waves
-  /// for half a kick, eq. (71).
+  /// Projects the states of the waves on the modes of the flotation, eq. (72), and applies the
+  /// waves for half a kick, eq. (71).
   void (*exchangeWaves)(SurfaceLanes&) noexcept;
   /// Applies the load of the last kick, flight.load_W; eq. (23).
-  void (*keepLoad)(SurfaceLanes&) noexcept;
+  void (*applyLastLoad)(SurfaceLanes&) noexcept;
   /// Predicts the motion in the middle of the kick from the last load: sets flight.sample_twist and
   /// predicted_load_B.
   void (*sampleLoad)(SurfaceLanes&) noexcept;
   /// Applies flight.load_B, evaluated at flight.sample_twist; sets load_W and error; eq. (23) to
   /// (25).
-  void (*takeLoad)(SurfaceLanes&) noexcept;
+  void (*applyLoad)(SurfaceLanes&) noexcept;
   /// Sets flight.sample_twist to the twist relative to the fluid above.
   void (*sampleWind)(SurfaceLanes&) noexcept;
   /// Applies flight.load_B, the load of the fluid above at flight.sample_twist.
-  void (*takeWind)(SurfaceLanes&) noexcept;
+  void (*kickByWind)(SurfaceLanes&) noexcept;
   /// Sets kinetic2 and potential.
   void (*measure)(SurfaceLanes&) noexcept;
 };

@@ -20,12 +20,12 @@ class PositiveFactor {
       for (int j = 0; j < i; ++j) {
         scaled[j] = entry(K, i, j);
         for (int k = 0; k < j; ++k) scaled[j] = scaled[j] - scaled[k] * lower_[j][k];
-        lower_[i][j] = scaled[j] * per_pivot_[j];
+        lower_[i][j] = scaled[j] * inverse_pivot_[j];
         pivot = pivot - scaled[j] * lower_[i][j];
       }
       const MaskOf<Real> is_fine = pivot > zero;
       is_positive_ = i == 0 ? is_fine : is_positive_ & is_fine;
-      per_pivot_[i] = one / (is_fine ? pivot : one);
+      inverse_pivot_[i] = one / (is_fine ? pivot : one);
     }
   }
 
@@ -38,7 +38,7 @@ class PositiveFactor {
     for (int i = 1; i < 6; ++i)
       for (int j = 0; j < i; ++j) x[i] = x[i] - lower_[i][j] * x[j];
     for (int i = 5; i >= 0; --i) {
-      x[i] = x[i] * per_pivot_[i];
+      x[i] = x[i] * inverse_pivot_[i];
       for (int j = i + 1; j < 6; ++j) x[i] = x[i] - lower_[j][i] * x[j];
     }
     return {{x[0], x[1], x[2]}, {x[3], x[4], x[5]}};
@@ -56,8 +56,8 @@ class PositiveFactor {
     SymmetricOf<Real> inverse;
     for (int j = 0; j < 6; ++j)
       for (int i = 0; i <= j; ++i) {
-        Real sum = i == j ? per_pivot_[j] : M[j][i] * per_pivot_[j];
-        for (int k = j + 1; k < 6; ++k) sum = sum + M[k][i] * M[k][j] * per_pivot_[k];
+        Real sum = i == j ? inverse_pivot_[j] : M[j][i] * inverse_pivot_[j];
+        for (int k = j + 1; k < 6; ++k) sum = sum + M[k][i] * M[k][j] * inverse_pivot_[k];
         entry(inverse, i, j) = sum;
       }
     return inverse;
@@ -65,7 +65,7 @@ class PositiveFactor {
 
  private:
   Real lower_[6][6];  // L below its diagonal of ones
-  Real per_pivot_[6];
+  Real inverse_pivot_[6];
   MaskOf<Real> is_positive_;
 };
 
@@ -166,19 +166,19 @@ inline PairsOf<Real> settle(const PairsOf<Real>& x, const PairsOf<Real>& fall, c
 
 /// q of eq. (121) over half a kick of `duration` [s].
 template <class Real>
-inline Real dragRate(const LoadShares<Real>& shares, const PairsOf<Real>& x, const Real& duration) {
-  const Real half = 0.5 * shares.speedOf(x);
-  const Real fast = half / (1 + shares.decay * half * duration);
-  return shares.decay * larger<Real>(fast, all<Real>(1));
+inline Real dragRate(const DragAndLift<Real>& split, const PairsOf<Real>& x, const Real& duration) {
+  const Real half = 0.5 * split.speedOf(x);
+  const Real fast = half / (1 + split.decay * half * duration);
+  return split.decay * larger<Real>(fast, all<Real>(1));
 }
 
 /// Angle of Rot in eq. (122) over `duration` [s].
 template <class Real>
-inline Real liftAngle(const LoadShares<Real>& shares, const PairsOf<Real>& x,
+inline Real liftAngle(const DragAndLift<Real>& split, const PairsOf<Real>& x,
                       const Real& duration) {
   const Real zero = Real{};
-  const Real angle = duration * shares.f * shares.per_n * shares.speedOf(x);
-  return shares.moves ? angle : zero;
+  const Real angle = duration * split.f * split.inverse_n * split.speedOf(x);
+  return split.moves ? angle : zero;
 }
 
 /// Returns the motion after a kick of `duration` h [s], eq. (122): V, Rot, V. `fall`: change by the
@@ -188,11 +188,11 @@ template <class Real, class Terms>
 inline PairsOf<Real> viscousKick(const PairsOf<Real>& x, const PairsOf<Real>& at,
                                  const PairsOf<Real>& load, const PairsOf<Real>& fall,
                                  const Terms& terms, const Real& duration) {
-  const LoadShares<Real> shares(at, load);
+  const DragAndLift<Real> split(at, load);
   const Real half = 0.5 * duration;
-  const PairsOf<Real> first = settle(x, fall, terms, dragRate(shares, x, half), half);
-  const PairsOf<Real> turned = shares.turned(first, liftAngle(shares, first, duration));
-  return settle(turned, fall, terms, dragRate(shares, turned, half), half);
+  const PairsOf<Real> first = settle(x, fall, terms, dragRate(split, x, half), half);
+  const PairsOf<Real> turned = split.turned(first, liftAngle(split, first, duration));
+  return settle(turned, fall, terms, dragRate(split, turned, half), half);
 }
 
 /// Returns the motion after `duration` h [s] of a body that the fluid settles meanwhile, eq. (124):
@@ -202,9 +202,9 @@ template <class Real, class Terms>
 inline PairsOf<Real> settledKick(const PairsOf<Real>& x, const PairsOf<Real>& load,
                                  const SpatialsOf<Real>& wrench, const Terms& terms,
                                  const Real& duration) {
-  const LoadShares<Real> shares(x, load);
-  const PairsOf<Real> turned = shares.turned(x, liftAngle(shares, x, duration));
-  const Real z = duration * shares.decay;
+  const DragAndLift<Real> split(x, load);
+  const PairsOf<Real> turned = split.turned(x, liftAngle(split, x, duration));
+  const Real z = duration * split.decay;
   const SpatialsOf<Real> push =
       duration * (wrench - terms.drag(turned.twist)) - z * turned.momentum;
   const SpatialsOf<Real> change = terms.solve(1 + z, duration, Real{}, push);
@@ -216,10 +216,10 @@ template <class Real, class Terms>
 inline PairsOf<Real> viscousSample(const PairsOf<Real>& x, const PairsOf<Real>& load,
                                    const PairsOf<Real>& fall, const Terms& terms,
                                    const Real& duration) {
-  const LoadShares<Real> shares(x, load);
+  const DragAndLift<Real> split(x, load);
   const Real half = 0.5 * duration;
-  const PairsOf<Real> first = settle(x, fall, terms, dragRate(shares, x, half), half);
-  return shares.turned(first, liftAngle(shares, first, half));
+  const PairsOf<Real> first = settle(x, fall, terms, dragRate(split, x, half), half);
+  return split.turned(first, liftAngle(split, first, half));
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ struct Waterplanes {
 
 inline Lanes absolute(const Lanes& a) { return larger(a, -a); }
 inline Lanes smaller(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
-inline Lanes between(const Lanes& a, double least, double most) {
+inline Lanes clamped(const Lanes& a, double least, double most) {
   return smaller(larger(a, all(least)), all(most));
 }
 inline Vectors normalized(const Vectors& a) { return 1 / squareRoot(dot(a, a)) * a; }
@@ -99,23 +99,23 @@ inline void setWaves(const WaveSources& source, Modes& modes) {
               specific_weight = floats ? source.specific_weight : one;
   const Lanes length = squareRoot(area);
   const Lanes volume = source.volume + source.heave_inertia;
-  const Lanes per_depth = between(length * area / (floats ? volume : one), 0.1, 8.0);
+  const Lanes inverse_depth = clamped(length * area / (floats ? volume : one), 0.1, 8.0);
   Lanes width[2];
   for (int i = 0; i < 2; ++i)
-    width[i] = between(squareRoot(12 * modes.second_moment[i] / area) / length, 0.2, 5.0);
-  const Lanes steep = larger(width[0], width[1]) * per_depth;
-  const Lanes log_per_depth = logarithm(per_depth, floats);
+    width[i] = clamped(squareRoot(12 * modes.second_moment[i] / area) / length, 0.2, 5.0);
+  const Lanes steep = larger(width[0], width[1]) * inverse_depth;
+  const Lanes log_inverse_depth = logarithm(inverse_depth, floats);
   const Lanes log_steepness = logarithm(1 + steep * steep / 30, floats);
-  modes.strength[0] = source.damping * modes.stiffness[0] * 0.075 * per_depth * per_depth *
+  modes.strength[0] = source.damping * modes.stiffness[0] * 0.075 * inverse_depth * inverse_depth *
                       exponential(-0.63 * log_steepness, floats);
-  modes.rate[0] = 0.66 * exponential(0.9 * log_per_depth - log_steepness / 3, floats) *
+  modes.rate[0] = 0.66 * exponential(0.9 * log_inverse_depth - log_steepness / 3, floats) *
                   squareRoot(source.gravity / length);
   modes.loss[0] = 1.5 * modes.rate[0];
   for (int i = 0; i < 2; ++i) {
     const Lanes dipole = modes.stiffness[i + 1] / specific_weight;  // V GM
     const Lanes log_width = logarithm(width[i], floats);
     modes.strength[i + 1] = source.damping * specific_weight * dipole * dipole / (area * area) *
-                            1.14 * exponential(1.2 * log_per_depth - 2.6 * log_width, floats);
+                            1.14 * exponential(1.2 * log_inverse_depth - 2.6 * log_width, floats);
     const Lanes rate = 2.7 * squareRoot(source.gravity / (width[i] * length));
     modes.rate[i + 1] = floats ? rate : zero;
     modes.loss[i + 1] = 1.12 * modes.rate[i + 1];
@@ -204,14 +204,15 @@ struct ModeOf {
   SpatialsOf<Real> answer;  ///< K^-1 N
 
   /// Advances the states `s` by `duration` [s] and returns the twist after it. `velocity`: N.x;
-  /// `per_force`: N.K^-1 N.
-  SpatialsOf<Real> exchange(const SpatialsOf<Real>& x, const Real& velocity, const Real& per_force,
+  /// `mobility`: N.K^-1 N.
+  SpatialsOf<Real> exchange(const SpatialsOf<Real>& x, const Real& velocity, const Real& mobility,
                             const Real& duration, OscillationOf<Real>& s) const {
     const Real half = duration / 2;
-    const Real A = 1 + half * loss, B = half * rate, per = 1 / (A + B * B);
-    const Real stiffness = half * strength * per_force;
-    const Real kept = per * (s.first - B * s.second);  // s_1 in the middle if the body rested
-    const Real gain = half * per;
+    const Real A = 1 + half * loss, B = half * rate, inverse_sum = 1 / (A + B * B);
+    const Real stiffness = half * strength * mobility;
+    const Real kept =
+        inverse_sum * (s.first - B * s.second);  // s_1 in the middle if the body rested
+    const Real gain = half * inverse_sum;
     const Real middle = (velocity - stiffness * kept) / (1 + stiffness * gain);
     const Real first = kept + gain * middle, second = s.second + B * first;
     s = {2 * first - s.first, 2 * second - s.second};

@@ -86,29 +86,29 @@ LinkDynamics::LinkDynamics(const LinkTree& tree) : tree_(tree), kernel_(*kLinkKe
 void LinkDynamics::setForces(bool are_felt) noexcept {
   if (has_forces_ == are_felt) return;
   has_forces_ = are_felt;
-  for (int l = 0; l < count(); ++l) takeModel(tree_.links[l], links_[l]);
-  kernel_.place(links_.data(), count());
+  for (int l = 0; l < count(); ++l) setModel(tree_.links[l], links_[l]);
+  kernel_.computePoses(links_.data(), count());
 }
 
 void LinkDynamics::setPose(const TreePose& pose) noexcept {
-  for (int l = 0; l < count(); ++l) takeModel(tree_.links[l], links_[l]);
+  for (int l = 0; l < count(); ++l) setModel(tree_.links[l], links_[l]);
   moveTo(pose);
 }
 
 void LinkDynamics::moveTo(const TreePose& pose) noexcept {
   AMBIENT_ASSERT(static_cast<int>(pose.joints.size()) == tree_.size());
-  if (!isSame(pose, pose_)) takeOffsets(pose);
-  kernel_.place(links_.data(), count());
+  if (!isSame(pose, pose_)) setOffsets(pose);
+  kernel_.computePoses(links_.data(), count());
 }
 
-void LinkDynamics::takeOffsets(const TreePose& pose) noexcept {
+void LinkDynamics::setOffsets(const TreePose& pose) noexcept {
   pose_ = pose;
   setOffset({pose.orientation.toRotationMatrix(), pose.position}, links_[0]);
   for (int l = 1; l < count(); ++l)
     setOffset(linkOffset(tree_.links[l].joint, pose.joints[l]), links_[l]);
 }
 
-void LinkDynamics::takeModel(const Link& link, LinkState& state) noexcept {
+void LinkDynamics::setModel(const Link& link, LinkState& state) noexcept {
   const Surroundings& s = link.surroundings;
   state.is_kept = link.keeps_velocity && (state.parent < 0 || links_[state.parent].is_kept);
   state.mass = link.mass;
@@ -185,7 +185,7 @@ double LinkDynamics::roughNormSquared(const CoordinatesIn& u) const noexcept {
 void LinkDynamics::accelerations(const CoordinatesIn& u, CoordinatesOut result) noexcept {
   AMBIENT_ASSERT(u.size() == coordinates_ && result.size() == coordinates_);
   kernel_.computeForces(links_.data(), count(), tree_, u.data(), nullptr);
-  takeJointForces();
+  setJointForces();
   solve(result.data());
 }
 
@@ -193,12 +193,12 @@ void LinkDynamics::correctAccelerations(const CoordinatesIn& u,
                                         CoordinatesOut accelerations) noexcept {
   AMBIENT_ASSERT(u.size() == coordinates_ && accelerations.size() == coordinates_);
   kernel_.computeForces(links_.data(), count(), tree_, u.data(), accelerations.data());
-  takeJointForces();
+  setJointForces();
   solve(missing_.data());
   accelerations += missing_;
 }
 
-void LinkDynamics::takeJointForces() noexcept {
+void LinkDynamics::setJointForces() noexcept {
   for (std::size_t l = 1; l < links_.size(); ++l)
     for (int i = 0; i < links_[l].axis_count; ++i)
       links_[l].rest[i] = has_forces_ ? tree_.links[l].joint_force[i] : 0;

@@ -135,9 +135,9 @@ class LinkDynamics {
 
  private:
   int count() const { return static_cast<int>(links_.size()); }
-  void takeModel(const Link& link, LinkState& state) noexcept;
-  void takeOffsets(const TreePose& pose) noexcept;
-  void takeJointForces() noexcept;
+  void setModel(const Link& link, LinkState& state) noexcept;
+  void setOffsets(const TreePose& pose) noexcept;
+  void setJointForces() noexcept;
   void solve(double* result) noexcept;
 
   const LinkTree& tree_;

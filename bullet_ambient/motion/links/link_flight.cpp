@@ -19,7 +19,7 @@ bool isModest(double factor) { return factor < kLargestFactor && factor * kLarge
 LinkIntegrals::LinkIntegrals(const LinkTree& tree)
     : tree_(tree), flow_(coordinateCount(tree)), x_(flow_), momenta_(flow_) {}
 
-void LinkIntegrals::take(LinkDynamics& dynamics, const CoordinatesIn& u) noexcept {
+void LinkIntegrals::store(LinkDynamics& dynamics, const CoordinatesIn& u) noexcept {
   AMBIENT_ASSERT(u.size() == flow_.size());
   is_known_ = findFlow(tree_, u, flow_);
   floats_ = !tree_.links[0].keeps_velocity;
@@ -35,11 +35,11 @@ void LinkIntegrals::addForces(LinkDynamics& dynamics, const CoordinatesIn& u, do
   dynamics.appliedForces(momenta_);
   x_ = u - flow_;
   energy_ += 2 * h * momenta_.dot(x_);
-  const Vector3 way = h / 2 * flow_.segment<3>(3), force = momenta_.segment<3>(3);
+  const Vector3 displacement = h / 2 * flow_.segment<3>(3), force = momenta_.segment<3>(3);
   momentum_.head<3>() +=
-      h * (momenta_.head<3>() + (dynamics.position(0) - reference_ - way).cross(force));
+      h * (momenta_.head<3>() + (dynamics.position(0) - reference_ - displacement).cross(force));
   momentum_.tail<3>() += h * force;
-  reference_ += 2 * way;
+  reference_ += 2 * displacement;
 }
 
 Vector6 LinkIntegrals::momentumAbout(const Vector3& point_W) const noexcept {
@@ -149,7 +149,7 @@ int LinkFlight::flyInSubsteps(int substeps, double duration, const LinkFlightSet
   count.energy_removed = 0;
   for (int i = 0; i < substeps; ++i) {
     if (has_loads) kickBy(h / 2, end_);
-    integrals_.take(dynamics_, end_);
+    integrals_.store(dynamics_, end_);
     const bool converges = findMiddle(h, settings);
     integrals_.addForces(dynamics_, mean_, h);
     movePose(tree_, end_pose_, mean_, h, end_pose_);
@@ -251,7 +251,7 @@ void LinkFlight::kickBy(double h, Coordinates& u) noexcept {
 double LinkFlight::arriveAt(const TreePose& reached, bool has_rows,
                             Coordinates& velocity) noexcept {
   dynamics_.setPose(end_pose_);
-  integrals_.take(dynamics_, end_);
+  integrals_.store(dynamics_, end_);
   dynamics_.moveTo(reached);
   if (!has_rows) return integrals_.impose(dynamics_, velocity, true);
   integrals_.imposeMomentum(dynamics_, velocity);

@@ -15,7 +15,7 @@ class LinkIntegrals {
   explicit LinkIntegrals(const LinkTree& tree);
 
   /// Stores momentum and energy of the velocity `u`. @pre `dynamics` has the pose
-  void take(LinkDynamics& dynamics, const CoordinatesIn& u) noexcept;
+  void store(LinkDynamics& dynamics, const CoordinatesIn& u) noexcept;
   /// Adds the changes of momentum and energy by the forces at the middle of a substep of h [s];
   /// `u`: middle velocity. @pre `dynamics` has this pose and velocity
   void addForces(LinkDynamics& dynamics, const CoordinatesIn& u, double h) noexcept;

@@ -117,7 +117,7 @@ AxisPair crossTwist(const AxisPair& V, const AxisPair& s) {
   return {cross(V.angular, s.angular), cross(V.linear, s.angular) + cross(V.angular, s.linear)};
 }
 
-void place(LinkState* links, int count) noexcept {
+void computePoses(LinkState* links, int count) noexcept {
   for (int l = 0; l < count; ++l) {
     LinkState& link = links[l];
     AxisMatrix R = link.offset;
@@ -252,18 +252,18 @@ void addToParent(LinkState* links, const LinkState& link, const InertiaBlocks& I
 
 // Inverts a symmetric matrix of `n` rows. Returns false if it is not positive definite.
 bool invert(const double (&D)[3][3], int n, double (&inverse)[3][3]) {
-  double lower[3][3] = {}, per_pivot[3] = {};
+  double lower[3][3] = {}, inverse_pivot[3] = {};
   bool is_positive = true;
   for (int i = 0; i < n; ++i) {
     double scaled[3] = {}, pivot = D[i][i];
     for (int j = 0; j < i; ++j) {
       scaled[j] = D[i][j];
       for (int k = 0; k < j; ++k) scaled[j] -= scaled[k] * lower[j][k];
-      lower[i][j] = scaled[j] * per_pivot[j];
+      lower[i][j] = scaled[j] * inverse_pivot[j];
       pivot -= scaled[j] * lower[i][j];
     }
-    per_pivot[i] = 1 / pivot;
-    is_positive = is_positive && pivot > 0 && per_pivot[i] <= __DBL_MAX__;
+    inverse_pivot[i] = 1 / pivot;
+    is_positive = is_positive && pivot > 0 && inverse_pivot[i] <= __DBL_MAX__;
   }
   for (int j = 0; j < n; ++j) {
     double x[3] = {0, 0, 0};
@@ -271,7 +271,7 @@ bool invert(const double (&D)[3][3], int n, double (&inverse)[3][3]) {
     for (int i = j + 1; i < n; ++i)
       for (int k = j; k < i; ++k) x[i] -= lower[i][k] * x[k];
     for (int i = n - 1; i >= 0; --i) {
-      x[i] *= per_pivot[i];
+      x[i] *= inverse_pivot[i];
       for (int k = i + 1; k < n; ++k) x[i] -= lower[k][i] * x[k];
       inverse[i][j] = x[i];
     }
@@ -281,7 +281,7 @@ bool invert(const double (&D)[3][3], int n, double (&inverse)[3][3]) {
 
 // Replaces I by I - I S (S^T I S)^-1 S^T I, eq. (79): inertia of the subtree that the parent feels.
 // Returns false if S^T I S is not positive definite.
-bool takeOutJoint(LinkState& link, InertiaBlocks& I) {
+bool removeJoint(LinkState& link, InertiaBlocks& I) {
   if (link.axis_count == 0) return true;
   const AxisMatrix coupling_transposed = transposed(I.coupling);
   double D[3][3] = {};
@@ -321,7 +321,7 @@ bool articulate(LinkState* links, int count, const KickTerms* kick) noexcept {
     LinkState& link = links[l];
     if (link.is_kept) continue;
     InertiaBlocks I = link.articulated;
-    is_positive = takeOutJoint(link, I) && is_positive;
+    is_positive = removeJoint(link, I) && is_positive;
     if (!links[link.parent].is_kept) addToParent(links, link, I);
   }
   return is_positive;
@@ -368,7 +368,7 @@ void accelerate(LinkState* links, int count, double* result) noexcept {
 }  // namespace
 
 const LinkKernel AMBIENT_KERNEL(kLinkKernel){
-    place, setVelocity, computeForces, computeApplied, computeMomenta, measure,
-    norm,  sumForces,   articulate,    lockJoints,     sumNeeds,       accelerate};
+    computePoses, setVelocity, computeForces, computeApplied, computeMomenta, measure,
+    norm,         sumForces,   articulate,    lockJoints,     sumNeeds,       accelerate};
 
 }  // namespace ambient

@@ -54,7 +54,7 @@ struct LinkState {
   AxisMatrix offset, offset_transposed;
   AxisRow translation;  ///< centre of mass in the parent's frame; of the base: in W [m]
 
-  // Set by LinkKernel::place().
+  // Set by LinkKernel::computePoses().
   AxisMatrix rotation_W, rotation_W_transposed;  ///< link to W, and back
   AxisRow position_W;                            ///< centre of mass [m]
   AxisRow flow;                                  ///< ambient velocity [m/s]
@@ -86,8 +86,8 @@ struct MultiBodySettings {
 /// is fused, so that all instruction sets give the same bits. Letters V, A, f, K are members of
 /// LinkState.
 struct LinkKernel {
-  /// Sets the members that LinkState lists under place(), from models and offsets.
-  void (*place)(LinkState* links, int count) noexcept;
+  /// Sets the members that LinkState lists under computePoses(), from models and offsets.
+  void (*computePoses)(LinkState* links, int count) noexcept;
   /// Sets V for the velocity `u`.
   void (*setVelocity)(LinkState* links, int count, const double* u) noexcept;
   /// Sets V, A and f of eq. (77) for the velocity `u` and the given du/dt; null: zero.

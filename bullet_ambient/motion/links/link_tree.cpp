@@ -38,12 +38,12 @@ Vector3 jointVector(const double* x) { return {x[0], x[1], x[2]}; }
 // Coordinates of a planar joint: rotation axis; displacement as a vector from its components along
 // the two axes of the plane; and one component of a displacement.
 Vector3 planeNormal(const Joint& joint) { return joint.axes[0].head<3>(); }
-Vector3 planeVector(const Joint& joint, const double* ways) {
-  return ways[0] * joint.axes[1].tail<3>() + ways[1] * joint.axes[2].tail<3>();
+Vector3 planeVector(const Joint& joint, const double* displacements) {
+  return displacements[0] * joint.axes[1].tail<3>() + displacements[1] * joint.axes[2].tail<3>();
 }
-double wayAlong(const Joint& joint, int axis, const Vector3& way) {
+double displacementAlong(const Joint& joint, int axis, const Vector3& displacement) {
   const Vector3 b = joint.axes[axis].tail<3>();
-  return b.dot(way) / b.squaredNorm();
+  return b.dot(displacement) / b.squaredNorm();
 }
 
 // Moves a planar joint along an arc of constant velocity in the link's axes.
@@ -54,20 +54,20 @@ JointPosition movedInPlane(const Joint& joint, const JointPosition& position,
   // loses digits there.
   const double chord = std::abs(half_turn) < 1e-4 ? 1 - half_turn * half_turn / 6
                                                   : portable::sin(half_turn) / half_turn;
-  const Vector3 way = rotationAbout(planeNormal(joint), position[0] + half_turn) *
-                      (chord * h * planeVector(joint, velocity + 1));
-  return {position[0] + 2 * half_turn, position[1] + wayAlong(joint, 1, way),
-          position[2] + wayAlong(joint, 2, way), 0};
+  const Vector3 displacement = rotationAbout(planeNormal(joint), position[0] + half_turn) *
+                               (chord * h * planeVector(joint, velocity + 1));
+  return {position[0] + 2 * half_turn, position[1] + displacementAlong(joint, 1, displacement),
+          position[2] + displacementAlong(joint, 2, displacement), 0};
 }
 
 // Computes velocityBetween() for a planar joint.
 void velocityInPlane(const Joint& joint, const JointPosition& from, const JointPosition& to,
                      double h, double* velocity) {
-  const double ways[2] = {(to[1] - from[1]) / h, (to[2] - from[2]) / h};
-  const Vector3 v = rotationAbout(planeNormal(joint), -to[0]) * planeVector(joint, ways);
+  const double displacements[2] = {(to[1] - from[1]) / h, (to[2] - from[2]) / h};
+  const Vector3 v = rotationAbout(planeNormal(joint), -to[0]) * planeVector(joint, displacements);
   velocity[0] = (to[0] - from[0]) / h;
   for (int axis : {1, 2}) {
-    velocity[axis] = wayAlong(joint, axis, v) / joint.axes[axis].tail<3>().squaredNorm();
+    velocity[axis] = displacementAlong(joint, axis, v) / joint.axes[axis].tail<3>().squaredNorm();
   }
 }
 
@@ -188,9 +188,9 @@ void movePose(const LinkTree& tree, const TreePose& from, const CoordinatesIn& u
     to.orientation = from.orientation;
     to.position = from.position;
   } else {
-    const Vector3 turn = h * u.head<3>(), way = h * u.segment<3>(3);
+    const Vector3 turn = h * u.head<3>(), displacement = h * u.segment<3>(3);
     to.orientation = (rotationFromVector(turn) * from.orientation).normalized();
-    to.position = from.position + way;
+    to.position = from.position + displacement;
   }
   int first = 6;
   for (int l = 1; l < tree.size(); ++l) {

@@ -88,7 +88,7 @@ double sloppedIn(const HoldShape& shape, const SeaAt& sea, const HoldState& stat
   return share * in;
 }
 
-void exchangeWithSea(const HoldShape& shape, const SeaAt& sea, const Passage& passage,
+void exchangeWithSea(const HoldShape& shape, const SeaAt& sea, const ExchangeStep& step,
                      HoldState& state, std::size_t hold) {
   const Vector3& normal = sea.plane_F.normal;
   if (!(state.volume > 0) && isClear(sea, kNoWater)) return;
@@ -99,12 +99,12 @@ void exchangeWithSea(const HoldShape& shape, const SeaAt& sea, const Passage& pa
   outside.rises = sea.data();
   inside.rises = sea.dataInside();
   double in =
-      volumeThrough(sea.opening, {normal, sea.plane_F.gravity}, outside, inside, passage.duration);
+      volumeThrough(sea.opening, {normal, sea.plane_F.gravity}, outside, inside, step.duration);
   if (sea.inside && in != 0) {
-    const double energy = passage.waves->energy[hold];
-    double available = energy - passage.waves->lost[hold];
+    const double energy = step.waves->energy[hold];
+    double available = energy - step.waves->lost[hold];
     in = sloppedIn(shape, sea, state, in, available);
-    passage.waves->lost[hold] = energy - available;
+    step.waves->lost[hold] = energy - available;
   }
   addWater(in, state);
   state.inflow += in;
@@ -134,37 +134,36 @@ bool hasOneAir(const HoldShapes::Opening& opening, const HoldState* states) {
 
 /// Exchanges through an opening that is not shut; `number`: its own among all.
 void exchangeThrough(const HoldShapes& holds, const HoldShapes::Opening& opening,
-                     std::size_t number, const SurfacePlane& plane_F, const Passage& passage,
+                     std::size_t number, const SurfacePlane& plane_F, const ExchangeStep& step,
                      HoldState* states) {
   if (!hasOneAir(opening, states)) {
-    exchangeSealed(holds, opening, plane_F, passage, states);
+    exchangeSealed(holds, opening, plane_F, step, states);
   } else if (opening.to < 0) {
-    const SeaAt sea{opening.shape, plane_F, passage.rises ? &(*passage.rises)[number] : nullptr,
-                    passage.waves ? passage.waves->at(number) : nullptr};
+    const SeaAt sea{opening.shape, plane_F, step.rises ? &(*step.rises)[number] : nullptr,
+                    step.waves ? step.waves->at(number) : nullptr};
     const auto hold = static_cast<std::size_t>(opening.from);
-    exchangeWithSea(holds.shapes[hold], sea, passage, states[hold], hold);
+    exchangeWithSea(holds.shapes[hold], sea, step, states[hold], hold);
   } else {
-    exchangeBetween(holds, opening, plane_F, passage.duration, states);
+    exchangeBetween(holds, opening, plane_F, step.duration, states);
     shareAir(holds, states[opening.from].air_group, states);
   }
 }
 
 /// Whether the holds are empty and the sea is below their openings.
-bool areDryAndClear(const HoldShapes& holds, const SurfacePlane& plane_F, const Passage& passage,
+bool areDryAndClear(const HoldShapes& holds, const SurfacePlane& plane_F, const ExchangeStep& step,
                     const HoldState* states) {
   if (!areEmpty(holds, states)) return false;
   bool are_clear = true;
-  forEachOpening(
-      holds, passage.changes, [&](const HoldShapes::Opening& opening, std::size_t number) {
-        const auto* rises = passage.rises ? &(*passage.rises)[number] : nullptr;
-        are_clear =
-            are_clear && (opening.to >= 0 || isClear({opening.shape, plane_F, rises}, kNoWater));
-      });
+  forEachOpening(holds, step.changes, [&](const HoldShapes::Opening& opening, std::size_t number) {
+    const auto* rises = step.rises ? &(*step.rises)[number] : nullptr;
+    are_clear =
+        are_clear && (opening.to >= 0 || isClear({opening.shape, plane_F, rises}, kNoWater));
+  });
   return are_clear;
 }
 
 /// Lets the pump of a hold run. Sealed air is pressed together to a half in a step at most.
-/// `known`: Passage::modes of the hold; null: not known.
+/// `known`: ExchangeStep::modes of the hold; null: not known.
 void runPump(const HoldShape& shape, double duration, const HoldModes* known, HoldState& state) {
   const double room = std::max(0.0, shape.capacity() - state.filled());
   state.inflow = std::clamp(duration * state.pump, -state.volume,
@@ -188,27 +187,25 @@ void loseDregs(const HoldShape& shape, HoldState& state) {
 
 }  // namespace
 
-bool staysDry(const HoldShapes& holds, const SurfacePlane& plane_F, const Passage& passage,
+bool staysDry(const HoldShapes& holds, const SurfacePlane& plane_F, const ExchangeStep& step,
               const HoldState* states) noexcept {
   return std::none_of(states, states + holds.shapes.size(),
                       [](const HoldState& state) { return state.pump > 0; }) &&
-         (passage.are_open ? areDryAndClear(holds, plane_F, passage, states)
-                           : areEmpty(holds, states));
+         (step.are_open ? areDryAndClear(holds, plane_F, step, states) : areEmpty(holds, states));
 }
 
-Matrix6 exchangeWater(const HoldShapes& holds, const SurfacePlane& plane_F, const Passage& passage,
-                      HoldState* states) noexcept {
-  AMBIENT_ASSERT(passage.duration >= 0 && passage.atmosphere > 0);
+Matrix6 exchangeWater(const HoldShapes& holds, const SurfacePlane& plane_F,
+                      const ExchangeStep& step, HoldState* states) noexcept {
+  AMBIENT_ASSERT(step.duration >= 0 && step.atmosphere > 0);
   for (std::size_t i = 0; i < holds.shapes.size(); ++i)
-    runPump(holds.shapes[i], passage.duration, passage.modes ? &passage.modes[i] : nullptr,
-            states[i]);
-  if (passage.are_open && areDryAndClear(holds, plane_F, passage, states)) {
+    runPump(holds.shapes[i], step.duration, step.modes ? &step.modes[i] : nullptr, states[i]);
+  if (step.are_open && areDryAndClear(holds, plane_F, step, states)) {
     for (std::size_t i = 0; i < holds.shapes.size(); ++i) states[i].is_sealed = false;
-  } else if (passage.are_open) {
-    sealHolds(holds, plane_F, passage, states);
-    forEachOpening(holds, passage.changes,
+  } else if (step.are_open) {
+    sealHolds(holds, plane_F, step, states);
+    forEachOpening(holds, step.changes,
                    [&](const HoldShapes::Opening& opening, std::size_t number) {
-                     exchangeThrough(holds, opening, number, plane_F, passage, states);
+                     exchangeThrough(holds, opening, number, plane_F, step, states);
                    });
   }
   Matrix6 come = Matrix6::Zero();

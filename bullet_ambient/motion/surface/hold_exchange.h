@@ -5,18 +5,18 @@
 namespace ambient {
 
 /// Lets the pumps run, and water pass through the openings, one after the other, for the duration
-/// of a passage; docs/theory.md eq. (138) to (140), where water shuts off air (143) to (147), where
+/// of a step; docs/theory.md eq. (138) to (140), where water shuts off air (143) to (147), where
 /// waves in a hold reach an opening to the sea (154a), (154b). No level passes that on the other
 /// side but by a difference of pressures or of waves. Returns the inertia in F of the water that
 /// has come from outside, per unit density; it was at rest there.
 /// @param plane_F of the water outside
 /// @param states one of each hold
-Matrix6 exchangeWater(const HoldShapes& holds, const SurfacePlane& plane_F, const Passage& passage,
-                      HoldState* states) noexcept;
+Matrix6 exchangeWater(const HoldShapes& holds, const SurfacePlane& plane_F,
+                      const ExchangeStep& step, HoldState* states) noexcept;
 
 /// Tells if all holds are empty, and neither pumps nor the water outside change that: then
 /// exchangeWater() does nothing. Parameters are its own.
-bool staysDry(const HoldShapes& holds, const SurfacePlane& plane_F, const Passage& passage,
+bool staysDry(const HoldShapes& holds, const SurfacePlane& plane_F, const ExchangeStep& step,
               const HoldState* states) noexcept;
 
 /// Adds water to a hold [m^3]; its level is then not known.
@@ -26,16 +26,16 @@ void addWater(double volume, HoldState& state) noexcept;
 /// air: HoldState::is_sealed, air and air_group. Air that has more pressure than water at an
 /// opening bubbles out, docs/theory.md eq. (143) to (145). Cost where no hold is sealed: the
 /// corners of the openings, and the levels that the flow needs anyway.
-void sealHolds(const HoldShapes& holds, const SurfacePlane& plane_F, const Passage& passage,
+void sealHolds(const HoldShapes& holds, const SurfacePlane& plane_F, const ExchangeStep& step,
                HoldState* states) noexcept;
 
 /// Gives the holds of a group one pressure after water has moved between them. -1: does nothing.
 void shareAir(const HoldShapes& holds, int group, HoldState* states) noexcept;
 
 /// Lets water pass through an opening that has other air on its two sides, for the duration of a
-/// passage, eq. (147). Cost: some clips of the holds, 1 to 20 us.
+/// step, eq. (147). Cost: some clips of the holds, 1 to 20 us.
 void exchangeSealed(const HoldShapes& holds, const HoldShapes::Opening& opening,
-                    const SurfacePlane& plane_F, const Passage& passage,
+                    const SurfacePlane& plane_F, const ExchangeStep& step,
                     HoldState* states) noexcept;
 
 }  // namespace ambient

@@ -124,7 +124,7 @@ void mixSloshing(const HoldState* states, const HoldModes* before, const Sloshin
         state.change > 0 ? std::clamp(state.inflow / state.change, 0.0, 1.0) : 0;
     Sloshing joined;
     joinVessel({after.density, after.modes + i, 1, after.to_world}, x, &joined);
-    sloshing[i].way_W *= kept;
+    sloshing[i].displacement_W *= kept;
     sloshing[i].velocity_W =
         kept * sloshing[i].velocity_W + (1 - kept) * (1 - from_sea) * joined.velocity_W;
     sloshing[i].is_known = true;

@@ -93,7 +93,7 @@ struct WavesInside {
 };
 
 /// Air around the holds and a duration in which water flows.
-struct Passage {
+struct ExchangeStep {
   bool are_open = true;                     ///< false: nothing passes through openings
   double duration = 0;                      ///< [s]
   double atmosphere = 101325;               ///< pressure of the air at the surface [Pa]
@@ -124,9 +124,10 @@ struct WaterInside {
 
 /// Sloshing in the holds of a body, one of each.
 struct VesselSloshing {
-  std::vector<Sloshing> now;            ///< from step to step
-  std::vector<Sloshing> moved;          ///< in a step
-  std::vector<HoldModes> modes, later;  ///< in B at the stand of the body; where a step comes to
+  std::vector<Sloshing> now;    ///< from step to step
+  std::vector<Sloshing> moved;  ///< in a step
+  std::vector<HoldModes> modes,
+      later;  ///< in B at the flotation of the body; where a step comes to
 
   /// For a number of holds.
   void resize(std::size_t count);

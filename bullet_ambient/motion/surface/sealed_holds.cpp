@@ -17,7 +17,7 @@ constexpr double kEmpty = 1e-12;  // of a hold, that of fillHold()
 struct Holds {
   const HoldShapes& holds;
   const SurfacePlane& plane_F;
-  const Passage& passage;
+  const ExchangeStep& step;
   HoldState* states;
 
   int count() const { return static_cast<int>(holds.shapes.size()); }
@@ -26,11 +26,11 @@ struct Holds {
   double room(int hold) const {
     return std::max(0.0, shape(hold).capacity() - states[hold].filled());
   }
-  Outside outside() const { return {passage.atmosphere, plane_F.density * plane_F.gravity}; }
+  Outside outside() const { return {step.atmosphere, plane_F.density * plane_F.gravity}; }
   double height(const Vector3& place) const { return plane_F.normal.dot(place); }
   template <class Function>
   void forEach(const Function& function) const {
-    forEachOpening(holds, passage.changes, function);
+    forEachOpening(holds, step.changes, function);
   }
 };
 
@@ -64,8 +64,8 @@ bool passesAirOverWaves(const Holds& h, const OpeningShape& opening,
 /// Whether air passes from outside through an opening of a hold.
 bool isVented(const Holds& h, const HoldShapes::Opening& opening, std::size_t number) {
   const auto passes = [&](double from) {
-    return h.passage.rises ? passesAirOverWaves(h, opening.shape, (*h.passage.rises)[number], from)
-                           : passesAir(h, opening.shape, h.plane_F.height, from);
+    return h.step.rises ? passesAirOverWaves(h, opening.shape, (*h.step.rises)[number], from)
+                        : passesAir(h, opening.shape, h.plane_F.height, from);
   };
   if (!passes(-kInfinite)) return false;
   return !(h.states[opening.from].volume > kEmpty * h.shape(opening.from).capacity()) ||
@@ -151,15 +151,15 @@ void bubbleOut(const Holds& h) {
 /// Lets air pass at once from one hold to another one where water over a door does not keep it.
 void bubbleThrough(const Holds& h, const HoldShapes::Opening& door, int from, int to) {
   const int one = h.states[from].air_group, two = h.states[to].air_group;
-  const double top = door.shape.top(h.plane_F.normal), cover = h.level(to) - top;
-  if (one == two || !(h.level(from) < top) || !(cover >= 0)) return;
+  const double top = door.shape.top(h.plane_F.normal), submergence = h.level(to) - top;
+  if (one == two || !(h.level(from) < top) || !(submergence >= 0)) return;
   const Outside outside = h.outside();
   const SealedAir free{outside.atmosphere * kInfinite, kInfinite};
   const SealedAir here = one < 0 ? free : airOf(h, one), there = two < 0 ? free : airOf(h, two);
   const auto pressure = [&](int group, const SealedAir& air) {
     return group < 0 ? outside.atmosphere : air.product / air.volume;
   };
-  const double excess = pressure(one, here) - pressure(two, there) - outside.weight * cover;
+  const double excess = pressure(one, here) - pressure(two, there) - outside.weight * submergence;
   if (!(excess > 0)) return;
   const double amount = excess / (1 / here.volume + 1 / there.volume);  // of pressure times volume
   if (one >= 0) setProduct(h, one, here.product - amount);
@@ -176,8 +176,8 @@ struct Side {
   int group;        ///< of its air; -1: that outside
   SealedAir air{};  ///< where it is sealed
 
-  double headAfter(double taken, double height, const Outside& outside) const {
-    return group < 0 ? 0 : air.headAfter(taken, height, outside);
+  double headAfter(double inflow, double height, const Outside& outside) const {
+    return group < 0 ? 0 : air.headAfter(inflow, height, outside);
   }
 };
 
@@ -219,7 +219,7 @@ class SealedOpening {
   }
 
   /// Volume that passes in a duration, eq. (147) [m^3].
-  double pass(double duration) {
+  double volumeThrough(double duration) {
     const double first = duration * flow(0);
     if (first == 0 || !std::isfinite(first)) return 0;
     const double end = farthest(first);
@@ -232,19 +232,19 @@ class SealedOpening {
     return fallingRoot(0, first, end, at_end, kAccuracy * std::abs(first), excess);
   }
 
-  void take(double passed) {
+  void apply(double passed) {
     if (passed == 0) return;
     const bool rises_there = bubbling_ < 0;  // the air, if it does
     Side &lower = rises_there ? here_ : there_, &upper = rises_there ? there_ : here_;
-    const double lost = takeOn(lower, rises_there ? -passed : passed);
+    const double lost = addWaterTo(lower, rises_there ? -passed : passed);
     if (gives_air_) upper.air.product += lost;
-    takeOn(upper, rises_there ? passed : -passed);
+    addWaterTo(upper, rises_there ? passed : -passed);
   }
 
  private:
-  double levelAfter(const Side& side, double taken) const {
-    if (side.hold < 0 || taken == 0) return side.level;
-    const double volume = std::max(0.0, h_.states[side.hold].filled() + taken);
+  double levelAfter(const Side& side, double inflow) const {
+    if (side.hold < 0 || inflow == 0) return side.level;
+    const double volume = std::max(0.0, h_.states[side.hold].filled() + inflow);
     return fillHold(h_.shape(side.hold), up_.normal, volume, side.level).height;
   }
 
@@ -302,18 +302,18 @@ class SealedOpening {
   /// Sets the mean areas on the way to an end.
   void setAreas(double end) {
     for (Side* side : {&here_, &there_}) {
-      const double taken = side == &here_ ? -end : end;
-      const double rise = levelAfter(*side, taken) - side->level;
-      side->area = rise * taken > 0 ? taken / rise : kInfinite;
+      const double inflow = side == &here_ ? -end : end;
+      const double rise = levelAfter(*side, inflow) - side->level;
+      side->area = rise * inflow > 0 ? inflow / rise : kInfinite;
     }
   }
 
   /// Gives a side water [m^3]. Returns what its air has lost, pressure times volume [J].
-  double takeOn(const Side& side, double taken) {
+  double addWaterTo(const Side& side, double inflow) {
     if (side.hold < 0) return 0;
-    addWater(taken, h_.states[side.hold]);
+    addWater(inflow, h_.states[side.hold]);
     if (side.group < 0) return 0;
-    const double after = side.air.productAfter(taken, h_.level(side.hold), h_.outside());
+    const double after = side.air.productAfter(inflow, h_.level(side.hold), h_.outside());
     setProduct(h_, side.group, after);
     return side.air.product - after;
   }
@@ -335,9 +335,9 @@ void addWater(double volume, HoldState& state) noexcept {
   state.level = std::numeric_limits<double>::quiet_NaN();
 }
 
-void sealHolds(const HoldShapes& holds, const SurfacePlane& plane_F, const Passage& passage,
+void sealHolds(const HoldShapes& holds, const SurfacePlane& plane_F, const ExchangeStep& step,
                HoldState* states) noexcept {
-  const Holds h{holds, plane_F, passage, states};
+  const Holds h{holds, plane_F, step, states};
   findGroups(h);
   bool is_any = false;
   for (int i = 0; i < h.count(); ++i) {
@@ -348,7 +348,7 @@ void sealHolds(const HoldShapes& holds, const SurfacePlane& plane_F, const Passa
     if (!state.is_sealed) {
       state.air = 0;
     } else if (!was_sealed) {
-      state.air = passage.atmosphere * h.room(i);
+      state.air = step.atmosphere * h.room(i);
     }
   }
   if (!is_any) return;
@@ -363,16 +363,16 @@ void shareAir(const HoldShapes& holds, int group, HoldState* states) noexcept {
 }
 
 void exchangeSealed(const HoldShapes& holds, const HoldShapes::Opening& opening,
-                    const SurfacePlane& plane_F, const Passage& passage,
+                    const SurfacePlane& plane_F, const ExchangeStep& step,
                     HoldState* states) noexcept {
-  const Holds h{holds, plane_F, passage, states};
+  const Holds h{holds, plane_F, step, states};
   if (opening.to >= 0) {
     bubbleThrough(h, opening, opening.from, opening.to);
     bubbleThrough(h, opening, opening.to, opening.from);
   }
   SealedOpening sealed(h, opening);
-  const double passed = sealed.pass(passage.duration);
-  sealed.take(passed);
+  const double passed = sealed.volumeThrough(step.duration);
+  sealed.apply(passed);
   if (opening.to < 0) states[opening.from].inflow -= passed;
 }
 

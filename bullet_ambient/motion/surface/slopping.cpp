@@ -19,7 +19,7 @@ struct HoldWaves {
     for (int i = 0; i < 2; ++i) {
       const SloshMode& mode = modes.modes[i];
       if (!(mode.volume > 0) || !state.is_known) continue;
-      const double way = (at.to_world * mode.axis).dot(state.way_W);
+      const double way = (at.to_world * mode.axis).dot(state.displacement_W);
       crests[i] = crestOf(mode, way, gravity);
       energy += mode.volume * mode.square / gravity * way * way / 2;
     }
@@ -76,7 +76,7 @@ double loseSlopped(double weight, const WavesInside& waves, Sloshing* states) no
   double lost = 0;
   for (std::size_t i = 0; i < waves.lost.size(); ++i) {
     if (!(waves.lost[i] > 0)) continue;
-    states[i].way_W *= std::sqrt(std::max(0.0, 1 - waves.lost[i] / waves.energy[i]));
+    states[i].displacement_W *= std::sqrt(std::max(0.0, 1 - waves.lost[i] / waves.energy[i]));
     lost += waves.lost[i];
   }
   return weight * lost;

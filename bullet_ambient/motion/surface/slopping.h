@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bullet_ambient/motion/surface/surface_stand.h"
+#include "bullet_ambient/motion/surface/flotation.h"
 
 namespace ambient {
 

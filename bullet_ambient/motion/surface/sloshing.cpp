@@ -32,9 +32,9 @@ void forEachPendulum(const SloshingAt& at, States* states, const Act& act) {
 }
 
 /// Damping ratio: that of the settings, and what waves lose that reach floor or top of the hold.
-double dampingRatio(double least, double way, double farthest) {
+double dampingRatio(double least, double displacement, double farthest) {
   constexpr double kMost = 10;
-  const double square = way * way;
+  const double square = displacement * displacement;
   return square == 0 ? least : least + std::min(kMost, square / (2 * farthest * farthest));
 }
 
@@ -58,7 +58,7 @@ SloshingEnergy energyOfSloshing(const SloshingAt& at, const Sloshing* states) no
   forEachPendulum(at, states,
                   [&](const Pendulum& pendulum, const SloshMode&, const Sloshing& state) {
                     const double u = pendulum.axis_W.dot(state.velocity_W);
-                    const double q = pendulum.axis_W.dot(state.way_W);
+                    const double q = pendulum.axis_W.dot(state.displacement_W);
                     energy.kinetic += pendulum.mass * u * u / 2;
                     energy.potential += pendulum.stiffness * q * q / 2;
                   });
@@ -82,7 +82,7 @@ double projectOnModes(const SloshingAt& at, double energy, Sloshing* states) noe
       if (!(mode.volume > 0)) continue;
       const Vector3 axis_W = at.to_world * mode.axis;
       states[i].is_known = true;
-      states[i].way_W += axis_W.dot(before.way_W) * axis_W;
+      states[i].displacement_W += axis_W.dot(before.displacement_W) * axis_W;
       states[i].velocity_W += axis_W.dot(before.velocity_W) * axis_W;
     }
   }
@@ -90,7 +90,7 @@ double projectOnModes(const SloshingAt& at, double energy, Sloshing* states) noe
   if (!(after > energy)) return after;
   const double scale = std::sqrt(std::max(0.0, energy) / after);
   for (std::size_t i = 0; i < at.count; ++i) {
-    states[i].way_W *= scale;
+    states[i].displacement_W *= scale;
     states[i].velocity_W *= scale;
   }
   return std::max(0.0, energy);
@@ -104,17 +104,17 @@ Vector6 exchangeSloshing(const SloshingAt& at, const SymmetricMatrix& inverse, d
   forEachPendulum(
       at, states, [&](const Pendulum& pendulum, const SloshMode& mode, Sloshing& state) {
         const Vector6& N = pendulum.motion;
-        const double q = pendulum.axis_W.dot(state.way_W);
+        const double q = pendulum.axis_W.dot(state.displacement_W);
         const double u = pendulum.axis_W.dot(state.velocity_W);
         const double loss =
             2 * dampingRatio(damping, q, mode.farthest) * pendulum.mass * std::sqrt(mode.square);
         const double stiffness = pendulum.stiffness;
         const Vector6 answer = asEigen(inverse * plain(N));
-        const double per_mass = 1 / pendulum.mass + N.dot(answer);
-        const double rate = (u - N.dot(end) - half * per_mass * stiffness * q) /
-                            (1 + half * per_mass * (loss + half * stiffness));
+        const double inverse_mass = 1 / pendulum.mass + N.dot(answer);
+        const double rate = (u - N.dot(end) - half * inverse_mass * stiffness * q) /
+                            (1 + half * inverse_mass * (loss + half * stiffness));
         const double force = stiffness * (q + half * rate) + loss * rate;
-        state.way_W += duration * rate * pendulum.axis_W;
+        state.displacement_W += duration * rate * pendulum.axis_W;
         state.velocity_W -= duration * force / pendulum.mass * pendulum.axis_W;
         end += duration * force * answer;
       });

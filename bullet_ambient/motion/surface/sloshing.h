@@ -11,9 +11,9 @@ namespace ambient {
 /// What the water in a hold does against its level surface, from step to step: the pendulums of its
 /// modes, docs/theory.md eq. (152). World vectors, so that a vessel turns under its water.
 struct Sloshing {
-  bool is_known = false;        ///< false: the water moves with the vessel and is level
-  Vector3 way_W{0, 0, 0};       ///< q [m]
-  Vector3 velocity_W{0, 0, 0};  ///< u, relative to the water around [m/s]
+  bool is_known = false;            ///< false: the water moves with the vessel and is level
+  Vector3 displacement_W{0, 0, 0};  ///< q [m]
+  Vector3 velocity_W{0, 0, 0};      ///< u, relative to the water around [m/s]
 };
 
 /// Modes of the water in the holds of a body at a pose.

@@ -7,7 +7,7 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "bullet_ambient/motion/flight/flight.h"
-#include "bullet_ambient/motion/surface/stand_lanes.h"
+#include "bullet_ambient/motion/surface/flotation_lanes.h"
 #include "bullet_ambient/spatial/inertia.h"
 
 namespace ambient {
@@ -31,7 +31,7 @@ struct Progress {
   bool has_load = false;          ///< flight.load_W holds a load
   Growth growth;                  ///< of the resistance with it
   bool has_gained = false;        ///< more energy of place than it had in all
-  double rounding = 0;            ///< energy at the start less that at the stand [J]
+  double rounding = 0;            ///< energy at the start less that at the flotation [J]
   double frequency = 0;           ///< the largest natural frequency that was met [1/s]
   double energy = 0;              ///< at the start of the step [J]
   double energy_removed = 0;      ///< by the bound of the energy [J]
@@ -39,7 +39,7 @@ struct Progress {
   SurfacePlace later;             ///< where a substep has come to
   WaterInside inside;             ///< there
   WaterLeft left;                 ///< water in the holds where a substep begins
-  SurfacePlace* place = nullptr;  ///< that of now: that of the stand at the start, or `later`
+  SurfacePlace* place = nullptr;  ///< that of now: that of the flotation at the start, or `later`
 
   const SurfaceModel& model() const { return flight->task.model; }
   /// True: there is water in the holds.
@@ -89,7 +89,7 @@ class SurfaceFlights {
     bool is_any = false;
     for (int i = 0; i < count_; ++i) {
       const bool is_chosen = condition(i);
-      lanes_.flight.active[i] = lanes_.stand.active[i] = is_chosen ? 1 : 0;
+      lanes_.flight.active[i] = lanes_.flotation.active[i] = is_chosen ? 1 : 0;
       is_any = is_any || is_chosen;
     }
     return is_any;
@@ -114,7 +114,7 @@ class SurfaceFlights {
     const SurfacePlane plane_B =
         seenFrom(task.plane_W, p.start.orientation.toRotationMatrix(), p.start.position);
     lanes_.height_W[i] = plane_B.height;
-    p.rounding = energyOfRounding(task.model, flight.stand, plane_B);
+    p.rounding = energyOfRounding(task.model, flight.flotation, plane_B);
     setLane(lanes_.wind_W, i, p.wind_W);
     AMBIENT_ASSERT(task.duration > 0 && isUnit(task.plane_W.normal));
     has_loads_below_ = has_loads_below_ || task.model.loads_below.loads;
@@ -123,7 +123,7 @@ class SurfaceFlights {
     has_loads_above_ = has_loads_above_ || task.model.loads_above.loads;
     has_still_axis_ = has_still_axis_ || !task.model.still_axis_B.isZero(0);
     p.most = task.settings.max_substeps > 0 ? task.settings.max_substeps : kSurfaceSubsteps;
-    p.frequency = flight.stand.frequency;
+    p.frequency = flight.flotation.frequency;
     const double remembered =
         flight.body.memory.substep > 0 ? flight.body.memory.substep : task.duration;
     p.substeps =
@@ -137,12 +137,12 @@ class SurfaceFlights {
     lanes_.flight.kick_time[i] = lanes_.flight.drift_time[i] = h;
     lanes_.is_stiff[i] = h * p.frequency > kLongestPhase * (1 + 1e-9) ? 1 : 0;
     setLane(lanes_.flight.orientation, i, p.start.orientation);
-    setLane(lanes_.flight.way_W, i, Vector3(0, 0, 0));
+    setLane(lanes_.flight.displacement_W, i, Vector3(0, 0, 0));
     setLane(lanes_.flight.twist_B, i, p.start.twist);
-    setLane(lanes_.flight.inertia, i, flight.stand.inertia);
-    setLane(lanes_.flight.inverse_inertia, i, flight.stand.inverse);
-    setStand(lanes_.stand, i, p.model(), flight.stand);
-    p.place = &flight.stand;
+    setLane(lanes_.flight.inertia, i, flight.flotation.inertia);
+    setLane(lanes_.flight.inverse_inertia, i, flight.flotation.inverse);
+    setFlotation(lanes_.flotation, i, p.model(), flight.flotation);
+    p.place = &flight.flotation;
     forEachNumber(lanes_.waves, flight.waves,
                   [&](FlightLane& to, const double& from) { to[i] = from; });
     const FlightMemory& memory = flight.body.memory;
@@ -162,7 +162,7 @@ class SurfaceFlights {
   WaterAt waterAt(int i) const {
     const Progress& p = progress_[i];
     return {p.model(), *p.place, orientationOf(lanes_.flight.orientation, i).toRotationMatrix(),
-            vectorOf(lanes_.flight.way_W, i)};
+            vectorOf(lanes_.flight.displacement_W, i)};
   }
 
   /// Finds kinetic energy and energy of place, with that of the water that sloshes.
@@ -250,9 +250,9 @@ class SurfaceFlights {
         Progress& p = progress_[i];
         if (isActive(i) && !p.has_load && p.model().loads_below.loads) findFirstLoad(i);
       }
-      kernel_.keepLoad(lanes_);
+      kernel_.applyLastLoad(lanes_);
     }
-    if (has_loads_above_) takeWind();
+    if (has_loads_above_) kickByWind();
     slosh();
     keepingSpins([&] { kernel_.exchangeWaves(lanes_); });
     kernel_.kickByGravity(lanes_);
@@ -277,13 +277,13 @@ class SurfaceFlights {
       places[i] = &p.later;
       if (isActive(i)) findPlace(i);
     }
-    computeStands(lanes_.stand, models, places, count_);
-    kernel_.pass(lanes_);
+    computeFlotations(lanes_.flotation, models, places, count_);
+    kernel_.changeInertia(lanes_);
     for (int i = 0; i < count_; ++i)
-      if (isActive(i)) meetError(i, lanes_.passage_error[i]);
+      if (isActive(i)) noteError(i, lanes_.change_error[i]);
   }
 
-  void meetError(int i, double error) { progress_[i].error = std::max(progress_[i].error, error); }
+  void noteError(int i, double error) { progress_[i].error = std::max(progress_[i].error, error); }
 
   /// The water in the holds has moved to another level, before the surface is passed.
   void moveWater(int i) {
@@ -298,7 +298,7 @@ class SurfaceFlights {
   void findPlace(int i) {
     Progress& p = progress_[i];
     const SurfacePlane& plane = p.place->plane;
-    const SurfacePlane plane_B{vectorOf(lanes_.stand.normal, i), lanes_.stand.height[i],
+    const SurfacePlane plane_B{vectorOf(lanes_.flotation.normal, i), lanes_.flotation.height[i],
                                plane.density, plane.gravity, plane.sides_F};
     const Immersion before = p.place->immersion_F;
     if (p.hasWater()) {
@@ -311,23 +311,23 @@ class SurfaceFlights {
       p.later = placeAt(p.model(), plane_B);
       p.place = &p.later;
     }
-    setPlace(lanes_.stand, i, p.model(), p.later);
+    setPlace(lanes_.flotation, i, p.model(), p.later);
     setLane(lanes_.centre_of_buoyancy, i, centreOfBuoyancy(p.model(), p.later));
     const MeanDepths depths = meanDepths(before, p.later.immersion_F);
     lanes_.draught[i] = depths.draught;
-    lanes_.cover[i] = depths.cover;
+    lanes_.submergence[i] = depths.submergence;
   }
 
   /// The first half of a kick, at the pose where the flow has come to.
   void endKick() {
     for (int i = 0; i < count_; ++i)
       if (isActive(i))
-        progress_[i].frequency = std::max(progress_[i].frequency, lanes_.stand.frequency[i]);
+        progress_[i].frequency = std::max(progress_[i].frequency, lanes_.flotation.frequency[i]);
     kernel_.kickByGravity(lanes_);
     keepingSpins([&] { kernel_.exchangeWaves(lanes_); });
     slosh();
-    if (has_loads_above_) takeWind();
-    if (has_loads_below_) takeLoads();
+    if (has_loads_above_) kickByWind();
+    if (has_loads_below_) applyLoads();
   }
 
   void setGrowth(int i, const Growth& growth) {
@@ -338,7 +338,7 @@ class SurfaceFlights {
   Wrench loadAt(int i, const Twist& x) {
     Progress& p = progress_[i];
     const Surroundings& s = p.flight->task.surroundings;
-    const SurfaceLoad load = loadBelow(p.model(), *p.place, x, s.load_share, s.flow);
+    const SurfaceLoad load = loadBelow(p.model(), *p.place, x, s.load_scale, s.flow);
     setGrowth(i, load.growth);
     ++p.count.load_evaluations;
     p.count.guarded += load.guarded;
@@ -353,23 +353,23 @@ class SurfaceFlights {
   }
 
   /// Half of a kick, with the load in the middle of the whole, eq. (23) to (25).
-  void takeLoads() {
+  void applyLoads() {
     kernel_.sampleLoad(lanes_);
     for (int i = 0; i < count_; ++i) {
       const bool has_load = isActive(i) && progress_[i].model().loads_below.loads;
       setLane(lanes_.flight.load_B, i,
               has_load ? loadAt(i, twistOf(lanes_.flight.sample_twist, i)) : Wrench{});
     }
-    kernel_.takeLoad(lanes_);
+    kernel_.applyLoad(lanes_);
     for (int i = 0; i < count_; ++i) {
       Progress& p = progress_[i];
       if (!isActive(i) || !p.model().loads_below.loads) continue;
       p.has_load = true;
-      meetError(i, lanes_.flight.error[i]);
+      noteError(i, lanes_.flight.error[i]);
     }
   }
 
-  void takeWind() {
+  void kickByWind() {
     kernel_.sampleWind(lanes_);
     for (int i = 0; i < count_; ++i) {
       Progress& p = progress_[i];
@@ -378,7 +378,7 @@ class SurfaceFlights {
       const Twist seen = twistOf(lanes_.flight.sample_twist, i);
       setLane(lanes_.flight.load_B, i, has_wind ? loadAbove(p.model(), *p.place, seen) : Wrench{});
     }
-    kernel_.takeWind(lanes_);
+    kernel_.kickByWind(lanes_);
   }
 
   /// Energy of which it is not known whether the body had it, docs/theory.md eq. (64): negative if
@@ -462,15 +462,15 @@ class SurfaceFlights {
     forEachNumber(flight.waves, lanes_.waves,
                   [&](double& to, const FlightLane& from) { to = from[i]; });
     if (p.place == &p.later) {
-      static_cast<SurfacePlace&>(flight.stand) = p.later;
+      static_cast<SurfacePlace&>(flight.flotation) = p.later;
       if (p.later.inside_F) {
         VesselSloshing& sloshing = *flight.task.water.sloshing;
         *flight.task.water.inside = p.inside;  // with the modes, which change places
         std::swap(sloshing.modes, sloshing.later);
         std::swap(sloshing.now, sloshing.moved);
-        flight.stand.inside_F = flight.task.water.inside;
+        flight.flotation.inside_F = flight.task.water.inside;
       }
-      readStand(lanes_.stand, i, flight.stand);
+      readFlotation(lanes_.flotation, i, flight.flotation);
     }
     p.is_done = true;
   }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bullet_ambient/motion/flight/flight.h"
-#include "bullet_ambient/motion/surface/surface_stand.h"
+#include "bullet_ambient/motion/surface/flotation.h"
 
 namespace ambient {
 
@@ -16,7 +16,7 @@ struct SurfaceTask {
   Vector3 velocity_above;  ///< velocity of the fluid above, world axes [m/s]
   const FlightSettings& settings;
   double duration;         ///< [s], > 0
-  VesselWater water = {};  ///< of the stand
+  VesselWater water = {};  ///< of the flotation
 };
 
 /// Task and state of a body: at the start of the step before flyAtSurface(), at its end afterwards.
@@ -24,7 +24,7 @@ struct SurfaceFlight {
   SurfaceTask task;
   FlightResult& body;  ///< twist absolute, in B
   WaveMemory& waves;
-  SurfaceStand& stand;  ///< stand at the pose of `body`
+  Flotation& flotation;  ///< flotation at the pose of `body`
 };
 
 /// Integrates the motion of up to kFlightsTogether bodies that the surface of the water cuts or is

@@ -137,7 +137,7 @@ SurfaceSide sideOf(const SurfaceModel& model, const SurfacePlane& plane_B, doubl
   if (height > 5 * radius + travel) return SurfaceSide::kBelow;  // covered by twice its diameter
   const Immersion at = withExtent(model, seenFrom(plane_B, model.fluid_frame));
   if (at.draught() + travel <= 0) return SurfaceSide::kAbove;
-  return at.cover() - travel >= 2 * at.size() ? SurfaceSide::kBelow : SurfaceSide::kAt;
+  return at.submergence() - travel >= 2 * at.size() ? SurfaceSide::kBelow : SurfaceSide::kAt;
 }
 
 Immersion immersionOf(const SurfaceModel& model, const SurfacePlane& plane_B) noexcept {
@@ -169,8 +169,8 @@ Matrix6 inertiaAt(const SurfaceModel& model, const Immersion& immersion) noexcep
 Matrix6 positiveInertia(const SurfaceModel& model, const Matrix6& inertia) noexcept {
   constexpr double kLeast = kLeastShare;
   const Cholesky<6> own(model.above.inertia);
-  const Matrix6 per_root = own.inverseTransposed();
-  const Matrix6 relative = per_root.transpose() * inertia * per_root;
+  const Matrix6 inverse_root = own.inverseTransposed();
+  const Matrix6 relative = inverse_root.transpose() * inertia * inverse_root;
   auto eigen = symmetricEigen<6>(relative);
   for (double& share : eigen.values)
     if (share < kLeast) share = kLeast / 2 + kLeast * kLeast / (4 * (1.5 * kLeast - share));

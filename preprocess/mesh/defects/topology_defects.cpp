@@ -144,19 +144,20 @@ MeshDefect openEdges(const TriangleMesh& mesh, const MeshEdges& edges) {
   return defect;
 }
 
-MeshDefect crowdedEdges(const TriangleMesh& mesh, const MeshEdges& edges) {
+MeshDefect nonManifoldEdges(const TriangleMesh& mesh, const MeshEdges& edges) {
   MeshDefect defect{"more than two triangles at an edge", {}, {}};
-  std::vector<const EdgeGroup*> crowded;
+  std::vector<const EdgeGroup*> non_manifold;
   for (const EdgeGroup& edge : edges.edges)
-    if (edge.size() > 2) crowded.push_back(&edge);
-  if (crowded.empty()) return defect;
-  for (const EdgeGroup* edge : crowded) {
+    if (edge.size() > 2) non_manifold.push_back(&edge);
+  if (non_manifold.empty()) return defect;
+  for (const EdgeGroup* edge : non_manifold) {
     for (std::size_t i = edge->first; i < edge->last; ++i)
       defect.triangles.push_back(edges.half_edges[i].triangle);
   }
-  defect.text = defectText(
-      "not manifold: ", crowded.size(), " edges with more than 2 triangles, for example ",
-      edgeText(mesh, edges.half_edges[crowded.front()->first]), " with ", crowded.front()->size());
+  defect.text = defectText("not manifold: ", non_manifold.size(),
+                           " edges with more than 2 triangles, for example ",
+                           edgeText(mesh, edges.half_edges[non_manifold.front()->first]), " with ",
+                           non_manifold.front()->size());
   return defect;
 }
 
@@ -263,7 +264,7 @@ Defects findTopologyDefects(const TriangleMesh& mesh, const MeshEdges& edges, bo
     if (!defect.text.empty()) defects.push_back(defect);
   };
   if (!sheet) add(openEdges(mesh, edges));
-  add(crowdedEdges(mesh, edges));
+  add(nonManifoldEdges(mesh, edges));
   add(touchingParts(mesh, edges));
   if (sheet) add(closedParts(mesh, edges));
   return defects;

@@ -396,8 +396,8 @@ struct NamedSize {
 
 /// The finest mesh of a shape through the rings make(n) within `faces` triangles.
 template <class MakeRings>
-TriangleMesh latheMesh(const char* shape, std::initializer_list<NamedSize> sizes, int faces,
-                       const MakeRings& make) {
+TriangleMesh revolvedMesh(const char* shape, std::initializer_list<NamedSize> sizes, int faces,
+                          const MakeRings& make) {
   for (const NamedSize& named : sizes) requirePositiveSize(shape, named.name, named.size);
   requireFaces(shape, faces, static_cast<int>(triangleCount(make(1))));
   return Lathe(finestRings(faces, make)).mesh();
@@ -410,8 +410,8 @@ int leastCylinderFaces(double radius, double height) {
 }
 
 TriangleMesh makeCylinderMesh(double radius, double height, int faces) {
-  return latheMesh("cylinder", {{"radius", radius}, {"height", height}}, faces,
-                   [&](int n) { return cylinderRings(radius, height, n); });
+  return revolvedMesh("cylinder", {{"radius", radius}, {"height", height}}, faces,
+                      [&](int n) { return cylinderRings(radius, height, n); });
 }
 
 int leastCapsuleFaces(double radius, double height) {
@@ -419,8 +419,8 @@ int leastCapsuleFaces(double radius, double height) {
 }
 
 TriangleMesh makeCapsuleMesh(double radius, double height, int faces) {
-  return latheMesh("capsule", {{"radius", radius}, {"height", height}}, faces,
-                   [&](int n) { return capsuleRings(radius, height, n); });
+  return revolvedMesh("capsule", {{"radius", radius}, {"height", height}}, faces,
+                      [&](int n) { return capsuleRings(radius, height, n); });
 }
 
 int leastConeFaces(double radius, double height) {
@@ -428,8 +428,8 @@ int leastConeFaces(double radius, double height) {
 }
 
 TriangleMesh makeConeMesh(double radius, double height, int faces) {
-  return latheMesh("cone", {{"radius", radius}, {"height", height}}, faces,
-                   [&](int n) { return coneRings(radius, height, n); });
+  return revolvedMesh("cone", {{"radius", radius}, {"height", height}}, faces,
+                      [&](int n) { return coneRings(radius, height, n); });
 }
 
 TriangleMesh makeEllipticSheetMesh(double semi_axis_x, double semi_axis_y, int faces) {
@@ -438,7 +438,7 @@ TriangleMesh makeEllipticSheetMesh(double semi_axis_x, double semi_axis_y, int f
     for (int k = 0; k <= n; ++k) rings.push_back({gradedRadius(1, k, n), 0, k});
     return rings;
   };
-  TriangleMesh mesh = latheMesh(
+  TriangleMesh mesh = revolvedMesh(
       "elliptic sheet", {{"semi-axis x", semi_axis_x}, {"semi-axis y", semi_axis_y}}, faces, disc);
   mesh.vertices.row(0) *= semi_axis_x;
   mesh.vertices.row(1) *= semi_axis_y;

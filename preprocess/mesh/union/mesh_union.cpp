@@ -22,7 +22,7 @@
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/mend/mesh_mending.h"
 #include "preprocess/mesh/triangle_mesh.h"
-#include "preprocess/mesh/union/solid_tree.h"
+#include "preprocess/mesh/union/bsp_tree.h"
 
 namespace ambient {
 namespace {
@@ -282,10 +282,10 @@ std::vector<std::vector<std::size_t>> neighboursByBounds(const Meshes& parts, do
 TriangleMesh unionSurface(const Meshes& parts, double size, const Tolerances& tolerances) {
   const double welded = tolerances.welded * size;
   const auto neighbours = neighboursByBounds(parts, welded);
-  std::map<std::size_t, SolidTree> trees;
+  std::map<std::size_t, BspTree> trees;
   for (const auto& of_part : neighbours) {
     for (const std::size_t j : of_part)
-      if (trees.count(j) == 0) trees.emplace(j, SolidTree(parts[j], tolerances.on_plane * size));
+      if (trees.count(j) == 0) trees.emplace(j, BspTree(parts[j], tolerances.on_plane * size));
   }
   std::vector<FlatPolygon> surface;
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -293,7 +293,7 @@ TriangleMesh unionSurface(const Meshes& parts, double size, const Tolerances& to
     for (const std::size_t j : neighbours[i]) {
       std::vector<FlatPolygon> next;
       for (const FlatPolygon& polygon : left) {
-        const std::vector<FlatPolygon> pieces = trees.at(j).cutOff(polygon, i < j);
+        const std::vector<FlatPolygon> pieces = trees.at(j).clip(polygon, i < j);
         next.insert(next.end(), pieces.begin(), pieces.end());
       }
       left = std::move(next);
@@ -303,20 +303,20 @@ TriangleMesh unionSurface(const Meshes& parts, double size, const Tolerances& to
   return stitched(meshOf(surface, welded), welded);
 }
 
-TriangleMesh blownUp(TriangleMesh mesh, double share) {
+TriangleMesh enlarged(TriangleMesh mesh, double share) {
   const Eigen::Vector3d centre = mesh.bounds().center();
   mesh.vertices += share * (mesh.vertices.colwise() - centre);
   return mesh;
 }
 
-/// Each blown up by the share to twice the share, and turned by a fiftieth of it about some axis:
+/// Each enlarged by the share to twice the share, and turned by a fiftieth of it about some axis:
 /// planes of two parts then cross at angles that cutting resolves, or lie apart.
 Meshes inGeneralPosition(const Meshes& parts, double share, std::mt19937& generator) {
   constexpr double kTurn = 0.02;
   const auto random = [&] { return static_cast<double>(generator()) / std::mt19937::max(); };
   Meshes moved;
   for (const TriangleMesh& part : parts) {
-    TriangleMesh mesh = blownUp(part, share * (1 + random()));
+    TriangleMesh mesh = enlarged(part, share * (1 + random()));
     const double x = random() - 0.5, y = random() - 0.5, z = random() - 0.5;
     const Matrix3 turn =
         rotationFromVector(kTurn * share * Vector3(x, y, z).normalized()).toRotationMatrix();
@@ -385,9 +385,9 @@ CheckedMesh uniteMeshes(const Meshes& parts, const std::string& name, UnionTries
     }
   };
   for (const double share : {0.0, 3e-4, 1.2e-3}) {
-    Meshes blown_up;
-    for (const TriangleMesh& part : parts) blown_up.push_back(blownUp(part, share));
-    if (auto united = tryToUnite(blown_up, kOfForms)) return *std::move(united);
+    Meshes enlarged_parts;
+    for (const TriangleMesh& part : parts) enlarged_parts.push_back(enlarged(part, share));
+    if (auto united = tryToUnite(enlarged_parts, kOfForms)) return *std::move(united);
     if (tries == UnionTries::kOne) throw std::runtime_error(reason);
   }
   std::mt19937 generator;  // the same numbers everywhere

@@ -266,7 +266,7 @@ TEST(Naming, NamesBodiesInReportsAndErrors) {
   EXPECT_EQ(refusal([&] { scene.fluid.add(crate, inAir()); }).rfind("add: body 'crate' was", 0),
             0u);
   scene.fluid.restore(scene.fluid.save());  // no state has names
-  EXPECT_EQ(membersOf(scene.fluid).find(&crate)->def->name, "crate");
+  EXPECT_EQ(ambientBodiesOf(scene.fluid).find(&crate)->def->name, "crate");
   AttachDef def = inAir();
   def.flight.tolerance = -1;
   EXPECT_EQ(refusal([&] { scene.fluid.add(other, def); }).rfind("add: body with fluid body '", 0),

@@ -125,7 +125,7 @@ class WatchedSolver : public FluidSolver<> {
 TEST(SparedWork, TheSolverDoesNotKnowABodyThatFloatsAlone) {
   btSphereShape ball(btScalar(0.1));
   FluidWorld scene;
-  WatchedSolver solver(membersOf(scene.fluid).shared_from_this());
+  WatchedSolver solver(ambientBodiesOf(scene.fluid).shared_from_this());
   scene.world.setConstraintSolver(&solver);
   BodyDef def = bodyAt(0);
   def.shape = &ball;
@@ -179,7 +179,7 @@ TEST(SparedWork, BodiesOfOneShapeShareItsData) {
     for (const AmbientBody*& ambient : bodies) {
       btRigidBody& body = scene.add(bodyAt(2));
       scene.fluid.add(body, def);
-      ambient = membersOf(scene.fluid).find(&body);
+      ambient = ambientBodiesOf(scene.fluid).find(&body);
     }
     EXPECT_EQ(bodies[0]->models, bodies[1]->models);
     EXPECT_EQ(bodies[0]->models->media.size(), 2U);

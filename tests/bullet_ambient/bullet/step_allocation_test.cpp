@@ -109,7 +109,7 @@ TEST(Step, AllocatesOnceForABodyWhoseMassChanges) {
     body_def.start.position = Vector3(10 * mass, 0, 0);
     btRigidBody& body = scene.add(body_def);
     scene.fluid.add(body, def);
-    return *membersOf(scene.fluid).find(&body);
+    return *ambientBodiesOf(scene.fluid).find(&body);
   };
   const auto setMass = [](AmbientBody& ambient, double mass) {
     ambient.body->setMassProps(static_cast<btScalar>(mass),

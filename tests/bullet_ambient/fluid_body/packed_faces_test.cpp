@@ -111,17 +111,17 @@ TEST(PackedFaces, LieWithTheirDiscsWithinTheBoxOfTheirBlock) {
   const double unit = packed.areaUnit() / (packed.lengthUnit() * packed.lengthUnit());
   for (std::size_t k = 0; k < faces.count; ++k) {
     const FaceBlock& block = faces.blocks[k];
-    const FacePlaces& places = faces.places[k / FacePlaces::kBlocks];
-    const std::size_t at = k % FacePlaces::kBlocks;
+    const FaceBoxes& boxes = faces.boxes[k / FaceBoxes::kBlocks];
+    const std::size_t at = k % FaceBoxes::kBlocks;
     for (int axis = 0; axis < 3; ++axis) {
       const float* values = block.centroid[axis];
       const auto [low, high] = std::minmax_element(values, values + FaceBlock::kFaces);
-      EXPECT_LT(places.centre[axis][at] - places.half[axis][at], *low);
-      EXPECT_GT(places.centre[axis][at] + places.half[axis][at], *high);
-      EXPECT_LT(2 * places.half[axis][at], *high - *low + 1e-5f);
+      EXPECT_LT(boxes.centre[axis][at] - boxes.half[axis][at], *low);
+      EXPECT_GT(boxes.centre[axis][at] + boxes.half[axis][at], *high);
+      EXPECT_LT(2 * boxes.half[axis][at], *high - *low + 1e-5f);
     }
     const double area = static_cast<double>(*std::max_element(block.area, std::end(block.area)));
-    const auto radius = static_cast<double>(places.radius[at]);
+    const auto radius = static_cast<double>(boxes.radius[at]);
     EXPECT_GT(radius * radius, (1 + 1e-4) * area * unit / kPi);
     EXPECT_LT(radius, 1.001 * std::sqrt(area * unit / kPi) + 1e-5);
   }
@@ -186,10 +186,10 @@ TEST(PackedHull, SheetDisplacesNothing) {
   EXPECT_EQ(PackedHull(sheet).corners().count, 1u);
 }
 
-double shareOf(const OctahedralLattice::Place& place, int node) {
+double shareOf(const OctahedralLattice::Corners& place, int node) {
   double share = 0;
   for (int corner = 0; corner < 3; ++corner)
-    if (place.node[corner] == node) share += place.share[corner];
+    if (place.node[corner] == node) share += place.weight[corner];
   return share;
 }
 
@@ -200,7 +200,8 @@ TEST(OctahedralLattice, HasEveryDirectionOnceAndFindsItAgain) {
     for (int node = 0; node < lattice.size(); ++node) {
       const Vector3 s = lattice.direction(node);
       EXPECT_NEAR(s.norm(), 1, 1e-15);
-      EXPECT_NEAR(shareOf(lattice.placeOf(s), node), 1, 1e-12) << subdivisions << ", " << node;
+      EXPECT_NEAR(shareOf(lattice.cornersAround(s), node), 1, 1e-12)
+          << subdivisions << ", " << node;
       const Vector3 point = s * (subdivisions / s.cwiseAbs().sum());
       EXPECT_LT((point - Vector3(point.array().round())).norm(), 1e-12);
     }
@@ -214,14 +215,14 @@ TEST(OctahedralLattice, SharesAreLinearOnTheOctahedron) {
     const OctahedralLattice lattice(subdivisions);
     for (int i = 0; i < 1000; ++i) {
       const Vector3 direction = arbitrary.vector();
-      const OctahedralLattice::Place place = lattice.placeOf(direction);
+      const OctahedralLattice::Corners place = lattice.cornersAround(direction);
       Vector3 mean = Vector3::Zero();
       for (int corner = 0; corner < 3; ++corner) {
         ASSERT_GE(place.node[corner], 0);
         ASSERT_LT(place.node[corner], lattice.size());
-        EXPECT_GE(place.share[corner], -1e-12);
+        EXPECT_GE(place.weight[corner], -1e-12);
         const Vector3 s = lattice.direction(place.node[corner]);
-        mean += place.share[corner] * s / s.cwiseAbs().sum();
+        mean += place.weight[corner] * s / s.cwiseAbs().sum();
       }
       EXPECT_LT((mean - direction / direction.cwiseAbs().sum()).norm(), 1e-14);
     }
@@ -235,8 +236,8 @@ TEST(OctahedralLattice, AxesEdgesAndCornersOfItsFacesAreNoExceptions) {
       for (const double z : {-1.0, 0.0, 1e-300, 1.0}) {
         const Vector3 direction(x, y, z);
         if (direction.isZero(0)) continue;
-        const OctahedralLattice::Place place = lattice.placeOf(direction);
-        EXPECT_NEAR(place.share[0] + place.share[1] + place.share[2], 1, 1e-14);
+        const OctahedralLattice::Corners place = lattice.cornersAround(direction);
+        EXPECT_NEAR(place.weight[0] + place.weight[1] + place.weight[2], 1, 1e-14);
         for (const int node : place.node) {
           EXPECT_GE(node, 0);
           EXPECT_LT(node, lattice.size());

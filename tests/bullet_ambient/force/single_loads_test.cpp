@@ -75,14 +75,14 @@ TEST(SingleSums, OfACutBodyHaveTheBitsOfSumsThatDoNotKnowWhereBlocksLie) {
   for (const std::size_t count : {100, 1280}) {
     const PackedFaces packed(firstFaces(body, count));
     const FaceBlocks faces = packed.blocks();
-    std::vector<FacePlaces> wide(faces.places, faces.places + (faces.count + 15) / 16);
-    std::vector<FacePlaces> narrow = wide;
-    for (FacePlaces& places : wide)
-      for (float& radius : places.radius) radius = 10;
-    for (FacePlaces& places : narrow) {
-      for (float(&row)[FacePlaces::kBlocks] : places.half)
+    std::vector<FaceBoxes> wide(faces.boxes, faces.boxes + (faces.count + 15) / 16);
+    std::vector<FaceBoxes> narrow = wide;
+    for (FaceBoxes& boxes : wide)
+      for (float& radius : boxes.radius) radius = 10;
+    for (FaceBoxes& boxes : narrow) {
+      for (float(&row)[FaceBoxes::kBlocks] : boxes.half)
         for (float& half : row) half = 0;
-      for (float& radius : places.radius) radius = 0;
+      for (float& radius : boxes.radius) radius = 0;
     }
     int wrong = 0;
     for (int i = 0; i < 200; ++i) {
@@ -94,9 +94,9 @@ TEST(SingleSums, OfACutBodyHaveTheBitsOfSumsThatDoNotKnowWhereBlocksLie) {
           static_cast<float>(packed.areaUnit() /
                              (kPi * packed.lengthUnit() * packed.lengthUnit()))};
       motion.cut = &cut;
-      const auto bitsWith = [&](const std::vector<FacePlaces>& places) {
+      const auto bitsWith = [&](const std::vector<FaceBoxes>& boxes) {
         FaceBlocks elsewhere = faces;
-        elsewhere.places = places.data();
+        elsewhere.boxes = boxes.data();
         return test::bitsOf(sumBlocksBaseline(elsewhere, motion));
       };
       const auto bits = test::bitsOf(sumBlocksBaseline(faces, motion));

@@ -73,7 +73,7 @@ std::vector<double> motion(const FlightLanes& lanes, int body) {
     for (int i = 0; i < count; ++i) values.push_back(from[i][body]);
   };
   add(lanes.orientation, 4);
-  add(lanes.way_W, 3);
+  add(lanes.displacement_W, 3);
   add(lanes.twist_B, 6);
   add(lanes.momentum_B, 6);
   add(lanes.load_W, 6);

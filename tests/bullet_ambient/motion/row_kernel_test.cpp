@@ -63,7 +63,7 @@ TEST_P(RowKernels, HaveTheBitsOfTheBaseline) {
       rows.isotropic_inverse_mass[i] = arbitrary.between(0, 1);
       for (FlightLane* twist : {rows.velocity_W, rows.by_rows_W})
         setLane(twist, i, arbitrary.twist(10, 3));
-      setLane(rows.way_W, i, arbitrary.vector());
+      setLane(rows.displacement_W, i, arbitrary.vector());
     }
     RowLanes other_rows = rows;
     kernel_->predictRowVelocity(rows);
@@ -144,7 +144,7 @@ TEST(KeptMotion, IsCarriedWithTheMomentum) {
     RowLanes lanes = kept(body, start, velocities, 0.01);
     const auto carried = [&lanes](const Quaternion& orientation, const Vector3& way) {
       setLane(lanes.orientation, 0, orientation);
-      setLane(lanes.way_W, 0, way);
+      setLane(lanes.displacement_W, 0, way);
       kFlightKernels.fastest()->transport(lanes);
       return twistOf(lanes.twist_B, 0);
     };

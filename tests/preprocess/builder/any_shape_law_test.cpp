@@ -91,10 +91,10 @@ const std::vector<AnyShape>& allShapes() {
 }
 
 std::shared_ptr<const SurfaceLoads> loadsAt(double reynolds_at_1, const AnyShape& shape,
-                                            const FlowSettings& flow, LoadPlace place) {
+                                            const FlowSettings& flow, FluidExtent place) {
   const Medium fluid{1, shape.diameter() / reynolds_at_1, {0, 0, 0}, {0, 0, 0}};
-  return place == LoadPlace::kWaterline ? makeWaterlineLoads(shape.body, fluid, flow)
-                                        : makeSurfaceLoads(shape.body, fluid, flow);
+  return place == FluidExtent::kWaterline ? makeWaterlineLoads(shape.body, fluid, flow)
+                                          : makeSurfaceLoads(shape.body, fluid, flow);
 }
 
 TEST(AnyShapeLaw, TakesEnergyAtAnyReynoldsNumberAndRoughness) {
@@ -107,8 +107,8 @@ TEST(AnyShapeLaw, TakesEnergyAtAnyReynoldsNumberAndRoughness) {
       if (i % 3 > 0) flow.roughness = std::exp2(random.between(-20, -3)) * shape.diameter();
       if (shape.name == "reduced") flow.maximum_load_error = 1;
       const bool is_wet = i % 5 == 0 && shape.body->volume > 0;
-      const auto loads =
-          loadsAt(anySize(26), shape, flow, is_wet ? LoadPlace::kWaterline : LoadPlace::kUnbounded);
+      const auto loads = loadsAt(anySize(26), shape, flow,
+                                 is_wet ? FluidExtent::kWaterline : FluidExtent::kUnbounded);
       for (int j = 0; j < 5; ++j) {
         const Twist x{random.vector(anySize(12)), random.vector(anySize(12))};
         const WetPart wet{{random.vector().normalized(), random.between(-0.5, 0.5), 1, 9.81},
@@ -129,7 +129,7 @@ TEST(AnyShapeLaw, ForceGoesWithTheSpeedAtAnySpin) {
   for (const AnyShape& shape : allShapes())
     for (const double reynolds : {1.0, 1e3, 1e5, 1e6, 1e8}) {
       flow.roughness = random.between(0, 1e-3) * shape.diameter();
-      const auto loads = loadsAt(reynolds, shape, flow, LoadPlace::kUnbounded);
+      const auto loads = loadsAt(reynolds, shape, flow, FluidExtent::kUnbounded);
       for (int i = 0; i < 20; ++i) {
         const Vector3 spin = 2 / shape.diameter() * random.vector().normalized();
         const Vector3 direction = random.vector().normalized();

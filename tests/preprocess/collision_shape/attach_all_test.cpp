@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bullet_ambient/ambient.h"
-#include "bullet_ambient/motion/surface/stand_lanes.h"
+#include "bullet_ambient/motion/surface/flotation_lanes.h"
 #include "bullet_ambient/saved_state.h"
 #include "preprocess/builder/shape_builder.h"
 #include "preprocess/collision_shape/fluid_body_cache.h"
@@ -121,17 +121,17 @@ TEST(LightFloat, KeepsAQuarterOfItsInertiaHoweverItLies) {
     for (const double tilt : {0.0, 0.003, 0.03, 0.1, 0.4}) {
       SurfacePlane plane{Vector3(tilt / 3, -tilt, 1).normalized(), 0, water().density, 9.81};
       plane.height = depth - plane.normal.cwiseAbs().dot(size) / 2;
-      const SurfaceStand stand = standAtSurface(model, plane);
+      const Flotation flotation = flotationAt(model, plane);
       const Matrix6 raw = inertiaAt(model, immersionOf(model, plane));
       const double share = generalizedEigenvalues(raw, own)[0];
       least = std::min(least, share);
-      const Matrix6 K = stand.inertia.full();
+      const Matrix6 K = flotation.inertia.full();
       EXPECT_GT(generalizedEigenvalues(K, own)[0], kLeastShare / 2) << depth << ' ' << tilt;
       const double rounding = 1e-9 * K.cwiseAbs().maxCoeff();
       if (share > kLeastShare) {
         EXPECT_EQ(K, SymmetricMatrix(raw).full()) << depth << ' ' << tilt;
       }
-      EXPECT_LT((K * stand.inverse.full() - Matrix6::Identity()).cwiseAbs().maxCoeff(), 1e-9);
+      EXPECT_LT((K * flotation.inverse.full() - Matrix6::Identity()).cwiseAbs().maxCoeff(), 1e-9);
       const double added = (K - raw).cwiseAbs().maxCoeff();
       EXPECT_LE(added, std::max(0.0, 1 - share) * own.cwiseAbs().maxCoeff() + rounding);
     }

@@ -16,8 +16,8 @@
 #include "preprocess/mesh/shapes/convex_hull.h"
 #include "preprocess/mesh/shapes/primitives.h"
 #include "preprocess/mesh/triangle_mesh.h"
+#include "preprocess/mesh/union/bsp_tree.h"
 #include "preprocess/mesh/union/mesh_union.h"
-#include "preprocess/mesh/union/solid_tree.h"
 #include "preprocess/mesh/wrap/grid_surface.h"
 #include "preprocess/potential_flow/results/potential_flow.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
@@ -47,15 +47,15 @@ double areaOf(const std::vector<FlatPolygon>& polygons) {
   return twice.norm() / 2;
 }
 
-TEST(SolidTree, TakesOffWhatIsInside) {
-  const SolidTree cube(makeBoxMesh({1, 1, 1}, 200), 1e-9);
-  EXPECT_NEAR(areaOf(cube.cutOff(squareAt(0, 2, true), true)), 16 - 4, 1e-12);
-  EXPECT_EQ(areaOf(cube.cutOff(squareAt(0, 0.5, true), true)), 0);
-  EXPECT_EQ(cube.cutOff(squareAt(1.1, 2, true), true).size(), 1u) << "not cut where not needed";
+TEST(BspTree, TakesOffWhatIsInside) {
+  const BspTree cube(makeBoxMesh({1, 1, 1}, 200), 1e-9);
+  EXPECT_NEAR(areaOf(cube.clip(squareAt(0, 2, true), true)), 16 - 4, 1e-12);
+  EXPECT_EQ(areaOf(cube.clip(squareAt(0, 0.5, true), true)), 0);
+  EXPECT_EQ(cube.clip(squareAt(1.1, 2, true), true).size(), 1u) << "not cut where not needed";
 }
 
 // Other planes of the solid meet the polygon, too, but leave no edge of the hole.
-TEST(SolidTree, ConvexCutsOncePerEdgeOfTheHole) {
+TEST(BspTree, ConvexCutsOncePerEdgeOfTheHole) {
   const TriangleMesh ball = makeEllipsoidMesh({1, 1, 1}, 320);
   constexpr double kHeight = 0.3;
   std::size_t edges = 0;
@@ -67,19 +67,19 @@ TEST(SolidTree, ConvexCutsOncePerEdgeOfTheHole) {
     }
     if (low < kHeight && kHeight < high) ++edges;
   }
-  const auto pieces = SolidTree(ball, 1e-9).cutOff(squareAt(kHeight, 2, true), true);
+  const auto pieces = BspTree(ball, 1e-9).clip(squareAt(kHeight, 2, true), true);
   EXPECT_LE(pieces.size(), edges);
   EXPECT_NEAR(areaOf(pieces), 16 - kPi * (1 - kHeight * kHeight), 0.1);  // of chords
 }
 
-TEST(SolidTree, DecidesOnItsSurfaceByTheNormal) {
-  const SolidTree cube(makeBoxMesh({1, 1, 1}, 200), 1e-9);
+TEST(BspTree, DecidesOnItsSurfaceByTheNormal) {
+  const BspTree cube(makeBoxMesh({1, 1, 1}, 200), 1e-9);
   // The solid above touches; the one below is flush, and one of the two keeps the common face.
   for (const bool keep : {false, true}) {
-    EXPECT_NEAR(areaOf(cube.cutOff(squareAt(1, 2, false), keep)), 12, 1e-12);
-    EXPECT_NEAR(areaOf(cube.cutOff(squareAt(1, 2, true), keep)), keep ? 16 : 12, 1e-12);
-    EXPECT_NEAR(areaOf(cube.cutOff(squareAt(-1, 2, true), keep)), 12, 1e-12);
-    EXPECT_NEAR(areaOf(cube.cutOff(squareAt(-1, 2, false), keep)), keep ? 16 : 12, 1e-12);
+    EXPECT_NEAR(areaOf(cube.clip(squareAt(1, 2, false), keep)), 12, 1e-12);
+    EXPECT_NEAR(areaOf(cube.clip(squareAt(1, 2, true), keep)), keep ? 16 : 12, 1e-12);
+    EXPECT_NEAR(areaOf(cube.clip(squareAt(-1, 2, true), keep)), 12, 1e-12);
+    EXPECT_NEAR(areaOf(cube.clip(squareAt(-1, 2, false), keep)), keep ? 16 : 12, 1e-12);
   }
 }
 

@@ -235,7 +235,7 @@ void printHashes(RobotStateKind kind) {
     scene.step(kHashedSteps / 10);
     for (int i = 0; i < scene.world().getNumMultibodies(); ++i) {
       const btMultiBody& body = scene.robot(i);
-      if (!membersOf(scene.fluid()).trees.find(&body)) continue;
+      if (!ambientBodiesOf(scene.fluid()).trees.find(&body)) continue;
       std::printf("hash of %d.%d.%d: %s\n", static_cast<int>(kind), i, part,
                   hashText(fnv1a64(bytesOf(body))).c_str());
     }

@@ -98,7 +98,7 @@ TEST_F(Lifetime, NothingTouchesABodyThatAnotherActionHasDestroyed) {
   EXPECT_TRUE(storage.isUntouched());
   // The removal moved the other body within the world's array; its flight was completed all the
   // same.
-  EXPECT_EQ(membersOf(scene.fluid).find(&other)->outcome.kind, Outcome::kNotSolved);
+  EXPECT_EQ(ambientBodiesOf(scene.fluid).find(&other)->outcome.kind, Outcome::kNotSolved);
 }
 
 // Detaches one of three bodies that the solver has met.
@@ -111,7 +111,7 @@ TEST_F(Lifetime, ABodyThatAnotherActionDetachesLeavesTheOthersTheirFlights) {
     const OtherAction detach(three, [&] { three.of(*bodies[detached]).remove(); });
     three.step(kTimeStep);
     for (int i = 0; i < 3; ++i) {
-      const AmbientBody* ambient = membersOf(three.fluid).find(bodies[i]);
+      const AmbientBody* ambient = ambientBodiesOf(three.fluid).find(bodies[i]);
       ASSERT_EQ(ambient == nullptr, i == detached);
       if (ambient) {
         EXPECT_EQ(ambient->outcome.kind, Outcome::kNotSolved);
@@ -153,7 +153,7 @@ TEST_F(Lifetime, AnObjectOfAnotherKindAtTheAddressIsNotAttached) {
   auto* object = new (storage.address()) btCollisionObject;
   object->setCollisionShape(&shape);
   scene.world.addCollisionObject(object);
-  EXPECT_EQ(membersOf(scene.fluid).find(object), nullptr);
+  EXPECT_EQ(ambientBodiesOf(scene.fluid).find(object), nullptr);
   scene.step(kTimeStep);
   scene.world.removeCollisionObject(object);
   object->~btCollisionObject();
@@ -186,7 +186,7 @@ TEST_F(Lifetime, AStaticBodyHasTheModelOfItsNewFluidBody) {
   scene.of(body).setFluidBody(std::make_shared<FluidBody>(scaled(unitBall(), 2)));
   const WorldState state = scene.fluid.save();
   scene.fluid.restore(state);
-  const AmbientBody& ambient = *membersOf(scene.fluid).find(&body);
+  const AmbientBody& ambient = *ambientBodiesOf(scene.fluid).find(&body);
   const auto loads = makeSurfaceLoads(ambient.def->fluid_body, water(), ambient.def->flow);
   const Twist twist{{1, 2, 3}, {3, 1, 2}};
   EXPECT_EQ(ambient.model().loads->load(twist).vector(), loads->load(twist).vector());
@@ -305,13 +305,13 @@ TEST(ShapeScaling, ARefusedFluidBodyLeavesTheOldOne) {
   btRigidBody& body = scene.add(plateBody(1));
   scene.fluid.add(body, plate());
   const Matrix6 before = scene.of(body).inertia();
-  const auto loads = membersOf(scene.fluid).find(&body)->model().loads;
+  const auto loads = ambientBodiesOf(scene.fluid).find(&body)->model().loads;
   EXPECT_THROW(scene.of(body).setFluidBody(nullptr), std::invalid_argument);
   auto broken = std::make_shared<FluidBody>(*plate().fluid_body);
   broken->added_mass(3, 3) = -1e6;
   EXPECT_THROW(scene.of(body).setFluidBody(broken), std::invalid_argument);
   EXPECT_EQ(scene.of(body).inertia(), before);
-  EXPECT_EQ(membersOf(scene.fluid).find(&body)->model().loads, loads);
+  EXPECT_EQ(ambientBodiesOf(scene.fluid).find(&body)->model().loads, loads);
   scene.step(kShortStep);
 }
 
@@ -324,7 +324,7 @@ TEST(BodyIndex, FindsWhatWasInsertedAndNotErased) {
   constexpr int kAddresses = 300;
   Arbitrary arbitrary(1);
   std::list<AmbientBody> bodies;
-  std::map<int, BodyIndex::Place> known;
+  std::map<int, BodyIndex::Iterator> known;
   BodyIndex index;
   EXPECT_FALSE(index.find(addressOf(0)));
   for (int i = 0; i < 5000; ++i) {

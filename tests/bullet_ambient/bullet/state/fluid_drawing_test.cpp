@@ -91,7 +91,7 @@ class Drawing : public testing::Test {
     }
   }
   std::size_t lines() const { return recorder.count() - lines_of_stock_; }
-  const AmbientBody& ambient() { return *membersOf(scene.fluid).find(body); }
+  const AmbientBody& ambient() { return *ambientBodiesOf(scene.fluid).find(body); }
   Twist relativeTwist() {
     Twist relative = readState(*body).twist;
     relative.linear -= readState(*body).orientation.conjugate() * ambient().def->medium.velocity;

@@ -260,7 +260,7 @@ void fill(Numbers& n, AmbientState& s) {
   for (HoldState& hold : s.holds)
     n(hold.volume, hold.pump, hold.flooded, hold.drained, hold.is_sealed, hold.air);
   for (Sloshing& sloshing : s.sloshing = std::vector<Sloshing>(2))
-    n(sloshing.is_known, sloshing.way_W, sloshing.velocity_W);
+    n(sloshing.is_known, sloshing.displacement_W, sloshing.velocity_W);
   AmbientCounters& c = s.counters;
   n(c.substeps, c.load_evaluations, c.faces, c.guarded, c.coarse, c.halted, c.energy_removed,
     c.rows, c.joint_rows, c.rejected, c.regions_asked, c.medium_changes, c.too_long);

@@ -89,7 +89,8 @@ TEST(Vessel, TrayThatIsShakenSlopsOver) {
 
 /// Gives the water of a barge a way along x and y [m].
 void sway(Sea& sea, const btRigidBody& body, double x, double y) {
-  membersOf(sea.scene.fluid).find(&body)->vessel->sloshing.now[0] = {true, {x, y, 0}, {0, 0, 0}};
+  ambientBodiesOf(sea.scene.fluid).find(&body)->vessel->sloshing.now[0] = {
+      true, {x, y, 0}, {0, 0, 0}};
 }
 
 // The waves inside lift water over a rim that is above both levels, also where that inside is the
@@ -131,7 +132,7 @@ TEST(Vessel, DragOfABodyInAHoldMovesTheVessel) {
     const auto momentum = [&] {
       RigidState state = readState(box);
       state.twist.linear -= state.orientation.conjugate() * Vector3(speed(barge), 0, 0);
-      const Vector6 past = sea.of(box).stand().inertia.full() * state.twist.vector();
+      const Vector6 past = sea.of(box).flotation().inertia.full() * state.twist.vector();
       return Sea::Water(sea, barge).momentum_W().x() + kMass * speed(barge) +
              (state.orientation * Vector3(past.tail<3>())).x();
     };

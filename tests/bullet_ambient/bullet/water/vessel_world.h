@@ -7,7 +7,7 @@
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
-#include "bullet_ambient/motion/surface/stand_lanes.h"
+#include "bullet_ambient/motion/surface/flotation_lanes.h"
 #include "bullet_ambient/spatial/rotation.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/support/bodies/vessel_bodies.h"
@@ -54,7 +54,7 @@ struct Sea {
     return body;
   }
   const AmbientBody& of(const btRigidBody& body) const {
-    return *membersOf(scene.fluid).find(&body);
+    return *ambientBodiesOf(scene.fluid).find(&body);
   }
   double water(const btRigidBody& body) const { return of(body).vessel->holds[0].volume; }
   /// Energy of the body, the water around and that in its holds, docs/theory.md eq. (64) [J].
@@ -64,8 +64,8 @@ struct Sea {
     const RigidState state = readState(body);
     const Water water(*this, body);
     const Vector6 x = state.twist.vector();
-    return x.dot(water.stand.inertia.full() * x) / 2 + mass * kGravity * state.position.z() +
-           hydrostaticEnergy(wetVolume(model, water.stand), water.stand.plane) +
+    return x.dot(water.flotation.inertia.full() * x) / 2 + mass * kGravity * state.position.z() +
+           hydrostaticEnergy(wetVolume(model, water.flotation), water.flotation.plane) +
            water.energy().sum() + ambient.floating->waves.energy() + energyOfAirIn(ambient);
   }
 
@@ -76,22 +76,23 @@ struct Sea {
           model(ambient.models->surfaces.at(0).model),
           state(readState(body)),
           modes(ambient.vessel->holds.size()),
-          stand(standAtSurface(model,
-                               seenFrom({{0, 0, 1}, 0, 1000, kGravity},
-                                        state.orientation.toRotationMatrix(), state.position),
-                               {waterOf(ambient), &inside, modes.data()})),
-          at{model, stand, state.orientation.toRotationMatrix(), state.position},
+          flotation(flotationAt(model,
+                                seenFrom({{0, 0, 1}, 0, 1000, kGravity},
+                                         state.orientation.toRotationMatrix(), state.position),
+                                {waterOf(ambient), &inside, modes.data()})),
+          at{model, flotation, state.orientation.toRotationMatrix(), state.position},
           sloshing(ambient.vessel->sloshing.now) {
-      if (stand.inside_F) joinVessel(at.sloshing(), state.twist.vector(), sloshing.data());
+      if (flotation.inside_F) joinVessel(at.sloshing(), state.twist.vector(), sloshing.data());
     }
     SloshingEnergy energy() const {
-      return stand.inside_F ? energyOfSloshing(at.sloshing(), sloshing.data()) : SloshingEnergy{};
+      return flotation.inside_F ? energyOfSloshing(at.sloshing(), sloshing.data())
+                                : SloshingEnergy{};
     }
     /// Of body, fluid and water.
     Vector3 momentum_W() const {
-      const Vector6 own = stand.inertia.full() * state.twist.vector();
+      const Vector6 own = flotation.inertia.full() * state.twist.vector();
       const Vector3 own_W = state.orientation * Vector3(own.tail<3>());
-      if (!stand.inside_F) return own_W;
+      if (!flotation.inside_F) return own_W;
       return own_W + momentumOfSloshing(at.sloshing(), sloshing.data()).linear;
     }
 
@@ -100,7 +101,7 @@ struct Sea {
     RigidState state;
     std::vector<HoldModes> modes;
     WaterInside inside;
-    SurfaceStand stand;
+    Flotation flotation;
     WaterAt at;
     std::vector<Sloshing> sloshing;
   };

@@ -197,8 +197,8 @@ WaterBodyDef bodyOf(WaterShape shape, double size, double specific_gravity, int 
   return def;
 }
 
-std::vector<double> passSurface(double height, double time, double specific_gravity, double step,
-                                int max_substeps) {
+std::vector<double> applyAddedMassChange(double height, double time, double specific_gravity,
+                                         double step, int max_substeps) {
   WaterBodyDef def = bodyOf(WaterShape::kCube, 0.5, specific_gravity, max_substeps);
   def.start.position.z() = height;
   def.start.orientation = Quaternion(Eigen::AngleAxisd(0.35, Vector3(1, 0.3, 0).normalized()));
@@ -277,9 +277,9 @@ const char* nameOf(WaterMotion motion) {
 std::vector<double> runMotion(WaterMotion motion, double step, int max_substeps) {
   switch (motion) {
     case WaterMotion::kEntry:
-      return passSurface(1.4, 0.8, 0.5, step, max_substeps);
+      return applyAddedMassChange(1.4, 0.8, 0.5, step, max_substeps);
     case WaterMotion::kExit:
-      return passSurface(-1.5, 0.9, 0.3, step, max_substeps);
+      return applyAddedMassChange(-1.5, 0.9, 0.3, step, max_substeps);
     case WaterMotion::kHeave:
       return heave(step, max_substeps);
     case WaterMotion::kRoll:

@@ -7,7 +7,7 @@
 
 #include "bullet_ambient/bullet/core/conversions.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
-#include "bullet_ambient/motion/surface/stand_lanes.h"
+#include "bullet_ambient/motion/surface/flotation_lanes.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/collision_shape/collision_shape_body.h"
@@ -170,15 +170,15 @@ double WaterRun::energyOf(const FloatingBody& floating) const {
     const Matrix3 J = (floating.mass * floating.shape.moments).asDiagonal();
     return x.dot(rigidBodyInertia(floating.mass, J) * x) / 2 + weight;
   }
-  const AmbientBody& ambient = *membersOf(fluid_.fluid).find(floating.body);
+  const AmbientBody& ambient = *ambientBodiesOf(fluid_.fluid).find(floating.body);
   const SurfaceModel& model = ambient.models->surfaces.at(0).model;
   const Matrix3 R = state.orientation.toRotationMatrix();
   const SurfacePlane still{{0, 0, 1}, 0, model.excess_density, kGravity};
-  const SurfaceStand stand = standAtSurface(model, seenFrom(still, R, state.position));
-  const Immersion& at = stand.immersion_F;
+  const Flotation flotation = flotationAt(model, seenFrom(still, R, state.position));
+  const Immersion& at = flotation.immersion_F;
   const double centre = (state.position + R * model.above.centre_of_volume).z();
   const double in_air = model.above.displaced_mass * kGravity * centre;
-  return x.dot(stand.inertia.full() * x) / 2 + weight - in_air +
+  return x.dot(flotation.inertia.full() * x) / 2 + weight - in_air +
          hydrostaticEnergy(at.wet, at.plane) + ambient.floating->waves.energy();
 }
 

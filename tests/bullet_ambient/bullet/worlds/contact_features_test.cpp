@@ -34,7 +34,7 @@ class CoupledScene {
     info.m_restitutionVelocityThreshold = 0;
     info.m_numIterations = 500;
     scene.world.addRigidBody(&body());
-    coupled.attachTo(membersOf(scene.fluid));
+    coupled.attachTo(ambientBodiesOf(scene.fluid));
   }
   ~CoupledScene() { scene.world.removeRigidBody(&body()); }
 

@@ -22,7 +22,7 @@ class SingleThreadedHost final : public WorldHost {
   SingleThreadedHost() {
     if constexpr (kIsAmbient) {
       fluid_.emplace(world_);
-      ambient_.emplace(membersOf(*fluid_).shared_from_this());
+      ambient_.emplace(ambientBodiesOf(*fluid_).shared_from_this());
       set(ambient_->solver);
     } else {
       set(stock_.solver);

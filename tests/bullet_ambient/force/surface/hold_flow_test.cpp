@@ -55,10 +55,10 @@ TEST(HoldFlow, RimIsAWeirAndThenAnOrifice) {
 // A slot from its sill to full cover: C 2/3 sqrt(2g) b (h^1.5 - (h - a)^1.5).
 TEST(HoldFlow, HoleInTheSideIsRightAtAnyCover) {
   const OpeningShape hole(rectangle({1, -0.1, 0}, {0, 0.2, 0}, {0, 0, 0.1}));
-  for (const double cover : {0.5, 1.0, 1.5, 3.0}) {
-    const double h = 0.1 * cover, above = std::max(0.0, h - 0.1);
+  for (const double submergence : {0.5, 1.0, 1.5, 3.0}) {
+    const double h = 0.1 * submergence, above = std::max(0.0, h - 0.1);
     const double exact = 2.0 / 3 * kFall * 0.2 * (std::pow(h, 1.5) - std::pow(above, 1.5));
-    EXPECT_NEAR(flowThrough(hole, {}, h, -1), exact, 1e-3 * exact) << cover;
+    EXPECT_NEAR(flowThrough(hole, {}, h, -1), exact, 1e-3 * exact) << submergence;
   }
 }
 

@@ -36,7 +36,7 @@ inline void setAfloat(FloatingRun& run, double above_keel, double heel) {
   double low = -1, high = 1;
   for (int i = 0; i < 60; ++i) {  // the net displacement falls with the height
     run.state.position = {0, 0, (low + high) / 2};
-    const bool is_deep = wetVolume(run.model(), run.stand()).volume > kBargeMass / 1000;
+    const bool is_deep = wetVolume(run.model(), run.flotation()).volume > kBargeMass / 1000;
     (is_deep ? low : high) = (low + high) / 2;
   }
   if (heel == 0) {

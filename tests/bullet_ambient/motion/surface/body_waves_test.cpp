@@ -4,8 +4,8 @@
 #include <complex>
 
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/motion/surface/stand_lanes.h"
-#include "bullet_ambient/motion/surface/surface_stand.h"
+#include "bullet_ambient/motion/surface/flotation.h"
+#include "bullet_ambient/motion/surface/flotation_lanes.h"
 #include "tests/support/bodies/random_bodies.h"
 #include "tests/support/matrices.h"
 
@@ -14,24 +14,24 @@ namespace {
 
 const SurfacePlane kPlane{{0, 0, 1}, 0, 1, 1};
 
-/// The stand of a body of unit inertia whose fluid has an added mass per unit density, times a
+/// The flotation of a body of unit inertia whose fluid has an added mass per unit density, times a
 /// factor.
-SurfaceStand standOf(const WetVolume& wet, const SurfacePlane& plane, double added_mass = 0,
-                     double factor = 1) {
+Flotation flotationOf(const WetVolume& wet, const SurfacePlane& plane, double added_mass = 0,
+                      double factor = 1) {
   SurfaceModel model;
   model.above.inertia = Matrix6::Identity();
   model.excess_density = plane.density;
   model.added_density = factor * plane.density;
-  SurfaceStand stand;
-  stand.plane = plane;
-  stand.immersion_F.wet = wet;
+  Flotation flotation;
+  flotation.plane = plane;
+  flotation.immersion_F.wet = wet;
   Matrix6 inertia = Matrix6::Identity();
   inertia.diagonal().tail<3>().array() += model.added_density * added_mass;
-  stand.inertia = SymmetricMatrix(inertia);
+  flotation.inertia = SymmetricMatrix(inertia);
   const SurfaceModel* const models = &model;
-  SurfaceStand* const stands = &stand;
-  completeStands(&models, &stands, 1);
-  return stand;
+  Flotation* const flotations = &flotation;
+  completeFlotations(&models, &flotations, 1);
+  return flotation;
 }
 
 /// Lets waves meet modes, and act for no time.
@@ -43,7 +43,7 @@ void projectOnModes(const FloatingModes& modes, const Matrix3& to_world, WaveMem
 
 /// A hemisphere of radius 1 in water of density 1 and gravity 1.
 FloatingModes hemisphere() {
-  return standOf(computeWetSphere(1, {0, 0, 0}, kPlane), kPlane, kPi / 3).modes;
+  return flotationOf(computeWetSphere(1, {0, 0, 0}, kPlane), kPlane, kPi / 3).modes;
 }
 
 /// Force over velocity of a mode: 0, heave; 1 and 2, tilts; B + i omega (A - A(inf)).
@@ -74,14 +74,14 @@ FloatingModes boxModes(double length, double breadth, double draught, double add
   const double area = length * breadth, volume = area * draught;
   WetVolume wet{volume, {0, 0, -volume * draught / 2}, 0, {area, {0, 0, 0}, Matrix3::Zero()}};
   wet.waterplane.spread.diagonal() << area * length * length / 12, area * breadth * breadth / 12, 0;
-  return standOf(wet, kPlane, added_mass).modes;
+  return flotationOf(wet, kPlane, added_mass).modes;
 }
 
 TEST(BodyWaves, DoNotDependOnTheFactorOnTheAddedMass) {
   const FloatingModes modes = hemisphere();
   const WetVolume wet = computeWetSphere(1, {0, 0, 0}, kPlane);
   for (const double factor : {0.3, 3.0}) {
-    const FloatingModes other = standOf(wet, kPlane, kPi / 3, factor).modes;
+    const FloatingModes other = flotationOf(wet, kPlane, kPi / 3, factor).modes;
     EXPECT_NEAR(other.strength[0], modes.strength[0], 1e-13 * modes.strength[0]);
     EXPECT_NEAR(other.rate[0], modes.rate[0], 1e-13 * modes.rate[0]);
   }
@@ -141,7 +141,7 @@ TEST(FloatingModes, OfABoxAreThoseOfItsWaterplane) {
   const SurfacePlane plane{{0, 0, 1}, 0, 2, 3};
   WetVolume wet{0.5, {0, 0, -0.5 * 0.125}, 0, {2, {0, 0, 0}, Matrix3::Zero()}};
   wet.waterplane.spread.diagonal() << 2 * 4 / 12.0, 2 / 12.0, 0;
-  const FloatingModes modes = standOf(wet, plane).modes;
+  const FloatingModes modes = flotationOf(wet, plane).modes;
   EXPECT_NEAR(modes.stiffness[0], 6 * 2, 1e-14);
   for (int i = 0; i < 2; ++i) {
     const bool is_roll = std::abs(modes.tilt[i].x) > 0.5;
@@ -157,7 +157,7 @@ TEST(FloatingModes, HavePrincipalAxesWhateverTheAttitude) {
     const SurfacePlane plane{R.col(2), 0, 1, 1};
     WetVolume wet{0.5, {0, 0, 0}, 0, {2, {0, 0, 0}, Matrix3::Zero()}};
     wet.waterplane.spread = R * Vector3(0.7, 0.2, 0).asDiagonal() * R.transpose();
-    const FloatingModes modes = standOf(wet, plane).modes;
+    const FloatingModes modes = flotationOf(wet, plane).modes;
     const double a = modes.second_moment[0], b = modes.second_moment[1];
     EXPECT_NEAR(std::max(a, b), 0.7, 1e-13);
     EXPECT_NEAR(std::min(a, b), 0.2, 1e-13);
@@ -174,7 +174,7 @@ TEST(BodyWaves, BallThatTurnsMakesNone) {
 TEST(BodyWaves, AreNoneWithoutAWaterplane) {
   const SurfacePlane above{{0, 0, 1}, -2, 1, 1};
   const WetVolume dry = computeWetSphere(1, {0, 0, 0}, above);
-  const FloatingModes modes = standOf(dry, above).modes;
+  const FloatingModes modes = flotationOf(dry, above).modes;
   WaveMemory waves;
   waves.heave.first = 1;
   waves.heave_energy = 1;

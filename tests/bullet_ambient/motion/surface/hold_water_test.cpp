@@ -24,8 +24,8 @@ using namespace test::barge;
 
 /// Torque of weight and water about x, over the weight [m].
 double leverOf(const FloatingRun& run) {
-  const SurfaceStand stand = run.stand();
-  return hydrostaticWrench(wetVolume(run.model(), stand), stand.plane).torque.x() /
+  const Flotation flotation = run.flotation();
+  return hydrostaticWrench(wetVolume(run.model(), flotation), flotation.plane).torque.x() /
          (kBargeMass * 9.81);
 }
 
@@ -44,7 +44,7 @@ TEST(HoldWater, FreeSurfaceTakesItsPartOffTheMetacentricHeight) {
     const double height = (outer - inner) / volume;
     setAfloat(run, kCentre, kSmall);
     EXPECT_NEAR(-leverOf(run) / kSmall, height, 1e-6) << water;
-    EXPECT_EQ(isStable(run.model(), run.stand()), height > 0);
+    EXPECT_EQ(isStable(run.model(), run.flotation()), height > 0);
   }
 }
 
@@ -54,7 +54,7 @@ TEST(HoldWater, TopHeavyBargeLollsToTheKnownAngle) {
     FloatingRun run(bargeDef(centre));
     run.water = {{0.2}};
     setAfloat(run, centre, 0);
-    EXPECT_FALSE(isStable(run.model(), run.stand())) << "upright";
+    EXPECT_FALSE(isStable(run.model(), run.flotation())) << "upright";
     double low = 0.01, high = 0.3;
     for (int i = 0; i < 50; ++i) {
       const double heel = (low + high) / 2;
@@ -62,7 +62,7 @@ TEST(HoldWater, TopHeavyBargeLollsToTheKnownAngle) {
       (leverOf(run) > 0 ? low : high) = heel;
     }
     EXPECT_NEAR(low * 180 / kPi, degrees, 1e-4);
-    EXPECT_TRUE(isStable(run.model(), run.stand())) << "at the angle of loll";
+    EXPECT_TRUE(isStable(run.model(), run.flotation())) << "at the angle of loll";
   }
 }
 
@@ -78,7 +78,7 @@ TEST(HoldWater, FullVesselIsThatOfOneFluid) {
   const BodyModel full =
       makeBodyModel(def.shape, frame, mass, {1000, 0, {0, 0, 0}, {0, 0, 0}}, nullptr);
   EXPECT_LT((run.inertia() - full.inertia).norm(), 1e-12 * full.inertia.norm());
-  const WetVolume wet = wetVolume(run.model(), run.stand());
+  const WetVolume wet = wetVolume(run.model(), run.flotation());
   EXPECT_NEAR(1000 * wet.volume, full.displaced_mass, 1e-9);
   EXPECT_LT((1000 * wet.moment - full.displaced_mass * full.centre_of_volume).norm(), 1e-9);
   EXPECT_TRUE(areFull(*run.model().holds, run.water.data()));

@@ -59,7 +59,7 @@ TEST(Sloshing, OfAVesselThatIsHeldIsTheMidpointRule) {
     EXPECT_EQ(x.norm(), 0);
   }
   const double turned = kSteps * 2 * std::atan(rate * step / 2);
-  EXPECT_NEAR(state.way_W.y(), kWay * std::cos(turned), 1e-10 * kWay);
+  EXPECT_NEAR(state.displacement_W.y(), kWay * std::cos(turned), 1e-10 * kWay);
   EXPECT_NEAR(state.velocity_W.y(), -kWay * rate * std::sin(turned), 1e-10 * kWay);
 }
 
@@ -73,8 +73,9 @@ TEST(Sloshing, IsDampedByItsShareOfTheCriticalDamping) {
     const int steps = static_cast<int>(3.5 * 2 * kPi / rate / kStep);
     for (int i = 0; i < steps; ++i) {
       exchangeSloshing(water.at(), SymmetricMatrix(), damping, kStep, Vector6::Zero(), &state);
-      if (state.way_W.y() > last && i > steps * 5 / 7) highest = std::max(highest, state.way_W.y());
-      last = state.way_W.y();
+      if (state.displacement_W.y() > last && i > steps * 5 / 7)
+        highest = std::max(highest, state.displacement_W.y());
+      last = state.displacement_W.y();
     }
     const double period = 2 * kPi / (rate * std::sqrt(1 - damping * damping));
     EXPECT_NEAR(highest, 1e-5 * std::exp(-damping * rate * 3 * period), 1e-2 * highest);
@@ -221,8 +222,8 @@ TEST(Sloshing, KeepsTheMomentumAlongTheSea) {
   run.state.orientation = rotationFromVector(Vector3(0.1, 0.03, 0.5));
   run.state.twist = {{0.1, 0.2, 0.3}, {0.4, 0.1, 0}};
   const auto momentum = [&] {
-    const SurfaceStand stand = run.stand();
-    const WaterAt at{run.model(), stand, run.state.orientation.toRotationMatrix(),
+    const Flotation flotation = run.flotation();
+    const WaterAt at{run.model(), flotation, run.state.orientation.toRotationMatrix(),
                      run.state.position};
     const Momentum of_water = momentumOfSloshing(at.sloshing(), run.sloshing.now.data());
     return Vector3(run.momentum_W() + of_water.linear);
@@ -241,14 +242,14 @@ TEST(Sloshing, ShiftKeepsMomentumAndEnergy) {
   int kept = 0;
   for (int i = 0; i < 50; ++i) {
     setAfloat(run, 0.2, 0.2 * arbitrary.between(-1, 1));
-    const SurfaceStand before = run.stand();
+    const Flotation before = run.flotation();
     const Matrix3 R = run.state.orientation.toRotationMatrix();
     Sloshing state{true, 0.01 * arbitrary.vector(), 0.1 * arbitrary.vector()};
     const WaterLeft left({run.model(), before, R, run.state.position}, &state);
     run.state.orientation =
         rotationFromVector(0.02 * arbitrary.vector().normalized()) * run.state.orientation;
     run.state.position += 0.01 * arbitrary.vector();
-    const SurfaceStand after = run.stand();
+    const Flotation after = run.flotation();
     const WaterAt at{run.model(), after, run.state.orientation.toRotationMatrix(),
                      run.state.position};
     SymmetricMatrix inertia = before.inertia;
@@ -288,12 +289,12 @@ TEST(Sloshing, NeverGrowsWithItsModes) {
     const Matrix3 R = rotationFromVector(arbitrary.vector()).toRotationMatrix();
     projectOnModes(water.at(R), energy, &state);
     EXPECT_LT(energyOfSloshing(water.at(R), &state).sum(), energy * (1 + 1e-14));
-    EXPECT_NEAR(state.way_W.dot(R.col(2)), 0, 1e-12);
+    EXPECT_NEAR(state.displacement_W.dot(R.col(2)), 0, 1e-12);
   }
   const HoldModes none;
   Sloshing state{true, {1, 0, 0}, {0, 1, 0}};
   projectOnModes({1000, &none, 1, Matrix3::Identity()}, 1, &state);
-  EXPECT_EQ(state.way_W.norm() + state.velocity_W.norm(), 0);
+  EXPECT_EQ(state.displacement_W.norm() + state.velocity_W.norm(), 0);
 }
 
 }  // namespace

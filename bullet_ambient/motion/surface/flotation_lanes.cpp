@@ -1,4 +1,4 @@
-#include "bullet_ambient/motion/surface/stand_lanes.h"
+#include "bullet_ambient/motion/surface/flotation_lanes.h"
 
 #include <algorithm>
 
@@ -10,14 +10,14 @@ namespace {
 
 constexpr int kSpread[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
 
-void setPlane(StandLanes& lanes, int body, const SurfacePlane& plane) {
+void setPlane(FlotationLanes& lanes, int body, const SurfacePlane& plane) {
   setLane(lanes.normal, body, plane.normal);
   lanes.height[body] = plane.height;
   lanes.gravity[body] = plane.gravity;
   lanes.specific_weight[body] = plane.density * plane.gravity;
 }
 
-void setWetVolume(StandLanes& lanes, int body, const WetVolume& wet) {
+void setWetVolume(FlotationLanes& lanes, int body, const WetVolume& wet) {
   lanes.volume[body] = wet.volume;
   lanes.depth_integral[body] = wet.depth_integral;
   setLane(lanes.moment, body, wet.moment);
@@ -38,7 +38,7 @@ double heaveInertia(const SurfaceModel& model, const SurfacePlace& place) {
 
 }  // namespace
 
-void setPlace(StandLanes& lanes, int body, const SurfaceModel& model,
+void setPlace(FlotationLanes& lanes, int body, const SurfaceModel& model,
               const SurfacePlace& place) noexcept {
   setPlane(lanes, body, place.plane);
   const WetVolume wet = wetVolume(model, place);
@@ -53,24 +53,24 @@ void setPlace(StandLanes& lanes, int body, const SurfaceModel& model,
   setLane(lanes.least, body, SymmetricMatrix(kLeastShare * model.above.inertia));
 }
 
-void setStand(StandLanes& lanes, int body, const SurfaceModel& model,
-              const SurfaceStand& stand) noexcept {
-  setPlane(lanes, body, stand.plane);
-  setWetVolume(lanes, body, wetVolume(model, stand));
-  forEachNumber(lanes.modes, stand.modes,
+void setFlotation(FlotationLanes& lanes, int body, const SurfaceModel& model,
+                  const Flotation& flotation) noexcept {
+  setPlane(lanes, body, flotation.plane);
+  setWetVolume(lanes, body, wetVolume(model, flotation));
+  forEachNumber(lanes.modes, flotation.modes,
                 [&](FlightLane& to, const double& from) { to[body] = from; });
 }
 
-void readStand(const StandLanes& lanes, int body, SurfaceStand& stand) noexcept {
-  stand.inverse = symmetricOf(lanes.inverse, body);
-  forEachNumber(stand.modes, lanes.modes,
+void readFlotation(const FlotationLanes& lanes, int body, Flotation& flotation) noexcept {
+  flotation.inverse = symmetricOf(lanes.inverse, body);
+  forEachNumber(flotation.modes, lanes.modes,
                 [&](double& to, const FlightLane& from) { to = from[body]; });
-  stand.frequency = lanes.frequency[body];
+  flotation.frequency = lanes.frequency[body];
 }
 
-void computeStands(StandLanes& lanes, const SurfaceModel* const* models,
-                   SurfacePlace* const* places, int count) noexcept {
-  kSurfaceKernels.fastest()->stand(lanes);
+void computeFlotations(FlotationLanes& lanes, const SurfaceModel* const* models,
+                       SurfacePlace* const* places, int count) noexcept {
+  kSurfaceKernels.fastest()->computeFlotations(lanes);
   const auto isIndefinite = [&](int i) {
     return lanes.active[i] > 0 && lanes.is_indefinite[i] > 0;
   };
@@ -84,36 +84,36 @@ void computeStands(StandLanes& lanes, const SurfaceModel* const* models,
     setLane(lanes.least, i, SymmetricMatrix(Matrix6::Zero()));
   }
   if (!is_any) return;
-  kSurfaceKernels.fastest()->stand(lanes);
+  kSurfaceKernels.fastest()->computeFlotations(lanes);
   for (int i = 0; i < count; ++i)
     if (isIndefinite(i))
       setLane(lanes.inverse, i, SymmetricMatrix(models[i]->above.inverse_inertia));
 }
 
-void completeStands(const SurfaceModel* const* models, SurfaceStand* const* stands,
-                    int count) noexcept {
+void completeFlotations(const SurfaceModel* const* models, Flotation* const* flotations,
+                        int count) noexcept {
   AMBIENT_ASSERT(count >= 0 && count <= kFlightLanes);
-  StandLanes lanes{};
+  FlotationLanes lanes{};
   SurfacePlace* places[kFlightLanes] = {};
   for (int i = 0; i < count; ++i) {
     lanes.active[i] = 1;
-    setPlace(lanes, i, *models[i], *stands[i]);
-    places[i] = stands[i];
+    setPlace(lanes, i, *models[i], *flotations[i]);
+    places[i] = flotations[i];
   }
-  computeStands(lanes, models, places, count);
+  computeFlotations(lanes, models, places, count);
   for (int i = 0; i < count; ++i) {
-    readStand(lanes, i, *stands[i]);
+    readFlotation(lanes, i, *flotations[i]);
   }
 }
 
-SurfaceStand standAtSurface(const SurfaceModel& model, const SurfacePlane& plane_B,
-                            const VesselWater& water) noexcept {
-  SurfaceStand stand;
-  static_cast<SurfacePlace&>(stand) = placeAt(model, plane_B, water);
+Flotation flotationAt(const SurfaceModel& model, const SurfacePlane& plane_B,
+                      const VesselWater& water) noexcept {
+  Flotation flotation;
+  static_cast<SurfacePlace&>(flotation) = placeAt(model, plane_B, water);
   const SurfaceModel* const models = &model;
-  SurfaceStand* const stands = &stand;
-  completeStands(&models, &stands, 1);
-  return stand;
+  Flotation* const flotations = &flotation;
+  completeFlotations(&models, &flotations, 1);
+  return flotation;
 }
 
 }  // namespace ambient

@@ -1,3 +1,5 @@
+#include "bullet_ambient/motion/lanes/added_mass_change.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -5,7 +7,6 @@
 #include <vector>
 
 #include "bullet_ambient/motion/body/one_body.h"
-#include "bullet_ambient/motion/lanes/passage_kernel.h"
 #include "bullet_ambient/motion/surface/symmetric_matrix.h"
 #include "demos/integrators/integrators.h"
 #include "tests/support/bodies/free_body.h"
@@ -26,8 +27,8 @@ struct Change {
   SymmetricMatrix before, after, inverse;
 };
 
-BoundedTwist passed(const PassageOf<double>& passage, const Vector6& x) {
-  const PassedOf<double> end = passSurface(passage, plain(x));
+BoundedTwist passed(const AddedMassChangeOf<double>& passage, const Vector6& x) {
+  const AfterChangeOf<double> end = applyAddedMassChange(passage, plain(x));
   return {asEigen(end.twist), end.energy_removed};
 }
 
@@ -47,7 +48,7 @@ double speedAfterEntry(double gravity, double start, int steps) {
     Vector6 x = Vector6::Zero();
     x[5] = -speed;
     const double by_height = 0.5 * 2 * from * speed * speed;
-    const PassageOf<double> passage{
+    const AddedMassChangeOf<double> passage{
         K.before, K.after, K.inverse, {{0, 0, 0}, {0, 0, -by_height}}, {0, 0, 1}, {0, 0, 0}, to,
         to - 10,  gravity, duration};
     speed = -passed(passage, x).twist[5];
@@ -71,9 +72,9 @@ TEST(SurfacePassage, SprayTakesMomentumAtTheCentreOfBuoyancy) {
   const Change K(before, after);
   Vector6 x = Vector6::Zero();
   x[5] = -2;
-  const PassageOf<double> passage{K.before,  K.after,     K.inverse, {{0, 0, 0}, {0, 0, -10}},
-                                  {0, 0, 1}, {0.3, 0, 0}, 1,         -9,
-                                  0,         0.01};
+  const AddedMassChangeOf<double> passage{
+      K.before, K.after, K.inverse, {{0, 0, 0}, {0, 0, -10}}, {0, 0, 1}, {0.3, 0, 0}, 1,
+      -9,       0,       0.01};
   Vector6 change = Vector6::Zero();  // c x n dt 10 N
   change[1] = -0.03;
   EXPECT_LT((after * passed(passage, x).twist - before * x - change).norm(), 1e-15);
@@ -85,16 +86,16 @@ TEST(SurfacePassage, NeverAddsEnergyWhateverChanges) {
     const Matrix6 before = arbitrary.positiveDefinite(), after = arbitrary.positiveDefinite();
     const Change K(before, after);
     const Vector6 x = arbitrary.twist().vector();
-    const PassageOf<double> passage{K.before,
-                                    K.after,
-                                    K.inverse,
-                                    plain(arbitrary.twist(10, 10).vector()),
-                                    plain(Vector3(arbitrary.vector().normalized())),
-                                    plain(arbitrary.vector()),
-                                    arbitrary.between(-1, 1),
-                                    arbitrary.between(-1, 1),
-                                    arbitrary.between(0, 10),
-                                    arbitrary.between(0, 1)};
+    const AddedMassChangeOf<double> passage{K.before,
+                                            K.after,
+                                            K.inverse,
+                                            plain(arbitrary.twist(10, 10).vector()),
+                                            plain(Vector3(arbitrary.vector().normalized())),
+                                            plain(arbitrary.vector()),
+                                            arbitrary.between(-1, 1),
+                                            arbitrary.between(-1, 1),
+                                            arbitrary.between(0, 10),
+                                            arbitrary.between(0, 1)};
     const Vector6 end = passed(passage, x).twist;
     EXPECT_LE(end.dot(after * end), x.dot(before * x) * (1 + 1e-12));
   }
@@ -111,9 +112,9 @@ TEST(SurfacePassage, TellsTheEnergyThatItRemoves) {
     const double had = x.dot(before * x) / 2, gain = end.dot(after * end) / 2 - had;
     EXPECT_EQ(gain > 0, i % 2 == 0);
     const Change K(before, after);
-    const PassageOf<double> passage{K.before,  K.after,   K.inverse, {{0, 0, 0}, {0, 0, 0}},
-                                    {0, 0, 1}, {0, 0, 0}, 1,         1,
-                                    9.81,      0.01};
+    const AddedMassChangeOf<double> passage{K.before,  K.after,   K.inverse, {{0, 0, 0}, {0, 0, 0}},
+                                            {0, 0, 1}, {0, 0, 0}, 1,         1,
+                                            9.81,      0.01};
     EXPECT_NEAR(passed(passage, x).energy_removed, std::max(0.0, gain), 1e-11 * had) << i;
   }
 }
@@ -123,7 +124,7 @@ TEST(SurfacePassage, LeavesABodyAloneWhoseInertiaStays) {
   const Matrix6 inertia = arbitrary.positiveDefinite();
   const Change K(inertia, inertia);
   const Vector6 x = arbitrary.twist().vector();
-  const PassageOf<double> passage{
+  const AddedMassChangeOf<double> passage{
       K.before, K.after, K.inverse, {{1, 2, 3}, {4, 5, 6}}, {0, 0, 1}, {0, 0, 0}, 1, 1, 9.81, 0.01};
   EXPECT_EQ(passed(passage, x).twist, x);
   EXPECT_EQ(passed(passage, x).energy_removed, 0);

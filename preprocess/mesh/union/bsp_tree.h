@@ -17,21 +17,21 @@ std::vector<FlatPolygon> polygonsOf(const TriangleMesh& mesh);
 
 /// The inside of a closed mesh as a tree of half spaces: Naylor, Amanatides, Thibault, "Merging BSP
 /// trees yields polyhedral set operations", 1990. For a convex mesh of n planes a chain of n nodes.
-class SolidTree {
+class BspTree {
  public:
   static constexpr std::size_t kMostPlanes = 8000;
 
   /// Points closer to a plane than the tolerance [m] lie on it.
   /// @pre closed and outward oriented.
   /// @throws std::runtime_error if it takes more than kMostPlanes.
-  SolidTree(const TriangleMesh& mesh, double tolerance);
+  BspTree(const TriangleMesh& mesh, double tolerance);
 
   /// Returns the pieces of a polygon of another solid's surface that are on the surface of the
   /// union of both; the polygon itself if nothing has to be removed. Pieces on the surface of this
   /// solid are removed where the two solids touch from outside. Where both surfaces are flush they
-  /// stay if `keep_flush`, which exactly one of the two solids should have. Cost: the number of
+  /// stay if `keep_coplanar`, which exactly one of the two solids should have. Cost: the number of
   /// planes that the polygon meets.
-  std::vector<FlatPolygon> cutOff(const FlatPolygon& polygon, bool keep_flush) const;
+  std::vector<FlatPolygon> clip(const FlatPolygon& polygon, bool keep_coplanar) const;
 
  private:
   struct Node {
@@ -47,7 +47,7 @@ class SolidTree {
 
   Sides divide(const Node& node, const FlatPolygon& polygon) const;
   void divide(int node, const FlatPolygon& polygon, std::vector<FlatPolygon>& outside,
-              std::vector<FlatPolygon>& inside, bool keep_flush) const;
+              std::vector<FlatPolygon>& inside, bool keep_coplanar) const;
 
   /// Returns the pieces of a polygon around the part of it that is inside a convex solid, cut by
   /// those planes alone that the part ends at.

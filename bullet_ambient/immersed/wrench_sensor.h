@@ -8,7 +8,7 @@
 namespace ambient {
 
 /// Data of a body or link whose wrench is read: results, and quantities of the present substep.
-struct FluidReading {
+struct WrenchSensor {
   FluidWrench wrench;
 
   // Quantities of the present substep.
@@ -16,19 +16,19 @@ struct FluidReading {
   Surroundings surroundings;
   SurfacePlane plane_W;
   WaveMemory waves;
-  Twist moved_W;               ///< velocity by which Bullet moves the body, world axes
-  RigidState end;              ///< links only: state after the substep
-  BodyModel model;             ///< model in the substep
-  Wrench impulse_W;            ///< impulse of constraint rows [N m s, N s]
-  bool knows_impulse = false;  ///< true: impulse_W is known; false: the balance of momentum gives
-                               ///< the constraint wrench
-  Wrench passage_W;            ///< impulse on a link by the change of its added mass [N m s, N s]
+  Twist moved_W;                ///< velocity by which Bullet moves the body, world axes
+  RigidState end;               ///< links only: state after the substep
+  BodyModel model;              ///< model in the substep
+  Wrench impulse_W;             ///< impulse of constraint rows [N m s, N s]
+  bool knows_impulse = false;   ///< true: impulse_W is known; false: the balance of momentum gives
+                                ///< the constraint wrench
+  Wrench added_mass_impulse_W;  ///< impulse on a link by the change of its added mass [N m s, N s]
 };
 
 /// Begins a substep in a fluid, once the water surface near the body is known. `surroundings`:
 /// without pushByFlow().
 void beginReading(const AmbientBody& ambient, const RigidState& start,
-                  const Surroundings& surroundings, FluidReading& reading) noexcept;
+                  const Surroundings& surroundings, WrenchSensor& sensor) noexcept;
 
 /// A completed substep.
 struct ReadStep {
@@ -38,12 +38,11 @@ struct ReadStep {
   bool has_flown;   ///< true: at a surface the buoyancy is that of the middle, not of `model`
   double duration;  ///< [s]
 };
-/// Computes FluidReading::wrench. Allocates nothing. Cost: one or two evaluations of the loads.
-void finishReading(const AmbientBody& ambient, const ReadStep& step,
-                   FluidReading& reading) noexcept;
+/// Computes WrenchSensor::wrench. Allocates nothing. Cost: one or two evaluations of the loads.
+void finishReading(const AmbientBody& ambient, const ReadStep& step, WrenchSensor& sensor) noexcept;
 
 // Functions for a rigid body whose wrench is read, in the order of calls in a substep. @pre
-// AmbientBody::reading is set
+// AmbientBody::sensor is set
 
 /// Begins the substep once the solver has met the body. With locked axes the impulse of its rows is
 /// not known.

@@ -49,7 +49,7 @@ Vector6 shiftWater(const WaterLeft& before, const WaterAt& after, const Vector6&
                    SymmetricMatrix& inertia, Sloshing* states) noexcept;
 
 /// A place, and quantities that follow from it: inverse inertia, stiffness, waves.
-struct SurfaceStand : SurfacePlace {
+struct Flotation : SurfacePlace {
   SymmetricMatrix inverse;  ///< K^-1
   FloatingModes modes{};
   double frequency = 0;  ///< largest natural frequency of the body on its buoyancy [1/s]
@@ -82,23 +82,23 @@ inline double energyOfRounding(const SurfaceModel& model, const SurfacePlace& pl
 /// is neutral, and does not count as growth, if the stiffness of a tilt is within half a per cent
 /// of the waterplane's part of it. Counts what the levels in the holds take off, docs/theory.md eq.
 /// (137).
-bool isStable(const SurfaceModel& model, const SurfaceStand& stand) noexcept;
+bool isStable(const SurfaceModel& model, const Flotation& flotation) noexcept;
 
 /// Longest step that needs no stiffInertia(), times the largest natural frequency [1].
 constexpr double kLongestPhase = 0.5;
 
 /// Returns K stiffened() by `modes` for a long step of `duration` [s], so that the step does not
 /// overshoot the balance of buoyancy; implicit trapezoidal rule.
-Matrix6 stiffInertia(const SurfaceStand& stand, const FloatingModes& modes,
+Matrix6 stiffInertia(const Flotation& flotation, const FloatingModes& modes,
                      double duration) noexcept;
 
 /// Returns the modes with the stiffness of the waterplane alone, rho g A_w and rho g I_i: what
 /// buoyancy lacks if the volume that is wet now turns with the body. Never negative.
-FloatingModes modesOfWaterplane(const SurfaceStand& stand) noexcept;
+FloatingModes modesOfWaterplane(const Flotation& flotation) noexcept;
 
 /// Returns a model with constant inertia and displacement, for a step in which constraint rows move
 /// the body. The caller adds the loads, in the frame of SurfaceModel::loads_below.
-BodyModel frozenAt(const SurfaceModel& model, const SurfaceStand& stand) noexcept;
+BodyModel frozenAt(const SurfaceModel& model, const Flotation& flotation) noexcept;
 
 /// Sets mass and centre of what a frozen model displaces; `wet`: in B.
 void displace(const SurfaceModel& model, const WetVolume& wet, BodyModel& frozen) noexcept;
@@ -113,20 +113,21 @@ Vector3 centreOfBuoyancy(const SurfaceModel& model, const SurfacePlace& place) n
 /// Depths of a body's lowest and highest point on a way, the means of those at its two ends [m]. A
 /// point in the air counts as at the surface.
 struct MeanDepths {
-  double draught, cover;
+  double draught, submergence;
 };
 MeanDepths meanDepths(const Immersion& before, const Immersion& after) noexcept;
 
 /// Computes x_1 of docs/theory.md eq. (66) to (68) of a body that has moved between two poses near
 /// the surface. x: twist in B that it would have at the second pose with the inertia K_0 of the
 /// first. F_K is that of the second pose, or of the first if the body has left the water.
-BoundedTwist passSurface(const SurfaceModel& model, const SurfacePlace& before,
-                         const SurfaceStand& after, double duration, const Vector6& x) noexcept;
+BoundedTwist applyAddedMassChange(const SurfaceModel& model, const SurfacePlace& before,
+                                  const Flotation& after, double duration,
+                                  const Vector6& x) noexcept;
 
 /// Load on the part of a body in the fluid below, in B, for a twist in B relative to that fluid; as
 /// computeSurfaceLoad().
 SurfaceLoad loadBelow(const SurfaceModel& model, const SurfacePlace& place, const Twist& x,
-                      double load_share, const FlowAlongBody* flow) noexcept;
+                      double load_scale, const FlowAlongBody* flow) noexcept;
 /// Part of loadBelow() that is friction, at one station and in full.
 Wrench frictionBelow(const SurfaceModel& model, const SurfacePlace& place, const Twist& x) noexcept;
 /// Load of the fluid above.
@@ -136,8 +137,8 @@ Wrench loadAbove(const SurfaceModel& model, const SurfacePlace& place, const Twi
 /// by docs/theory.md eq. (23) in the frame of that fluid. Twists in B, relative to the water;
 /// `wind`: velocity of the water minus that of the fluid above, in B [m/s]. Cost: one evaluation of
 /// the loads. @pre the model has loads_above.loads
-Vector6 takeWind(const SurfaceModel& model, const SurfaceStand& stand, const Vector3& wind,
-                 double duration, const Vector6& x) noexcept;
+Vector6 kickByWind(const SurfaceModel& model, const Flotation& flotation, const Vector3& wind,
+                   double duration, const Vector6& x) noexcept;
 
 /// Lets the waves that a body has made and the body act on each other for `duration` [s]. First
 /// converts `waves` to the present modes, which never adds energy; eq. (72). Then integrates eq.

@@ -1,4 +1,4 @@
-#include "bullet_ambient/immersed/complaints.h"
+#include "bullet_ambient/immersed/warnings.h"
 
 #include <cstdio>
 #include <string>
@@ -10,49 +10,49 @@
 namespace ambient {
 namespace {
 
-const char* sentenceOf(Complaint complaint) {
-  switch (complaint) {
-    case Complaint::kNoAction:
+const char* sentenceOf(Warning warning) {
+  switch (warning) {
+    case Warning::kNoAction:
       return "bullet_ambient: bodies in fluid moved in another world than that of their Fluid; "
              "give each world a Fluid, and each Fluid solvers of its own";
-    case Complaint::kNoSolver:
+    case Warning::kNoSolver:
       return "bullet_ambient: bodies in fluid are awake but no solver of their Fluid was called; "
              "leave the world the solver that Fluid has given it, or call "
              "world->setConstraintSolver() with one of makeSolver<Base>(fluid)";
-    case Complaint::kNoMultiBodySolver:
+    case Warning::kNoMultiBodySolver:
       return "bullet_ambient: bodies in fluid are awake but no solver of their Fluid was called: "
              "setConstraintSolver does not reach the bodies of a btMultiBodyDynamicsWorld; call "
              "world->setMultiBodyConstraintSolver() with one of "
              "makeSolver<btMultiBodyConstraintSolver>(fluid)";
-    case Complaint::kNotFinite:
+    case Warning::kNotFinite:
       return "bullet_ambient: a velocity, force or result of a body in fluid is not finite; the "
              "body kept its velocity or, where that is not finite, stopped";
-    case Complaint::kNotPhysical:
+    case Warning::kNotPhysical:
       return "bullet_ambient: the mass properties of a body in fluid were changed to values that "
              "are not physical; it moves as in a vacuum until they are valid again";
-    case Complaint::kOtherLinks:
+    case Warning::kOtherLinks:
       return "bullet_ambient: a btMultiBody in fluid has other links or joints than when it was "
              "attached, or stands where another one was destroyed; its links have no fluid until "
              "they are attached again";
-    case Complaint::kRungeKutta:
+    case Warning::kRungeKutta:
       return "bullet_ambient: a btMultiBody in fluid has useRK4Integration, which moves it by its "
              "dry mass; it moves as if that was switched off";
-    case Complaint::kDuration:
+    case Warning::kDuration:
       return "bullet_ambient: the world was stepped by a time that is not finite; bodies in fluid "
              "and the time of regions stay as they were";
-    case Complaint::kUp:
-    case Complaint::kRegion:  // these name the region or the body
-    case Complaint::kInertia:
-    case Complaint::kEmpty:
-    case Complaint::kAngle:
-    case Complaint::kNoResistance:
-    case Complaint::kLight:
-    case Complaint::kShortPeriod:
-    case Complaint::kTooLong:
-    case Complaint::kFastJoint:
-    case Complaint::kChange:
-    case Complaint::kOpenJoint:
-    case Complaint::kCount:
+    case Warning::kUp:
+    case Warning::kRegion:  // these name the region or the body
+    case Warning::kInertia:
+    case Warning::kEmpty:
+    case Warning::kAngle:
+    case Warning::kNoResistance:
+    case Warning::kLight:
+    case Warning::kShortPeriod:
+    case Warning::kTooLong:
+    case Warning::kFastJoint:
+    case Warning::kChange:
+    case Warning::kOpenJoint:
+    case Warning::kCount:
       break;
   }
   return "";
@@ -111,58 +111,58 @@ std::string nameOf(const AttachDef& def) {
   return "body with fluid body '" + def.fluid_body->name + "'";
 }
 
-bool Complaints::wasSaid(Complaint complaint) const noexcept {
-  return was_said_[static_cast<int>(complaint)].load(std::memory_order_relaxed);
+bool Warnings::wasReported(Warning warning) const noexcept {
+  return was_reported_[static_cast<int>(warning)].load(std::memory_order_relaxed);
 }
 
-void Complaints::say(Complaint complaint) noexcept { say(complaint, sentenceOf(complaint)); }
+void Warnings::warnOnce(Warning warning) noexcept { warnOnce(warning, sentenceOf(warning)); }
 
-void Complaints::say(Complaint complaint, const char* sentence) noexcept {
-  if (wasSaid(complaint) || was_said_[static_cast<int>(complaint)].exchange(true)) return;
+void Warnings::warnOnce(Warning warning, const char* sentence) noexcept {
+  if (wasReported(warning) || was_reported_[static_cast<int>(warning)].exchange(true)) return;
   try {
-    tell(sentence);
+    report(sentence);
   } catch (...) {
     // Out of memory for the sentence, which must not unwind through Bullet's solver.
   }
 }
 
 template <class MakeSentence>
-void Complaints::sayMade(Complaint complaint, const MakeSentence& make) noexcept {
-  if (wasSaid(complaint)) return;
+void Warnings::warnByMaking(Warning warning, const MakeSentence& make) noexcept {
+  if (wasReported(warning)) return;
   try {
-    say(complaint, make().c_str());
+    warnOnce(warning, make().c_str());
   } catch (...) {
     // A failure to make the sentence must not unwind through the step.
   }
 }
 
-void Complaints::sayShortPeriod(const AttachDef& def, double frequency, double step) noexcept {
-  sayMade(Complaint::kShortPeriod, [&] { return shortPeriod(def, 2 * kPi / frequency, step); });
+void Warnings::warnOfShortPeriod(const AttachDef& def, double frequency, double step) noexcept {
+  warnByMaking(Warning::kShortPeriod, [&] { return shortPeriod(def, 2 * kPi / frequency, step); });
 }
 
-void Complaints::sayOpenJoint(const AttachDef& def, const AttachDef* other) noexcept {
-  sayMade(Complaint::kOpenJoint, [&] { return openJoint(def, other); });
+void Warnings::warnOfOpenJoint(const AttachDef& def, const AttachDef* other) noexcept {
+  warnByMaking(Warning::kOpenJoint, [&] { return openJoint(def, other); });
 }
 
-void Complaints::sayFastJoint(const AttachDef& def, double turns, double step) noexcept {
-  sayMade(Complaint::kFastJoint, [&] { return fastJoint(def, turns, step); });
+void Warnings::warnOfFastJoint(const AttachDef& def, double turns, double step) noexcept {
+  warnByMaking(Warning::kFastJoint, [&] { return fastJoint(def, turns, step); });
 }
 
-void Complaints::saySunk(const AttachDef& def, std::size_t hold) noexcept {
+void Warnings::warnOfSunkVessel(const AttachDef& def, std::size_t hold) noexcept {
   try {
-    tell(sunk(def, hold));
+    report(sunk(def, hold));
   } catch (...) {
     // A failure to make the sentence must not unwind through the step.
   }
 }
 
-void Complaints::sayTooLong(const AttachDef& def) noexcept {
-  sayMade(Complaint::kTooLong, [&] { return tooLong(def); });
+void Warnings::warnOfLongSteps(const AttachDef& def) noexcept {
+  warnByMaking(Warning::kTooLong, [&] { return tooLong(def); });
 }
 
-void Complaints::tell(const std::string& sentence) noexcept {
+void Warnings::report(const std::string& sentence) noexcept {
   try {
-    const std::lock_guard<std::recursive_mutex> lock(telling_);
+    const std::lock_guard<std::recursive_mutex> lock(reporting_);
     if (report_) report_(sentence);
   } catch (...) {
     // A user's callback that throws must not unwind through Bullet's solver.

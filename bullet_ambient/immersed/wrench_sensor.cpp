@@ -1,17 +1,17 @@
-#include "bullet_ambient/immersed/fluid_reading.h"
+#include "bullet_ambient/immersed/wrench_sensor.h"
 
 #include "bullet_ambient/force/surface/hydrostatics.h"
 #include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/immersed/vessel_step.h"
-#include "bullet_ambient/motion/surface/stand_lanes.h"
-#include "bullet_ambient/motion/surface/surface_stand.h"
+#include "bullet_ambient/motion/surface/flotation.h"
+#include "bullet_ambient/motion/surface/flotation_lanes.h"
 #include "bullet_ambient/spatial/rotation.h"
 
 namespace ambient {
 
 namespace {
 
-/// Middle of the way of a flight: twists in B change evenly.
+/// Middle of the path of a flight: twists in B change evenly.
 RigidState middleOfFlight(const RigidState& start, const RigidState& end, double h) {
   RigidState middle;
   middle.twist = Twist::fromVector((start.twist.vector() + end.twist.vector()) / 2);
@@ -21,8 +21,8 @@ RigidState middleOfFlight(const RigidState& start, const RigidState& end, double
   return middle;
 }
 
-/// Middle of the way at a constant velocity.
-RigidState middleOfWay(const RigidState& start, const Twist& moved_W, double h) {
+/// Middle of the path at a constant velocity.
+RigidState middleOfPath(const RigidState& start, const Twist& moved_W, double h) {
   RigidState middle;
   middle.orientation = rotationFromVector(Vector3(h / 2 * moved_W.angular)) * start.orientation;
   middle.position = start.position + h / 2 * moved_W.linear;
@@ -34,33 +34,33 @@ RigidState middleOfWay(const RigidState& start, const Twist& moved_W, double h) 
 
 void beginBodyReading(AmbientBody& ambient, const RigidState& start,
                       const Surroundings& surroundings, bool is_locked) noexcept {
-  FluidReading& reading = *ambient.reading;
-  beginReading(ambient, start, surroundings, reading);
-  reading.surroundings.applied -= pushByFlow(ambient, start.orientation);
-  reading.model = ambient.model();
-  reading.knows_impulse = !is_locked;
+  WrenchSensor& sensor = *ambient.sensor;
+  beginReading(ambient, start, surroundings, sensor);
+  sensor.surroundings.applied -= pushByFlow(ambient, start.orientation);
+  sensor.model = ambient.model();
+  sensor.knows_impulse = !is_locked;
 }
 
 void readRows(AmbientBody& ambient, const Twist& change_W,
               const std::optional<Matrix6>& settled_inertia, double time_step) noexcept {
-  FluidReading& reading = *ambient.reading;
+  WrenchSensor& sensor = *ambient.sensor;
   const RowMotion& rows = ambient.outcome.rows();
-  reading.moved_W = rows.velocity_W;
-  reading.moved_W.linear += rows.flow_W;
-  const Quaternion& q = reading.start.orientation;
+  sensor.moved_W = rows.velocity_W;
+  sensor.moved_W.linear += rows.flow_W;
+  const Quaternion& q = sensor.start.orientation;
   const Twist change_B = turned(q.conjugate(), change_W);
-  if (ambient.surface()) reading.model = *StepModel(ambient, time_step);
-  const Matrix6& inertia = settled_inertia ? *settled_inertia : reading.model.inertia;
+  if (ambient.surface()) sensor.model = *StepModel(ambient, time_step);
+  const Matrix6& inertia = settled_inertia ? *settled_inertia : sensor.model.inertia;
   const Wrench impulse_B = Wrench::fromVector(inertia * change_B.vector());
-  reading.impulse_W = {q * impulse_B.torque, q * impulse_B.force};
+  sensor.impulse_W = {q * impulse_B.torque, q * impulse_B.force};
 }
 
 void finishBodyReading(AmbientBody& ambient, Outcome kind, const MotionView& now,
                        const Twist& before_W, double time_step) noexcept {
-  FluidReading& reading = *ambient.reading;
+  WrenchSensor& sensor = *ambient.sensor;
   const bool has_flown = kind == Outcome::kFlown;
   RigidState end = now.state;
-  Twist end_W = reading.moved_W;
+  Twist end_W = sensor.moved_W;
   if (has_flown) {
     end_W = ambient.outcome.flight().left_W;
   } else {
@@ -68,9 +68,9 @@ void finishBodyReading(AmbientBody& ambient, Outcome kind, const MotionView& now
     end_W.linear += now.twist_W.linear - before_W.linear;
   }
   end.twist = turned(end.orientation.conjugate(), end_W);
-  const RigidState middle = has_flown ? middleOfFlight(reading.start, end, time_step)
-                                      : middleOfWay(reading.start, reading.moved_W, time_step);
-  finishReading(ambient, {middle, end, reading.model, has_flown, time_step}, reading);
+  const RigidState middle = has_flown ? middleOfFlight(sensor.start, end, time_step)
+                                      : middleOfPath(sensor.start, sensor.moved_W, time_step);
+  finishReading(ambient, {middle, end, sensor.model, has_flown, time_step}, sensor);
 }
 
 namespace {
@@ -104,31 +104,31 @@ Twist relativeTwist(const RigidState& state, const Surroundings& s, double time)
 
 /// Impulse of the fluid that moves along, as its momentum A x changes on the way.
 Wrench addedMassImpulse(const AmbientBody& ambient, const ReadStep& step,
-                        const FluidReading& reading) {
-  const Surroundings& s = reading.surroundings;
+                        const WrenchSensor& sensor) {
+  const Surroundings& s = sensor.surroundings;
   const double h = step.duration;
   const Matrix6 added = addedInertia(ambient, step.model.inertia);
   const auto momentum = [&](const RigidState& state, double time) {
     const Vector6 x = relativeTwist(state, s, time).vector();
     return turned(state.orientation.toRotationMatrix(), Wrench::fromVector(added * x));
   };
-  const Wrench before = momentum(reading.start, 0), after = momentum(step.end, h);
-  const Vector3 way = step.end.position - reading.start.position - h * s.ambient_velocity -
-                      h * h / 2 * s.ambient_acceleration;
+  const Wrench before = momentum(sensor.start, 0), after = momentum(step.end, h);
+  const Vector3 displacement = step.end.position - sensor.start.position - h * s.ambient_velocity -
+                               h * h / 2 * s.ambient_acceleration;
   Wrench impulse = without(before, after);
-  impulse.torque -= way.cross(before.force + after.force) / 2;
-  return impulse + reading.passage_W;
+  impulse.torque -= displacement.cross(before.force + after.force) / 2;
+  return impulse + sensor.added_mass_impulse_W;
 }
 
-/// Wrenches in B at the middle of the way.
+/// Wrenches in B at the middle of the path.
 class MiddleWrenches {
  public:
-  MiddleWrenches(const AmbientBody& ambient, const ReadStep& step, const FluidReading& reading)
+  MiddleWrenches(const AmbientBody& ambient, const ReadStep& step, const WrenchSensor& sensor)
       : ambient_(ambient),
         step_(step),
-        reading_(reading),
+        sensor_(sensor),
         to_world_(step.middle.orientation.toRotationMatrix()),
-        seen_(relativeTwist(step.middle, reading.surroundings, step.duration / 2)) {}
+        seen_(relativeTwist(step.middle, sensor.surroundings, step.duration / 2)) {}
 
   FluidWrench find() {
     if (ambient_.surface()) {
@@ -144,7 +144,7 @@ class MiddleWrenches {
 
  private:
   void setBuoyancy(const BodyModel& model) {
-    const Surroundings& s = reading_.surroundings;
+    const Surroundings& s = sensor_.surroundings;
     found_.buoyancy = buoyancy(model.displaced_mass, model.centre_of_volume,
                                to_world_.transpose() * (s.gravity - s.ambient_acceleration));
     if (!s.flow) return;
@@ -156,18 +156,18 @@ class MiddleWrenches {
   void setLoads(const Wrench& all, const Wrench& friction) {
     found_.friction = friction;
     found_.pressure = without(all, friction);
-    if (reading_.surroundings.flow) found_.pressure += reading_.surroundings.flow->at_rest_B;
+    if (sensor_.surroundings.flow) found_.pressure += sensor_.surroundings.flow->at_rest_B;
   }
 
   // Returns the mean of the friction over the stations of the body.
   template <class FrictionFor>
   Wrench frictionAlong(const FrictionFor& frictionFor) {
     FlowAlongBody in_full;
-    if (reading_.surroundings.flow) in_full = *reading_.surroundings.flow;
+    if (sensor_.surroundings.flow) in_full = *sensor_.surroundings.flow;
     in_full.at_rest_B = {};
     return loadAlong(&in_full, seen_, nullptr,
                      [&](const Twist& x) -> SurfaceLoad {
-                       return {ambient_.load_share * frictionFor(x)};
+                       return {ambient_.load_scale * frictionFor(x)};
                      })
         .wrench;
   }
@@ -177,7 +177,7 @@ class MiddleWrenches {
     setBuoyancy(model);
     if (!model.loads) return;
     const FrameOffset& frame = model.load_frame;
-    setLoads(wholeLoad(computeSurfaceLoad(model, seen_, reading_.surroundings),
+    setLoads(wholeLoad(computeSurfaceLoad(model, seen_, sensor_.surroundings),
                        model.resistance.get(), seen_),
              frictionAlong([&](const Twist& x) {
                return frame.toB(model.loads->parts(frame.toF(x)).friction);
@@ -185,29 +185,29 @@ class MiddleWrenches {
   }
 
   void findAtSurface(const SurfaceModel& model) {
-    const Surroundings& s = reading_.surroundings;
+    const Surroundings& s = sensor_.surroundings;
     const double time = step_.duration / 2;
-    SurfacePlane plane_W = reading_.plane_W;
+    SurfacePlane plane_W = sensor_.plane_W;
     plane_W.height +=
         plane_W.normal.dot(time * s.ambient_velocity + time * time / 2 * s.ambient_acceleration);
     WaterInside inside;
-    const SurfaceStand stand = standAtSurface(
+    const Flotation flotation = flotationAt(
         model, seenFrom(plane_W, to_world_, step_.middle.position), {waterOf(ambient_), &inside});
-    setBuoyancy(step_.has_flown ? frozenAt(model, stand) : step_.model);
+    setBuoyancy(step_.has_flown ? frozenAt(model, flotation) : step_.model);
     if (model.loads_below.loads)
-      setLoads(wholeLoad(loadBelow(model, stand, seen_, s.load_share, s.flow),
+      setLoads(wholeLoad(loadBelow(model, flotation, seen_, s.load_scale, s.flow),
                          model.loads_below.resistance.get(), seen_),
-               frictionAlong([&](const Twist& x) { return frictionBelow(model, stand, x); }));
-    found_.waves = waveWrench(stand.modes, to_world_, reading_.waves, ambient_.floating->waves);
+               frictionAlong([&](const Twist& x) { return frictionBelow(model, flotation, x); }));
+    found_.waves = waveWrench(flotation.modes, to_world_, sensor_.waves, ambient_.floating->waves);
     if (!model.loads_above.loads) return;
     Twist seen_above = step_.middle.twist;
     seen_above.linear -= to_world_.transpose() * ambient_.floating->velocity_above;
-    found_.wind = loadAbove(model, stand, seen_above);
+    found_.wind = loadAbove(model, flotation, seen_above);
   }
 
   const AmbientBody& ambient_;
   const ReadStep& step_;
-  const FluidReading& reading_;
+  const WrenchSensor& sensor_;
   const Matrix3 to_world_;
   const Twist seen_;  // relative to the flow
   FluidWrench found_;
@@ -216,33 +216,32 @@ class MiddleWrenches {
 }  // namespace
 
 void beginReading(const AmbientBody& ambient, const RigidState& start,
-                  const Surroundings& surroundings, FluidReading& reading) noexcept {
-  reading = {};
-  reading.start = start;
-  reading.surroundings = surroundings;
+                  const Surroundings& surroundings, WrenchSensor& sensor) noexcept {
+  sensor = {};
+  sensor.start = start;
+  sensor.surroundings = surroundings;
   if (ambient.surface()) {
-    reading.plane_W = ambient.floating->plane_W;
-    reading.waves = ambient.floating->waves;
+    sensor.plane_W = ambient.floating->plane_W;
+    sensor.waves = ambient.floating->waves;
   }
-  reading.moved_W = turned(start.orientation, start.twist);
+  sensor.moved_W = turned(start.orientation, start.twist);
 }
 
 void finishReading(const AmbientBody& ambient, const ReadStep& step,
-                   FluidReading& reading) noexcept {
-  FluidWrench& wrench = reading.wrench;
+                   WrenchSensor& sensor) noexcept {
+  FluidWrench& wrench = sensor.wrench;
   const double rate = 1 / step.duration;
-  const Wrench change =
-      without(dryMomentum(ambient, step.end), dryMomentum(ambient, reading.start));
-  const Wrench unapplied = without(rate * change, reading.surroundings.applied);
-  wrench = MiddleWrenches(ambient, step, reading).find();
-  if (reading.knows_impulse) {
-    wrench.constraints = rate * reading.impulse_W;
+  const Wrench change = without(dryMomentum(ambient, step.end), dryMomentum(ambient, sensor.start));
+  const Wrench unapplied = without(rate * change, sensor.surroundings.applied);
+  wrench = MiddleWrenches(ambient, step, sensor).find();
+  if (sensor.knows_impulse) {
+    wrench.constraints = rate * sensor.impulse_W;
     wrench.added_mass = without(unapplied, wrench.total() + wrench.constraints);
   } else {
-    wrench.added_mass = rate * addedMassImpulse(ambient, step, reading);
-    if (const FlowAlongBody* flow = reading.surroundings.flow)
+    wrench.added_mass = rate * addedMassImpulse(ambient, step, sensor);
+    if (const FlowAlongBody* flow = sensor.surroundings.flow)
       wrench.added_mass +=
-          turned(reading.start.orientation.toRotationMatrix(), flow->push_B) + flow->growth_W;
+          turned(sensor.start.orientation.toRotationMatrix(), flow->push_B) + flow->growth_W;
     wrench.constraints = without(unapplied, wrench.total());
   }
 }
@@ -261,9 +260,9 @@ FluidWrench wrenchNow(const AmbientBody& ambient, const MotionView& now) noexcep
   if (!ambient.isInFluid()) return {};
   Surroundings surroundings = surroundingsOf(ambient, now.gravity, {});
   addFlowAlong(ambient, now.state.orientation, surroundings);
-  FluidReading reading;
-  beginReading(ambient, now.state, surroundings, reading);
-  return MiddleWrenches(ambient, {now.state, now.state, ambient.model(), true, 0}, reading).find();
+  WrenchSensor sensor;
+  beginReading(ambient, now.state, surroundings, sensor);
+  return MiddleWrenches(ambient, {now.state, now.state, ambient.model(), true, 0}, sensor).find();
 }
 
 }  // namespace ambient

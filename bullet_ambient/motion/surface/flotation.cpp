@@ -1,4 +1,4 @@
-#include "bullet_ambient/motion/surface/surface_stand.h"
+#include "bullet_ambient/motion/surface/flotation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "bullet_ambient/motion/body/one_body.h"
+#include "bullet_ambient/motion/lanes/added_mass_change.h"
 #include "bullet_ambient/motion/lanes/body_kernel.h"
-#include "bullet_ambient/motion/lanes/passage_kernel.h"
 #include "bullet_ambient/motion/lanes/wave_kernel.h"
 #include "bullet_ambient/spatial/cholesky.h"
 #include "bullet_ambient/spatial/inertia.h"
@@ -42,9 +42,9 @@ namespace {
 Vector6 givenMomentum(const WaterLeft& before, const WaterAt& after, const Sloshing* states) {
   const Momentum now_W = momentumOfSloshing(after.sloshing(), states);
   const Momentum& then_W = before.momentum_W;
-  const Vector3 way_W = after.position_W - before.position_W;
+  const Vector3 displacement_W = after.position_W - before.position_W;
   const Matrix3 to_body = after.to_world.transpose();
-  return stack(to_body * (then_W.angular - way_W.cross(then_W.linear) - now_W.angular),
+  return stack(to_body * (then_W.angular - displacement_W.cross(then_W.linear) - now_W.angular),
                to_body * (then_W.linear - now_W.linear));
 }
 
@@ -73,16 +73,17 @@ Vector6 shiftWater(const WaterLeft& before, const WaterAt& after, const Vector6&
   return scaledWithin(end, end.dot(K_after * end), std::max(0.0, twice_most)).twist;
 }
 
-bool isStable(const SurfaceModel& model, const SurfaceStand& stand) noexcept {
+bool isStable(const SurfaceModel& model, const Flotation& flotation) noexcept {
   constexpr double kNeutral = 0.005;  // the flat sides of a barrel's mesh make 0.0022
-  const double pull = stand.plane.density * stand.plane.gravity;
-  const FloatingModes& modes = stand.modes;
+  const double specific_weight = flotation.plane.density * flotation.plane.gravity;
+  const FloatingModes& modes = flotation.modes;
   const auto isTiltStable = [&](int i) {
-    double stiffness = modes.stiffness[i + 1], of_plane = pull * modes.second_moment[i];
-    if (stand.inside_F) {
-      const Vector3 across_F =
-          model.fluid_frame.rotation.transpose() * stand.plane.normal.cross(asEigen(modes.tilt[i]));
-      const double of_levels = pull * across_F.dot(stand.inside_F->spread * across_F);
+    double stiffness = modes.stiffness[i + 1], of_plane = specific_weight * modes.second_moment[i];
+    if (flotation.inside_F) {
+      const Vector3 across_F = model.fluid_frame.rotation.transpose() *
+                               flotation.plane.normal.cross(asEigen(modes.tilt[i]));
+      const double of_levels =
+          specific_weight * across_F.dot(flotation.inside_F->spread * across_F);
       stiffness -= of_levels;
       of_plane = std::max(0.0, of_plane - of_levels);
     }
@@ -91,26 +92,27 @@ bool isStable(const SurfaceModel& model, const SurfaceStand& stand) noexcept {
   return modes.stiffness[0] >= 0 && isTiltStable(0) && isTiltStable(1);
 }
 
-Matrix6 stiffInertia(const SurfaceStand& stand, const FloatingModes& modes,
+Matrix6 stiffInertia(const Flotation& flotation, const FloatingModes& modes,
                      double duration) noexcept {
   AMBIENT_ASSERT(duration >= 0);
-  return SymmetricMatrix(stiffened(stand.inertia, modes, duration)).full();
+  return SymmetricMatrix(stiffened(flotation.inertia, modes, duration)).full();
 }
 
-FloatingModes modesOfWaterplane(const SurfaceStand& stand) noexcept {
-  FloatingModes modes = stand.modes;
+FloatingModes modesOfWaterplane(const Flotation& flotation) noexcept {
+  FloatingModes modes = flotation.modes;
   for (int i = 0; i < 2; ++i)
-    modes.stiffness[i + 1] = stand.plane.density * stand.plane.gravity * modes.second_moment[i];
+    modes.stiffness[i + 1] =
+        flotation.plane.density * flotation.plane.gravity * modes.second_moment[i];
   return modes;
 }
 
-BodyModel frozenAt(const SurfaceModel& model, const SurfaceStand& stand) noexcept {
+BodyModel frozenAt(const SurfaceModel& model, const Flotation& flotation) noexcept {
   BodyModel frozen = model.above;
-  frozen.inertia = stand.inertia.full();
-  frozen.inverse_inertia = stand.inverse.full();
+  frozen.inertia = flotation.inertia.full();
+  frozen.inverse_inertia = flotation.inverse.full();
   frozen.has_diagonal_inertia = false;
   frozen.loads = nullptr;
-  displace(model, wetVolume(model, stand), frozen);
+  displace(model, wetVolume(model, flotation), frozen);
   return frozen;
 }
 
@@ -139,33 +141,34 @@ Vector3 centreOfBuoyancy(const SurfaceModel& model, const SurfacePlace& place) n
 
 MeanDepths meanDepths(const Immersion& before, const Immersion& after) noexcept {
   const auto mean = [](double a, double b) { return (std::max(0.0, a) + std::max(0.0, b)) / 2; };
-  return {mean(before.draught(), after.draught()), mean(before.cover(), after.cover())};
+  return {mean(before.draught(), after.draught()), mean(before.submergence(), after.submergence())};
 }
 
-BoundedTwist passSurface(const SurfaceModel& model, const SurfacePlace& before,
-                         const SurfaceStand& after, double duration, const Vector6& x) noexcept {
+BoundedTwist applyAddedMassChange(const SurfaceModel& model, const SurfacePlace& before,
+                                  const Flotation& after, double duration,
+                                  const Vector6& x) noexcept {
   const Immersion& at = after.immersion_F;
   const SurfacePlace& wet = at.isDry() ? before : after;
   const Wrench gradient = gradientAt(model, wet, Twist::fromVector(x));
   const MeanDepths depths = meanDepths(before.immersion_F, at);
   AMBIENT_ASSERT(duration > 0 && !(after.plane.gravity < 0) && isUnit(after.plane.normal));
-  const PassedOf<double> passed =
-      passSurface({before.inertia, after.inertia, after.inverse, plain(gradient.vector()),
-                   plain(after.plane.normal), plain(centreOfBuoyancy(model, after)), depths.draught,
-                   depths.cover, after.plane.gravity, duration},
-                  plain(x));
-  return {asEigen(passed.twist), passed.energy_removed};
+  const AfterChangeOf<double> changed =
+      applyAddedMassChange({before.inertia, after.inertia, after.inverse, plain(gradient.vector()),
+                            plain(after.plane.normal), plain(centreOfBuoyancy(model, after)),
+                            depths.draught, depths.submergence, after.plane.gravity, duration},
+                           plain(x));
+  return {asEigen(changed.twist), changed.energy_removed};
 }
 
 SurfaceLoad loadBelow(const SurfaceModel& model, const SurfacePlace& place, const Twist& x,
-                      double load_share, const FlowAlongBody* flow) noexcept {
+                      double load_scale, const FlowAlongBody* flow) noexcept {
   const double wet = wetShare(place.immersion_F, model.shape->volume);
   const PartLoads& below = model.loads_below;
   AMBIENT_ASSERT(below.loads);
   const WetPart part{seenFrom(place.plane, below.frame), wet};
   return loadAlong(flow, x, below.resistance.get(), [&](const Twist& at_station) -> SurfaceLoad {
     const SplitLoad split = below.loads->split(below.frame.toF(at_station), &part);
-    const Wrench wrench = load_share * below.frame.toB(split.wrench);
+    const Wrench wrench = load_scale * below.frame.toB(split.wrench);
     SurfaceLoad load{wrench};
     if (below.loads->needsGuard())
       load = removePositivePower(wrench, at_station, place.inertia.full());
@@ -190,14 +193,14 @@ Wrench loadAbove(const SurfaceModel& model, const SurfacePlace& place, const Twi
   return model.load_factor * above.frame.toB(above.loads->wetLoad(above.frame.toF(x), dry));
 }
 
-Vector6 takeWind(const SurfaceModel& model, const SurfaceStand& stand, const Vector3& wind,
-                 double duration, const Vector6& x) noexcept {
+Vector6 kickByWind(const SurfaceModel& model, const Flotation& flotation, const Vector3& wind,
+                   double duration, const Vector6& x) noexcept {
   const Vector6 shift = stack(Vector3::Zero(), wind);
   const Vector6 seen = x + shift;
   AMBIENT_ASSERT(duration >= 0);
-  const Vector6 load = loadAbove(model, stand, Twist::fromVector(seen)).vector();
-  const PairsOf<double> motion = plain(DualPair{seen, stand.inertia.full() * seen});
-  const PairsOf<double> response = plain(DualPair{stand.inverse.full() * load, load});
+  const Vector6 load = loadAbove(model, flotation, Twist::fromVector(seen)).vector();
+  const PairsOf<double> motion = plain(DualPair{seen, flotation.inertia.full() * seen});
+  const PairsOf<double> response = plain(DualPair{flotation.inverse.full() * load, load});
   return asEigen(passiveKick(motion, motion, response, duration).twist) - shift;
 }
 

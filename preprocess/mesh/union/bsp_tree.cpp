@@ -1,4 +1,4 @@
-#include "preprocess/mesh/union/solid_tree.h"
+#include "preprocess/mesh/union/bsp_tree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,7 +37,7 @@ Polygons polygonsOf(const TriangleMesh& mesh) {
   return polygons;
 }
 
-SolidTree::SolidTree(const TriangleMesh& mesh, double tolerance) : tolerance_(tolerance) {
+BspTree::BspTree(const TriangleMesh& mesh, double tolerance) : tolerance_(tolerance) {
   std::vector<Pending> pending;
   pending.push_back({-1, false, polygonsOf(mesh)});
   while (!pending.empty()) {
@@ -64,7 +64,7 @@ SolidTree::SolidTree(const TriangleMesh& mesh, double tolerance) : tolerance_(to
   }
 }
 
-SolidTree::Sides SolidTree::divide(const Node& node, const FlatPolygon& polygon) const {
+BspTree::Sides BspTree::divide(const Node& node, const FlatPolygon& polygon) const {
   const std::size_t count = polygon.corners.size();
   std::vector<double> heights(count);
   bool has_front = false, has_back = false;
@@ -93,37 +93,37 @@ SolidTree::Sides SolidTree::divide(const Node& node, const FlatPolygon& polygon)
   return sides;
 }
 
-void SolidTree::divide(int number, const FlatPolygon& polygon, Polygons& outside, Polygons& inside,
-                       bool keep_flush) const {
+void BspTree::divide(int number, const FlatPolygon& polygon, Polygons& outside, Polygons& inside,
+                     bool keep_coplanar) const {
   if (number == kOutside) return outside.push_back(polygon);
   if (number == kInside) return inside.push_back(polygon);
   const Node& node = nodes_[static_cast<std::size_t>(number)];
   const Sides sides = divide(node, polygon);
-  if (!sides.front.corners.empty()) divide(node.front, sides.front, outside, inside, keep_flush);
-  if (!sides.back.corners.empty()) divide(node.back, sides.back, outside, inside, keep_flush);
+  if (!sides.front.corners.empty()) divide(node.front, sides.front, outside, inside, keep_coplanar);
+  if (!sides.back.corners.empty()) divide(node.back, sides.back, outside, inside, keep_coplanar);
   if (!sides.is_flat) return;
   // In the plane: the solid must be neither where the normal points to, nor, if the other one keeps
-  // what is flush, behind it.
-  const bool is_flush = node.normal.dot(polygon.normal) > 0;
+  // what is coplanar, behind it.
+  const bool is_coplanar = node.normal.dot(polygon.normal) > 0;
   Polygons free;
-  divide(is_flush ? node.front : node.back, polygon, free, inside, keep_flush);
+  divide(is_coplanar ? node.front : node.back, polygon, free, inside, keep_coplanar);
   for (const FlatPolygon& piece : free) {
     Polygons without, within;
-    divide(is_flush ? node.back : node.front, piece, without, within, keep_flush);
+    divide(is_coplanar ? node.back : node.front, piece, without, within, keep_coplanar);
     outside.insert(outside.end(), without.begin(), without.end());
-    Polygons& flush = keep_flush ? outside : inside;
-    flush.insert(flush.end(), within.begin(), within.end());
+    Polygons& coplanar = keep_coplanar ? outside : inside;
+    coplanar.insert(coplanar.end(), within.begin(), within.end());
   }
 }
 
-Polygons SolidTree::cutOff(const FlatPolygon& polygon, bool keep_flush) const {
+Polygons BspTree::clip(const FlatPolygon& polygon, bool keep_coplanar) const {
   Polygons outside, inside;
-  divide(0, polygon, outside, inside, keep_flush);
+  divide(0, polygon, outside, inside, keep_coplanar);
   if (inside.empty()) return {polygon};
   return is_convex_ && inside.size() == 1 ? piecesAround(inside.front(), polygon) : outside;
 }
 
-Polygons SolidTree::piecesAround(const FlatPolygon& hole, const FlatPolygon& polygon) const {
+Polygons BspTree::piecesAround(const FlatPolygon& hole, const FlatPolygon& polygon) const {
   Polygons pieces;
   FlatPolygon left = polygon;
   for (const Node& node : nodes_) {

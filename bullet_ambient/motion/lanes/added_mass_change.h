@@ -2,23 +2,23 @@
 
 #include "bullet_ambient/motion/lanes/spatial_lanes.h"
 
-// Passage through the surface of the water, docs/theory.md eq. (66) to (68), of one body or of one
-// body per lane, see spatial_lanes.h.
+// Change of added mass where a body enters or leaves the water, docs/theory.md eq. (66) to (68), of
+// one body or of one body per lane, see spatial_lanes.h.
 
 namespace ambient {
 namespace {
 
-/// Passage of a body from one pose to another: change of its total inertia, and geometry. In B at
+/// Change of the total inertia of a body from one pose to another, and geometry. In B at
 /// the second pose; the gradient may be that of the first pose.
 template <class Real>
-struct PassageOf {
+struct AddedMassChangeOf {
   const SymmetricOf<Real>& before;         ///< K_0
   const SymmetricOf<Real>& after;          ///< K_1
   const SymmetricOf<Real>& inverse_after;  ///< K_1^-1
   SpatialsOf<Real> gradient;               ///< F_K of eq. (66), for the twist before [N m, N]
   VectorsOf<Real> normal;                  ///< unit normal of the surface, out of the water
   VectorsOf<Real> centre_of_buoyancy;      ///< [m]
-  Real draught, cover;                     ///< MeanDepths [m]
+  Real draught, submergence;               ///< MeanDepths [m]
   Real gravity;                            ///< [m/s^2], >= 0
   Real duration;                           ///< [s], > 0
   Real velocity_scale = {};                ///< second term of the denominator of eq. (25) [sqrt(J)]
@@ -26,13 +26,13 @@ struct PassageOf {
 
 /// Returns theta sigma of eq. (67), the share of the momentum that goes into spray, in [-1, 1].
 template <class Real>
-inline Real sprayShare(const PassageOf<Real>& p, const SpatialsOf<Real>& x) {
+inline Real sprayShare(const AddedMassChangeOf<Real>& p, const SpatialsOf<Real>& x) {
   const Real zero = Real{}, one = all<Real>(1);
   const VectorsOf<Real> v = x.linear + cross(x.angular, p.centre_of_buoyancy);
   const Real sinking = zero - dot(p.normal, v), speed = squareRoot(dot(v, v));
   const Real still = sinking * sinking + p.gravity * p.draught;
   const MaskOf<Real> moves = (speed > zero) & (still > zero) & (p.draught > zero);
-  const Real open = 1 - 4 * larger(p.cover, zero) / (moves ? p.draught : one);
+  const Real open = 1 - 4 * larger(p.submergence, zero) / (moves ? p.draught : one);
   const Real open_share = larger(open < one ? open : one, zero);
   const Real theta = sinking * sinking / (moves ? still : one) * open_share;
   const Real down = 2 * sinking / (moves ? speed : one);
@@ -40,9 +40,9 @@ inline Real sprayShare(const PassageOf<Real>& p, const SpatialsOf<Real>& x) {
   return moves ? theta * sigma : zero;
 }
 
-/// Works at the twist before the passage [J].
+/// Works at the twist before the change [J].
 template <class Real>
-struct PassageWorks {
+struct WorksOfChange {
   Real of_gradient;  ///< F_K . x dt
   Real of_change;    ///< half of x . (K_1 - K_0) x
 };
@@ -51,7 +51,8 @@ struct PassageWorks {
 /// the kinetic energy by that of K, if r is between 0 and 3. The torque stays, because it belongs
 /// to the gyroscopic terms of the flow.
 template <class Real>
-inline SpatialsOf<Real> impulseOf(const PassageOf<Real>& p, const PassageWorks<Real>& works) {
+inline SpatialsOf<Real> gradientImpulse(const AddedMassChangeOf<Real>& p,
+                                        const WorksOfChange<Real>& works) {
   constexpr double kMostCorrection = 3;
   const Real ratio = works.of_change / works.of_gradient;
   const MaskOf<Real> is_near = (ratio > Real{}) & (ratio < all<Real>(kMostCorrection));
@@ -66,10 +67,10 @@ inline Real largestEntry(const SymmetricOf<Real>& K) {
   return largest;
 }
 
-/// Twist after a passage. The kinetic energy x.K x never grows. Horizontal momentum, and angular
+/// Twist after the change. The kinetic energy x.K x never grows. Horizontal momentum, and angular
 /// momentum about the vertical, are kept unless this bound acts.
 template <class Real>
-struct PassedOf {
+struct AfterChangeOf {
   SpatialsOf<Real> twist;
   Real energy_removed;  ///< by the bound [J]
   Real error;           ///< relative to the motion, eq. (68b) [1]
@@ -78,24 +79,25 @@ struct PassedOf {
 /// Returns eq. (68b): the velocity that F_K of one pose misses, over the motion. `twice_energy`:
 /// x . K_0 x.
 template <class Real>
-inline Real passageError(const PassageOf<Real>& p, const PassageWorks<Real>& works,
-                         const Real& spray_share, const Real& twice_energy) {
+inline Real changeError(const AddedMassChangeOf<Real>& p, const WorksOfChange<Real>& works,
+                        const Real& spray_share, const Real& twice_energy) {
   const Real norm = squareRoot(twice_energy), scale = norm * (norm + p.velocity_scale);
   const Real missed = (1 - spray_share) * (works.of_change - works.of_gradient);
   const MaskOf<Real> moves = scale > Real{};
   return moves ? larger<Real>(missed, -missed) / (moves ? scale : all<Real>(1)) : Real{};
 }
 
-/// Computes the twist after the passage from the twist x before, eq. (66) to (68): momentum passes
+/// Computes the twist after the change from the twist x before, eq. (66) to (68): momentum passes
 /// between water and body, or into spray. A body whose K has not changed keeps its twist.
 template <class Real>
-inline PassedOf<Real> passSurface(const PassageOf<Real>& p, const SpatialsOf<Real>& x) {
+inline AfterChangeOf<Real> applyAddedMassChange(const AddedMassChangeOf<Real>& p,
+                                                const SpatialsOf<Real>& x) {
   constexpr double kRounding = 1e-12;
   const Real zero = Real{};
   const SymmetricOf<Real> change = p.after - p.before;
   const MaskOf<Real> changes = largestEntry(change) >= kRounding * largestEntry(p.before);
-  const PassageWorks<Real> works{p.duration * dot(p.gradient, x), 0.5 * dot(x, change * x)};
-  SpatialsOf<Real> impulse = impulseOf(p, works);
+  const WorksOfChange<Real> works{p.duration * dot(p.gradient, x), 0.5 * dot(x, change * x)};
+  SpatialsOf<Real> impulse = gradientImpulse(p, works);
   const Real spray_share = sprayShare(p, x);
   const Real lost = spray_share * larger<Real>(zero - dot(p.normal, impulse.linear), zero);
   impulse = impulse + lost * SpatialsOf<Real>{cross(p.centre_of_buoyancy, p.normal), p.normal};
@@ -105,7 +107,7 @@ inline PassedOf<Real> passSurface(const PassageOf<Real>& p, const SpatialsOf<Rea
   const MaskOf<Real> gains = changes & (energy2 > allowed2);
   return {select(changes, scaleWithin(energy2, allowed2) * end, x),
           gains ? 0.5 * (energy2 - allowed2) : zero,
-          changes ? passageError(p, works, spray_share, allowed2) : zero};
+          changes ? changeError(p, works, spray_share, allowed2) : zero};
 }
 
 }  // namespace
