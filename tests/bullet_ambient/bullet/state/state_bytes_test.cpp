@@ -244,9 +244,9 @@ void fill(Numbers& n, AmbientState& s) {
     def.flow.maximum_load_error, def.flight.tolerance, def.flight.max_substeps,
     def.fluid_frame.rotation, def.fluid_frame.translation, def.holds.are_open, def.holds.atmosphere,
     def.holds.sloshing_damping);
-  n(s.medium.density, s.medium.viscosity, s.medium.velocity, s.medium.acceleration, s.place.region,
-    s.place.is_above, s.place.is_at_surface, s.flow.until, s.flow.position, s.flow.velocity,
-    s.flow.change, s.flow.parts, s.flow.region, s.flow.is_above);
+  n(s.medium.density, s.medium.viscosity, s.medium.velocity, s.medium.acceleration,
+    s.location.region, s.location.is_above, s.location.is_at_surface, s.flow.until, s.flow.position,
+    s.flow.velocity, s.flow.change, s.flow.parts, s.flow.region, s.flow.is_above);
   SurfacePlane& met = s.plane_B.emplace();
   n(met.normal, met.height, met.density, met.gravity);
   n(s.waves.heave.first, s.waves.tilt_W[0], s.waves.heave.second, s.waves.tilt_W[1],
