@@ -47,15 +47,31 @@ class FluidBodySource {
     return fluidBody(shape);
   }
 
-  /// A shape of a body that is about to be added, and its name for such lines.
+  /// Shapes of bodies that are about to be added.
   struct Expected {
-    std::function<std::string()> whose;
-    const btCollisionShape* shape = nullptr;
+    std::vector<const btCollisionShape*> shapes;         ///< null: a body without one
+    std::function<std::string(std::size_t)> whose = {};  ///< of each, as in fluidBodyOf()
   };
 
-  /// Is told of the shapes that fluidBodyOf() will be asked for next, so that their fluid bodies
-  /// may be made side by side. A shape that has none is no failure here: fluidBodyOf() says why.
-  virtual void expect(const std::vector<Expected>& shapes) { static_cast<void>(shapes); }
+  /// Is told what the calling thread will ask fluidBodyOf() for next, so that fluid bodies may be
+  /// made side by side; null: nothing more. `expected` stays until then. A shape that has no fluid
+  /// body is no failure here: fluidBodyOf() says why.
+  virtual void expect(const Expected* expected) noexcept { static_cast<void>(expected); }
+};
+
+/// Tells a source what is expected of it while this object exists.
+class Expecting {
+ public:
+  Expecting(FluidBodySource& source, const FluidBodySource::Expected& expected) noexcept
+      : source_(source) {
+    source_.expect(&expected);
+  }
+  Expecting(const Expecting&) = delete;
+  Expecting& operator=(const Expecting&) = delete;
+  ~Expecting() { source_.expect(nullptr); }
+
+ private:
+  FluidBodySource& source_;
 };
 
 /// Settings of addAll(): how the bodies of a world meet the fluid.
@@ -127,7 +143,8 @@ class WorldAttachment {
   std::vector<btCollisionObject*> seeAll(const btCollisionWorld& world);
   // A new object that is to be added.
   struct Candidate {
-    int index = 0;  // in the world
+    int index = 0;   // in the world
+    int number = 0;  // among the new ones
     btCollisionObject* object = nullptr;
     std::shared_ptr<const btCollisionShape> shape;
   };

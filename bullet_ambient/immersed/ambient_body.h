@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -45,13 +46,12 @@ struct RowMotion {
   Vector3 flow_W = Vector3::Zero();
   bool is_anchored =
       false;        ///< true: joints, or contacts with bodies that cannot move, hold the body
-  double turn = 0;  ///< largest turn of the body during the step [rad]
-  Wrench load_W;    ///< mean surface load in the step, RowLoad
+  Wrench load_W;  ///< mean surface load in the step, RowLoad
   /// Momentum relative to the flow, about the centre of mass at the start, which the turn keeps;
   /// none: a body with locked axes, or one that the fluid settles, eq. (124).
   std::optional<Momentum> momentum_W;
-  /// Twice the kinetic energy allowed at the next pose [J]; none: no bound.
-  std::optional<double> energy_bound;
+  /// Twice the kinetic energy allowed at the next pose [J]; infinite: no bound.
+  double energy_bound = std::numeric_limits<double>::infinity();
 };
 
 /// Last free flight of a body: what the next one starts from, and what the action needs to complete

@@ -56,6 +56,11 @@ SharedBodies::Body SharedBodies::get(const std::string& key, const std::function
   return body.get();
 }
 
+bool SharedBodies::has(const std::string& key) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return bodies_.count(key) != 0;
+}
+
 void SharedBodies::forget(const std::string& key) {
   const std::lock_guard<std::mutex> lock(mutex_);
   bodies_.erase(key);

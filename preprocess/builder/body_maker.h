@@ -41,6 +41,8 @@ class SharedBodies {
   /// exception of make() goes to all of them; the next caller makes the body again, as the memory
   /// or the file that was missing may be there then.
   Body get(const std::string& key, const std::function<Body()>& make);
+  /// True if the body of a key is there, or is being made.
+  bool has(const std::string& key);
   /// Lets go of the body of a key: the next caller makes it again.
   void forget(const std::string& key);
 

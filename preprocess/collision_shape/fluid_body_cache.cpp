@@ -6,6 +6,7 @@
 #include <exception>
 #include <mutex>
 #include <string>
+#include <thread>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -70,6 +71,7 @@ struct FluidBodyCache::Store {
   std::deque<std::string> soon_made;  // what such forms were made of
   std::unordered_map<std::string, SharedBody> by_name;
   std::unordered_map<std::string, std::exception_ptr> refused;  // not told yet
+  std::unordered_map<std::thread::id, const Expected*> expected;
   LastLists<std::int32_t> triangles;
   LastLists<double> normals;
 
@@ -130,6 +132,47 @@ struct FluidBodyCache::Store {
     std::rethrow_exception(reason);
   }
 
+  /// Makes what the calling thread expects, once.
+  void makeExpected() {
+    const Expected* wanted = nullptr;
+    {
+      const std::lock_guard<std::mutex> lock(mutex);
+      const auto found = expected.find(std::this_thread::get_id());
+      if (found == expected.end()) return;
+      wanted = found->second;
+      expected.erase(found);
+    }
+    std::vector<Work> works;
+    std::unordered_set<const btCollisionShape*> seen;
+    std::unordered_set<std::string> contents;
+    for (std::size_t k = 0; k < wanted->shapes.size(); ++k) {
+      const btCollisionShape* shape = wanted->shapes[k];
+      if (!shape || !seen.insert(shape).second) continue;
+      try {
+        ShapeForm form = normalised(recognised(readForm(*shape, settings)));
+        if (!isSolvedAsImage(form)) continue;
+        form = firstImage(form).form;
+        std::string content = form.kind + contentOf(form.parts);
+        if (contents.insert(content).second)
+          works.push_back({std::move(content), std::move(form), wanted->whose(k), nullptr});
+      } catch (const std::exception&) {  // fluidBodyOf() says why
+      }
+    }
+    const auto count = static_cast<int>(works.size());
+    if (count < 2) return;
+    // The largest first, so that none is waited for in the end.
+    std::stable_sort(works.begin(), works.end(), [](const Work& a, const Work& b) {
+      return a.content.size() > b.content.size();
+    });
+    // Twice as many threads as cores: the last bodies have all cores.
+    const int threads = threadCount(settings.flow.threads);
+    const int each = std::max(1, 2 * threads / std::min(threads, count));
+    parallelFor(threads, count,
+                [&](std::ptrdiff_t k) { makeBeside(works[static_cast<std::size_t>(k)], each); });
+    for (const Work& work : works)
+      if (work.made) say(*work.made);
+  }
+
   bool isSolvedAsImage(const ShapeForm& form) const {
     return !isSoonMade(form, settings) && settings.waterline_subdivisions == 0;
   }
@@ -176,7 +219,9 @@ SharedBody FluidBodyCache::fluidBodyOf(const std::function<std::string()>& whose
                                        const btCollisionShape& shape) {
   Store& store = *store_;
   const ShapeForm read = readForm(shape, store.settings);
-  return store.shapes.get(read.kind + contentOf(read.parts), [&] {
+  const std::string key = read.kind + contentOf(read.parts);
+  if (!store.shapes.has(key)) store.makeExpected();
+  return store.shapes.get(key, [&] {
     const ShapeForm form = normalised(recognised(read));
     const std::string content = form.kind + contentOf(form.parts);
     const std::string sized = withSize(content, form.size);
@@ -191,37 +236,13 @@ SharedBody FluidBodyCache::fluidBodyOf(const std::function<std::string()>& whose
   });
 }
 
-void FluidBodyCache::expect(const std::vector<Expected>& shapes) {
-  Store& store = *store_;
-  std::vector<Work> works;
-  std::unordered_set<const btCollisionShape*> seen;
-  std::unordered_set<std::string> contents;
-  for (const Expected& expected : shapes) {
-    if (!expected.shape || !seen.insert(expected.shape).second) continue;
-    try {
-      ShapeForm form = normalised(recognised(readForm(*expected.shape, store.settings)));
-      if (!store.isSolvedAsImage(form)) continue;
-      form = firstImage(form).form;
-      std::string content = form.kind + contentOf(form.parts);
-      if (contents.insert(content).second)
-        works.push_back({std::move(content), std::move(form), expected.whose(), nullptr});
-    } catch (const std::exception&) {  // fluidBodyOf() says why
-    }
+void FluidBodyCache::expect(const Expected* expected) noexcept {
+  const std::lock_guard<std::mutex> lock(store_->mutex);
+  store_->expected.erase(std::this_thread::get_id());
+  try {
+    if (expected) store_->expected.emplace(std::this_thread::get_id(), expected);
+  } catch (const std::bad_alloc&) {  // then one after another
   }
-  const auto count = static_cast<int>(works.size());
-  if (count < 2) return;
-  // The largest first, so that none is waited for in the end.
-  std::stable_sort(works.begin(), works.end(), [](const Work& a, const Work& b) {
-    return a.content.size() > b.content.size();
-  });
-  // Twice as many threads as cores: the last bodies have all cores.
-  const int threads = threadCount(store.settings.flow.threads);
-  const int each = std::max(1, 2 * threads / std::min(threads, count));
-  parallelFor(threads, count, [&](std::ptrdiff_t k) {
-    store.makeBeside(works[static_cast<std::size_t>(k)], each);
-  });
-  for (const Work& work : works)
-    if (work.made) store.say(*work.made);
 }
 
 SharedBody FluidBodyCache::find(const std::string& name) const {

@@ -37,8 +37,9 @@ class FluidBodyCache : public FluidBodySource {
   std::shared_ptr<const FluidBody> fluidBody(const btCollisionShape& shape) override;
   std::shared_ptr<const FluidBody> fluidBodyOf(const std::function<std::string()>& whose,
                                                const btCollisionShape& shape) override;
-  /// Makes the fluid bodies that take long side by side, on settings.flow.threads threads.
-  void expect(const std::vector<Expected>& shapes) override;
+  /// Once one of the expected bodies has to be made, all that take long are, side by side on
+  /// settings.flow.threads threads.
+  void expect(const Expected* expected) noexcept override;
 
   /// Finds the last result of fluidBody() with a name; null: none. A FluidBodyLookup for
   /// decodeState().

@@ -336,15 +336,17 @@ bool meetsFluid(const Robot& robot, int number) {
   return moves && !robot.shape(number).isEmpty() && (!link.fluid || link.fluid->medium != "none");
 }
 
-std::vector<FluidBodySource::Expected> shapesToMake(const Robot& robot) {
-  std::vector<FluidBodySource::Expected> shapes;
+FluidBodySource::Expected shapesToMake(const Robot& robot) {
+  FluidBodySource::Expected expected;
+  std::vector<std::string> names;
   for (int number = -1; number < robot.multiBody().getNumLinks(); ++number) {
     const LinkModel& link = robot.link(number);
     if (!meetsFluid(robot, number) || (link.fluid && !link.fluid->fluid_body.empty())) continue;
-    const auto whose = [&link] { return "link '" + link.name + "'"; };
-    shapes.push_back({whose, robot.shape(number).in_link.get()});
+    expected.shapes.push_back(robot.shape(number).in_link.get());
+    names.push_back("link '" + link.name + "'");
   }
-  return shapes;
+  expected.whose = [names](std::size_t k) { return names[k]; };
+  return expected;
 }
 
 }  // namespace
@@ -354,7 +356,8 @@ std::vector<std::string> attachRobot(Fluid& fluid, Robot& robot, FluidBodySource
   btMultiBody& body = robot.multiBody();
   std::vector<Immersed> links;
   std::vector<std::string> attached;
-  source.expect(shapesToMake(robot));
+  const FluidBodySource::Expected expected = shapesToMake(robot);
+  const Expecting expecting(source, expected);
   for (int number = -1; number < body.getNumLinks(); ++number) {
     if (!meetsFluid(robot, number)) continue;
     try {

@@ -19,6 +19,8 @@ namespace {
 
 constexpr double kRounding = 16 * static_cast<double>(std::numeric_limits<btScalar>::epsilon());
 
+bool isBounded(const RowMotion& rows) { return std::isfinite(rows.energy_bound); }
+
 // Returns the velocity that Bullet will write back, world axes.
 Twist solvedVelocity(btSolverBody& b) {
   return {toVector3(b.m_angularVelocity + b.internalGetDeltaAngularVelocity() +
@@ -79,7 +81,7 @@ Vector6 spinAlone(const BodyModel& model, const Vector3& spin) {
 // withinEnergy().
 BoundedTwist keepingMomentum(const BodyModel& model, const RowMotion& rows, const Vector6& from,
                              const Vector6& to) {
-  const double bound = *rows.energy_bound;
+  const double bound = rows.energy_bound;
   const Vector6 spin = spinAlone(model, to.head<3>()), straight = to - spin;
   const double energy = inertiaNormSquared(model, straight);
   if (energy > bound) {
@@ -145,7 +147,7 @@ int findMovedBodies(AmbientBody* const* bodies, int count, double time_step,
   int found = 0;
   for (int i = 0; i < count; ++i) {
     const RowMotion& rows = bodies[i]->outcome.rows();
-    if (!rows.momentum_W && !rows.energy_bound && !bodies[i]->surface()) continue;
+    if (!rows.momentum_W && !isBounded(rows) && !bodies[i]->surface()) continue;
     moved_W[found] = rows.velocity_W;
     changing[found++] = bodies[i];
   }
@@ -160,7 +162,8 @@ int findMovedBodies(AmbientBody* const* bodies, int count, double time_step,
     const RowMotion& rows = ambient.outcome.rows();
     const auto part = partOfPath(rows, position, time_step);
     const bool is_turned_by_others =
-        isTurnedFurther(rows.orientation, orientations[i], rows.turn + kTurnRounding);
+        isTurnedFurther(rows.orientation, orientations[i],
+                        time_step * rows.velocity_W.angular.norm() + kTurnRounding);
     if (!part || is_turned_by_others) continue;
     MovedBody& moved_body = moved_bodies[moved_count++];
     moved_body.ambient = &ambient;
@@ -202,10 +205,10 @@ void keepMomenta(const MovedBody* moved_bodies, int count, double time_step, Bou
 // Bounds the energy of a fast turn, eq. (31a).
 void boundTurnEnergy(const MovedBody& moved_body, BoundedTwist& end) {
   const RowMotion& rows = moved_body.rows();
-  if (!rows.energy_bound) return;
+  if (!isBounded(rows)) return;
   const BodyModel& model = **moved_body.model;
   end = rows.momentum_W ? keepingMomentum(model, rows, moved_body.moved, end.twist)
-                        : withinEnergy(model, moved_body.moved, end.twist, *rows.energy_bound);
+                        : withinEnergy(model, moved_body.moved, end.twist, rows.energy_bound);
 }
 
 // Passes the bodies that are at a surface through it, side by side.
@@ -276,7 +279,6 @@ void beginRowMotions(RowBatch& batch, RowBodies& row_bodies,
         turn_share * time_step * toVector3(solver_body.internalGetTurnVelocity()), solver_body);
     rows.position =
         batch.positions[i] + time_step * toVector3(solver_body.internalGetPushVelocity());
-    rows.turn = time_step * rows.velocity_W.angular.norm();
     setKept(lanes, i, !row_body.is_locked && !batch.settled_inertia[i], rows);
   }
 }

@@ -233,31 +233,29 @@ AttachReport WorldAttachment::attachNew(btCollisionWorld& world) {
   const std::vector<btCollisionObject*> strangers = seeAll(world);
   const auto count = std::count_if(strangers.begin(), strangers.end(), canJoin);
   std::vector<Candidate> candidates;
-  std::vector<FluidBodySource::Expected> expected;
+  FluidBodySource::Expected expected;
   int number = 0;
   for (std::size_t i = 0; i < strangers.size(); ++i) {
     btCollisionObject* object = strangers[i];
     if (!object) continue;
     const int index = static_cast<int>(i);
     if (canJoin(object)) ++number;
-    const auto whose = [this, object, index, number, count] {
-      return nameOf(index, *object, bodies_) + ", " + std::to_string(number) + " of " +
-             std::to_string(count);
-    };
     addOr(*object, index, report, [&] {
       if (!isToAdd(*object, report)) return;
-      candidates.push_back({index, object, shapeOf(*object)});
-      expected.push_back({whose, candidates.back().shape.get()});
+      candidates.push_back({index, number, object, shapeOf(*object)});
+      expected.shapes.push_back(candidates.back().shape.get());
     });
   }
-  try {
-    source_.expect(expected);
-  } catch (...) {  // then one after another
-  }
+  expected.whose = [&](std::size_t k) {
+    const Candidate& candidate = candidates[k];
+    return nameOf(candidate.index, *candidate.object, bodies_) + ", " +
+           std::to_string(candidate.number) + " of " + std::to_string(count);
+  };
+  const Expecting expecting(source_, expected);
   for (std::size_t k = 0; k < candidates.size(); ++k) {
     const Candidate& candidate = candidates[k];
     addOr(*candidate.object, candidate.index, report, [&] {
-      if (const AmbientBody* ambient = attach(candidate, expected[k].whose))
+      if (const AmbientBody* ambient = attach(candidate, [&] { return expected.whose(k); }))
         tally.add(candidate.index, *ambient, bodies_.trees, report);
     });
   }
