@@ -28,14 +28,6 @@ std::string withSize(std::string content, double size) {
   return content.append(reinterpret_cast<const char*>(&size), sizeof size);
 }
 
-/// A form to be made beside others.
-struct Work {
-  std::string content;
-  ShapeForm form;
-  std::string whose;
-  SharedBody made;  ///< null: it was there, or there is none
-};
-
 }  // namespace
 
 struct FluidBodyCache::Store {
@@ -58,6 +50,14 @@ struct FluidBodyCache::Store {
 
    private:
     std::deque<SharedList<Number>> lists_;
+  };
+
+  /// A form to be made beside others.
+  struct Work {
+    std::string content;
+    ShapeForm form;
+    std::string whose;
+    SharedBody made;  ///< null: it was there, or there is none
   };
 
   Store(CollisionShapeSettings wanted, BodyFolder folder)
