@@ -30,10 +30,9 @@ double HoldShape::levelNear(const Vector3& normal, double volume) const noexcept
   const double share = volume / capacity_, below = normal[axis] > 0 ? share : 1 - share;
   const auto& middles = middles_[static_cast<std::size_t>(axis)];
   const double place = kLevels * below - 1;
-  const int i = std::clamp(static_cast<int>(place), 0, kLevels - 3);
-  const Vector3& low = middles[static_cast<std::size_t>(i)];
-  const Vector3& high = middles[static_cast<std::size_t>(i + 1)];
-  return normal.dot(low + (place - i) * (high - low));
+  const auto i = static_cast<std::size_t>(std::clamp(static_cast<int>(place), 0, kLevels - 3));
+  const Vector3 &low = middles[i], &high = middles[i + 1];
+  return normal.dot(low + (place - static_cast<double>(i)) * (high - low));
 }
 
 namespace {
