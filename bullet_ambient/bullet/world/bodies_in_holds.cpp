@@ -76,7 +76,7 @@ bool isVesselAtSurface(const MovingBody& moving) {
 }
 
 /// Calls visit(const MovingBody&) for the others whose centre is no farther from that of a vessel
-/// than the vessel reaches, from west to east. `vessel`: one of `placed`.
+/// than the vessel reaches, from west to east. `vessel`: one of `west_to_east`.
 template <class Visit>
 void forEachNear(const std::vector<MovingBody>& west_to_east, const MovingBody& vessel,
                  const Visit& visit) {
