@@ -45,7 +45,7 @@ struct RowMotion {
   Twist velocity_W;                                 ///< xi: Bullet moves it by xi and the flow
   Vector3 flow_W = Vector3::Zero();
   bool is_anchored =
-      false;        ///< true: joints, or contacts with bodies that cannot move, hold the body
+      false;      ///< true: joints, or contacts with bodies that cannot move, hold the body
   Wrench load_W;  ///< mean surface load in the step, RowLoad
   /// Momentum relative to the flow, about the centre of mass at the start, which the turn keeps;
   /// none: a body with locked axes, or one that the fluid settles, eq. (124).
