@@ -133,8 +133,8 @@ class Immersed {
   friend class WorldAttachment;
   Immersed(AmbientBodies& bodies, const AmbientBody& ambient);
 
-  /// What is in the fluid while it exists, and the body or link of this handle; null: it was
-  /// removed.
+  /// Bodies of the fluid, kept while they are in use, and the body or link of this handle; null: it
+  /// was removed.
   struct Access {
     std::shared_ptr<AmbientBodies> bodies;
     AmbientBody* ambient;

@@ -11,7 +11,7 @@ Matrix3 crossMatrix(const Vector3& d) {
 }
 
 Matrix6 shiftOrigin(const Matrix6& inertia, const Vector3& d) {
-  // By blocks: [d]x^T X has the columns of X times d; column j of X [d]x is x_k d_l - x_l d_k with
+  // Blocks: [d]x^T X has the columns of X times d; column j of X [d]x is x_k d_l - x_l d_k with
   // j, k, l in cyclic order.
   Matrix6 K = inertia;
   const Eigen::Matrix<double, 6, 3, Eigen::DontAlign> X = inertia.rightCols<3>();

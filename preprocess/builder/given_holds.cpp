@@ -80,7 +80,8 @@ void addTank(const std::filesystem::path& file, double scale, const GivenTo& to)
       raiseInputError(name, "the tank reaches into the ", hold.name, " of ", to.source);
   }
   to.body.holds.push_back(tankOf(tank.mesh, file.stem().string()));
-  // What is in a cavity already has no walls to take away.
+  // A tank in a cavity is empty as a part of it: its surface, outward, keeps its room from being
+  // taken off the uniform mass twice.
   TriangleMesh& cavities = to.body.cavities;
   if (cavities.triangleCount() > 0 && !hasPoint(tank.mesh, false, cavities))
     cavities = joinMeshes({cavities, tank.mesh});

@@ -7,7 +7,7 @@
 
 namespace ambient {
 
-/// What a body has of holds, which given ones are added to.
+/// Holds of a body, to which given ones are added, and the meshes that change with them.
 struct HoldsOfBody {
   std::vector<Hold>& holds;
   TriangleMesh& walls;     ///< with holds: the faces of walls alone

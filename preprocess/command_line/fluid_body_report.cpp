@@ -185,8 +185,8 @@ Vector3 sharesOf(const FluidBody& body) {
   return body.sphere_radius > 0 ? Vector3(1, 1, 1) : smoothShares(body, body.form.shape);
 }
 
-/// What there is along axis j of separation; R about the centre of reaction. `share`: of the base,
-/// by the law.
+/// Facts of axis j of the separation: resistances, and where the drag falls if it does. R about the
+/// centre of reaction. `share`: smooth part of the base, by the law [1].
 ordered_json axisJson(const ViscousForm& form, const Matrix6& R, double share, int j) {
   const Separation& separation = form.separation;
   const Vector3 q = separation.axes.col(j);

@@ -100,7 +100,7 @@ HoldModes modesOf(const HoldShape& shape, const HoldFill& fill,
 
 /// Inertia of the water in a hold as it moves with the body, less that of its modes, per unit
 /// density, about the origin of the frame of both; docs/theory.md eq. (150). Positive semidefinite.
-/// Of the water only volume and moment count.
+/// Reads volume and moment of the water alone.
 Matrix6 carriedInertia(const WetVolume& water, const HoldModes& modes) noexcept;
 
 /// Lines in which a plane cuts a closed surface: pairs of points, each with the inside on its left
