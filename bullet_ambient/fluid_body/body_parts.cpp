@@ -32,6 +32,23 @@ double wingShare(const Wing& wing, double volume, double phi) {
   return squared(std::max(1 - thick, 0.0)) * std::max(1 - aside, 0.0);
 }
 
+FaceTable plateFaces(const Wing& wing) {
+  constexpr double kAlong[4][2] = {{-0.8611363115940526, 0.3478548451374538},
+                                   {-0.3399810435848563, 0.6521451548625461},
+                                   {0.3399810435848563, 0.6521451548625461},
+                                   {0.8611363115940526, 0.3478548451374538}};
+  const Vector3 &z = wing.facing, &h = wing.span_axis;
+  const Vector3 across = std::sqrt(1.0 / 12) * wing.chord * h.cross(z);
+  FaceTable faces;
+  for (const double side : {1.0, -1.0})
+    for (const auto& [place, weight] : kAlong)
+      for (const double end : {1.0, -1.0})
+        faces.add(side * z, wing.centre + end * across + place * wing.span / 2 * h,
+                  weight / 4 * wing.span * wing.chord);
+  faces.sharpness.assign(faces.size(), 1);
+  return faces;
+}
+
 FaceTable facesOfPart(const SurfaceForm& form, std::size_t label) {
   AMBIENT_ASSERT(form.part_of_face.size() == form.faces.size());
   FaceTable faces;

@@ -18,6 +18,9 @@ struct LiftedPart {
 /// sides.
 double wingShare(const Wing& wing, double volume, double phi);
 
+/// Returns both sides of the rectangle b c of a wing, at 4 x 2 Gauss points of span and chord.
+FaceTable plateFaces(const Wing& wing);
+
 /// Returns the faces of the form law that have a label: 0 of the rest, or the number of a wing.
 /// @pre form.part_of_face is filled
 FaceTable facesOfPart(const SurfaceForm& form, std::size_t label);

@@ -279,6 +279,9 @@ void appendWings(const FluidBody& body, std::string& bytes) {
   for (const Wing& wing : body.wings) {
     for (const double* number : wing.numbers()) append(number, 1);
     bytes += wing.is_joined ? '\1' : '\0';
+    if (wing.nose == 0 && wing.camber == 0) continue;
+    append(&wing.camber, 1);
+    append(&wing.nose, 1);
   }
   for (const double* number : body.form.rest.numbers()) append(number, 1);
   append(body.form.wing_shares.data(), body.form.wing_shares.size());

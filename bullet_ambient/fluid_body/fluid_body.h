@@ -198,6 +198,10 @@ struct Wing {
   double aspect = 1;           ///< L of eq. (156), with the image in what it is joined to
   double body_lift = 1;        ///< kappa of eq. (157): 1 to 2
   bool is_joined = false;      ///< to the rest of the body or to another part
+  double camber = 0;           ///< zeta: rise of the mean line towards z over the chord, eq. (166)
+  /// Round end of its section: 1 towards h x z, -1 the other way; 0: none. Such a wing acts by its
+  /// mean surface, eq. (181).
+  double nose = 0;
 
   /// Returns k of eq. (156), its added mass along z per unit density [m^3].
   double plateMass() const;
@@ -244,6 +248,8 @@ struct MassDistribution {
 
 /// Most wings of a fluid body.
 constexpr std::size_t kMostWings = 255;
+/// Largest camber of a wing or foil, either way.
+constexpr double kMostCamber = 0.2;
 
 /// Record of how a fluid body was made.
 struct Provenance {

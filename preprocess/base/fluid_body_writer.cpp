@@ -151,7 +151,8 @@ Offset<flatbuffers::Vector<Offset<file::Wing>>> pack(FlatBufferBuilder& builder,
   for (const Wing& wing : wings) {
     const auto name = builder.CreateString(wing.name);
     const auto numbers = packNumbers(builder, wing.numbers());
-    packed.push_back(file::CreateWing(builder, name, numbers, wing.is_joined));
+    packed.push_back(
+        file::CreateWing(builder, name, numbers, wing.is_joined, wing.camber, wing.nose));
   }
   return builder.CreateVector(packed);
 }

@@ -18,6 +18,7 @@ double shareOf(const Wing& wing, const LiftedPart& part, const FaceTable& faces)
     area += faces.area[i];
   }
   if (!(area > 0)) return 0;
+  if (wing.nose != 0) return 1;
   return wingShare(wing, part.volume, facing / area);
 }
 
@@ -50,9 +51,11 @@ void makeWingForm(FluidBody& body) {
   form.faces = {};
   form.part_of_face.clear();
   for (std::size_t label = 0; label <= body.wings.size(); ++label) {
-    const FluidBody part = partOf(body, label);
-    if (part.faces.size() == 0) continue;
-    const FaceTable faces = formLawFaces(part, FormShape{});
+    const bool is_round = label > 0 && body.wings[label - 1].nose != 0;
+    const FluidBody part = is_round ? FluidBody{} : partOf(body, label);
+    if (part.faces.size() == 0 && !is_round) continue;
+    const FaceTable faces =
+        is_round ? plateFaces(body.wings[label - 1]) : formLawFaces(part, FormShape{});
     for (std::size_t i = 0; i < faces.size(); ++i) {
       form.faces.add(faces.normal(i), faces.centroid(i), faces.area[i]);
       form.faces.sharpness.push_back(faces.sharpness[i]);

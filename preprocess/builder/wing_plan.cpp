@@ -102,11 +102,13 @@ class PlanMaker {
     return added;
   }
 
-  /// The wings; none if one of them is the whole body, which has one law in any case.
-  WingPlan result() && {
+  /// The wings; none if one of them is the whole body, which has one law in any case, unless its
+  /// sections are aerofoils.
+  WingPlan result(bool sheet) && {
+    if (plan_.given.empty()) return {};
     const bool is_whole = std::all_of(plan_.labels.begin(), plan_.labels.end(),
                                       [](std::uint8_t label) { return label == 1; });
-    if (plan_.given.empty() || is_whole) return {};
+    if (is_whole && measureWings(mesh_, plan_.labels, sheet).front().wing.nose == 0) return {};
     return std::move(plan_);
   }
 
@@ -189,7 +191,7 @@ WingPlan planWings(const std::string& wanted, const TriangleMesh& mesh,
     wants_rest = list.wants_rest;
   }
   if (wants_rest) addFound(source, mesh, isSheet(shape), maker);
-  return std::move(maker).result();
+  return std::move(maker).result(isSheet(shape));
 }
 
 void setWings(const WingPlan& plan, const TriangleMesh& mesh, std::vector<std::uint8_t> labels,

@@ -159,6 +159,8 @@ ordered_json wingsJson(const FluidBody& body) {
                     {"aspect", wing.aspect},
                     {"body_lift", wing.body_lift},
                     {"joined", wing.is_joined},
+                    {"nose", wing.nose},
+                    {"camber", wing.camber},
                     {"share", body.form.wing_shares[i]},
                     {"facing", vectorJson(wing.facing)},
                     {"span_axis", vectorJson(wing.span_axis)},

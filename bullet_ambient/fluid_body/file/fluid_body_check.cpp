@@ -249,6 +249,11 @@ void checkWing(const Wing& wing, double size, const Checker& check) {
     check.fail("aspect ratio of a wing is ", wing.aspect, ", but must be 1e-12 to 1e12");
   if (!(wing.body_lift >= 1) || !(wing.body_lift <= 2))
     check.fail("body lift of a wing is ", wing.body_lift, ", but must be 1 to 2");
+  if (!(std::abs(wing.camber) <= kMostCamber))
+    check.fail("camber of a wing is ", wing.camber, ", but must be from ", -kMostCamber, " to ",
+               kMostCamber);
+  if (wing.nose != 0 && std::abs(wing.nose) != 1)
+    check.fail("nose of a wing is ", wing.nose, ", but must be -1, 0 or 1");
 }
 
 /// Checks that each face is a side of a triangle of the surface, whose part is its own.

@@ -152,6 +152,8 @@ Wing unpack(const file::Wing& packed, const std::string& source) {
   wing.name = packed.name()->str();
   unpackNumbers(*packed.numbers(), source + ": a wing", wing.numbers());
   wing.is_joined = packed.is_joined();
+  wing.camber = packed.camber();
+  wing.nose = packed.nose();
   return wing;
 }
 

@@ -51,6 +51,12 @@ FormShape formShapeOf(const Wing& wing, double share) {
   return shape;
 }
 
+/// How much later the flow around a thick round nose separates than around an edge, eq. (181).
+double lateStallOf(const Wing& wing) {
+  constexpr double kThickest = 1.3;  // thickness of a section over its mean
+  return wing.nose == 0 ? 0 : 0.6 * std::min(kThickest * wing.thickness / wing.chord, 0.12);
+}
+
 }  // namespace
 
 double normalForceSlope(double aspect) {
@@ -77,7 +83,7 @@ ShapeFactors::ShapeFactors(const Wing& wing, double share)
     : shape(formShapeOf(wing, share)),
       slope(wing.body_lift * normalForceSlope(wing.aspect)),
       slope_along(normalForceSlope(1 / wing.aspect)),
-      stall_sine(stallSine(std::max(wing.aspect, 1.0))),
+      stall_sine(stallSine(std::max(wing.aspect, 1.0)) + lateStallOf(wing)),
       root(wing.centre - wing.span / 2 * wing.span_axis),
       reach(wing.span * wing.span_axis),
       in_single(wingFactorsOf<float>(*this)),

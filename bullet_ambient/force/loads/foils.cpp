@@ -57,7 +57,7 @@ void checkFoil(const Foil& foil, std::size_t index) {
   if (!(foil.chord_axis.cross(foil.span_axis).norm() > kLeastSine * size))
     refuseFoil(index, "chord_axis and span_axis are along one line");
   require("thickness", foil.thickness, 0, 0.3 * foil.chord);
-  require("camber", foil.camber, -0.2, 0.2);
+  require("camber", foil.camber, -kMostCamber, kMostCamber);
   require("drag", foil.drag, 0, kLargestDrag);
   require("aspect", foil.aspect, 0, kLargestDrag);
   checkPolar(foil.polar, index);
@@ -69,23 +69,8 @@ Wing wingOf(const Foil& foil) {
   wing.chord = foil.chord;
   wing.thickness = foil.thickness;
   wing.aspect = foil.aspect > 0 ? foil.aspect : foil.span / foil.chord;
+  wing.camber = foil.camber;
   return wing;
-}
-
-/// Both sides of a foil at the Gauss points of its rectangle, as the faces of a wing.
-FaceTable facesOf(const Foil& foil) {
-  constexpr double kAlong[4][2] = {{-0.8611363115940526, 0.3478548451374538},
-                                   {-0.3399810435848563, 0.6521451548625461},
-                                   {0.3399810435848563, 0.6521451548625461},
-                                   {0.8611363115940526, 0.3478548451374538}};
-  const double across = std::sqrt(1.0 / 12) * foil.chord;
-  FaceTable faces;
-  for (const double side : {1.0, -1.0})
-    for (const auto& [place, weight] : kAlong)
-      for (const double x : {across, -across})
-        faces.add({0, 0, side}, {x, place * foil.span / 2, 0}, weight / 4 * foil.span * foil.chord);
-  faces.sharpness.assign(faces.size(), 1);
-  return faces;
 }
 
 /// A body that is nothing but this foil, in the foil's frame.
@@ -95,7 +80,7 @@ std::shared_ptr<const FluidBody> bodyOf(const Foil& foil, const Wing& wing, doub
   body->volume = foil.span * foil.chord * foil.thickness;
   body->area = 2 * foil.span * foil.chord;
   body->added_mass(5, 5) = wing.plateMass();
-  body->faces = facesOf(foil);
+  body->faces = plateFaces(wing);
   body->form.faces = body->faces;
   body->form.part_of_face.assign(body->faces.size(), 1);
   body->wings = {wing};
@@ -116,7 +101,9 @@ Foils::Placed Foils::place(const Foil& foil, std::size_t index) {
   checkFoil(foil, index);
   const Wing wing = wingOf(foil);
   const double share = wingShare(wing, foil.span * foil.chord * foil.thickness, 1);
-  Placed placed{foil, 0, {}, {}, ShapeFactors(wing, share), nullptr, {}, wing.plateMass() / 2};
+  const ShapeFactors shape(wing, share);
+  Placed placed{
+      foil, 0, {}, {}, shape, Profile(wing, shape, foil.drag), nullptr, {}, wing.plateMass() / 2};
   if (foil.polar.empty()) placed.law = lawOfWing(foil, wing, share);
   placed.halves =
       halvesOf(Vector3::Zero(), foil.span * Vector3::UnitY(), foil.chord * Vector3::UnitX());
@@ -162,23 +149,6 @@ Vector3 Foils::byPolar(const Foil& foil, const Vector3& u) noexcept {
   return speed * ((is_mirrored ? -lift : lift) * across - drag * along);
 }
 
-// Camber and drag of the profile, eq. (166), (167), per unit rho/2 and area.
-Vector3 Foils::byProfile(const Placed& placed, const Vector3& u, double stalling) noexcept {
-  const Foil& foil = placed.foil;
-  const Vector3 in_plane(u.x(), u.y(), 0);
-  Vector3 force = -foil.drag * in_plane.norm() * in_plane;
-  const double speed_sq = u.squaredNorm();
-  if (foil.camber == 0 || !(speed_sq > 0)) return force;
-  const double speed = std::sqrt(speed_sq), slope = placed.shape.slope, camber = foil.camber;
-  const WingFlow<PlainArithmetic<double>> flow{u.z(), stalling * u.z(), 0, 0, speed_sq, speed};
-  const double share = attachedFlow(u.z(), flow, placed.shape.in_double).share;
-  const Vector3 turning = speed_sq * Vector3::UnitZ() - u.z() * u;
-  const double induced = slope * slope / (kPi * placed.shape.shape.aspect) *
-                         std::max(0.0, 4 * camber * (camber - u.z() / speed));
-  return force +
-         share * u.x() * u.x() / speed_sq * (2 * camber * slope * turning - induced * speed * u);
-}
-
 // Force on half of a foil, and what its added mass lacks in K: Munk's moment, of which the law
 // of wings takes a share, eq. (169).
 Wrench Foils::atStation(const Placed& placed, const Vector3& station, const Twist& x) noexcept {
@@ -188,8 +158,8 @@ Wrench Foils::atStation(const Placed& placed, const Vector3& station, const Twis
   if (!placed.law) return Wrench::ofForceAt(half * byPolar(foil, u), station);
   const double stalling = placed.shape.stallingShare(x.angular, x.linear);
   const Vector3 impulse(0, 0, placed.mass * u.z());
-  Wrench load =
-      Wrench::ofForceAt(half * byProfile(placed, u, stalling) + impulse.cross(x.angular), station);
+  Wrench load = Wrench::ofForceAt(
+      half * placed.profile.force(u, stalling) + impulse.cross(x.angular), station);
   load.torque += impulse.cross(u);
   return load;
 }

@@ -63,9 +63,10 @@ class Foils {
   struct Placed {
     Foil foil;
     double angle = 0;
-    Matrix3 axes = Matrix3::Identity();       ///< of its frame in F, at no angle
-    FrameOffset pose;                         ///< of its frame in F
-    ShapeFactors shape;                       ///< of its Wing
+    Matrix3 axes = Matrix3::Identity();  ///< of its frame in F, at no angle
+    FrameOffset pose;                    ///< of its frame in F
+    ShapeFactors shape;                  ///< of its Wing
+    Profile profile;
     std::shared_ptr<const SurfaceLoads> law;  ///< of wings, per unit density; null: a polar
     std::array<WingHalf, 2> halves;
     double mass = 0;  ///< k / 2 [m^3]
@@ -74,7 +75,6 @@ class Foils {
   static Placed place(const Foil& foil, std::size_t index);
   static Wrench atStation(const Placed& placed, const Vector3& station, const Twist& x) noexcept;
   static Vector3 byPolar(const Foil& foil, const Vector3& u) noexcept;
-  static Vector3 byProfile(const Placed& placed, const Vector3& u, double stalling) noexcept;
 
   std::vector<Placed> placed_;
 };

@@ -233,7 +233,7 @@ std::shared_ptr<const SurfaceLoads> loadsOnParts(const Body& body, const LoadSet
   for (std::size_t i = 1; i < parts->size(); ++i) on_wings.push_back(onFaces((*parts)[i]));
   return makeFormLoads(onFaces(parts->front()), {body, &body->form.faces}, body, settings,
                        flow.stall_lag,
-                       LoadsOnWings{WingLift(*parts, flow.stall_lag), std::move(on_wings)});
+                       LoadsOnWings{WingLift(*body, *parts, flow.stall_lag), std::move(on_wings)});
 }
 
 std::shared_ptr<const SurfaceLoads> loadsOnFaces(const Body& body, LoadSettings settings,

@@ -1,7 +1,9 @@
 #include "bullet_ambient/force/loads/wing_lift.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/force/law/share_in_pool.h"
 
 namespace ambient {
@@ -18,12 +20,51 @@ Wrench aboutOrigin(const Wrench& about, const Vector3& point) {
 
 }  // namespace
 
+Profile::Profile(const Wing& wing, const ShapeFactors& shape, double drag)
+    : normal_(wing.facing),
+      chord_(wing.span_axis.cross(wing.facing)),
+      camber_(wing.camber),
+      nose_(wing.nose),
+      drag_(drag),
+      slope_(shape.slope),
+      induced_(shape.slope * shape.slope / (kPi * wing.aspect)),
+      suction_(normalForceSlope(wing.aspect)),
+      attached_(shape.in_double) {
+  suction_ *= 1 - suction_ / (kPi * wing.aspect);
+}
+
+Vector3 Profile::force(const Vector3& u, double stalling) const noexcept {
+  const double across = normal_.dot(u), along = chord_.dot(u);
+  const Vector3 in_plane = u - across * normal_;
+  Vector3 force = -drag_ * in_plane.norm() * in_plane;
+  const double speed_sq = u.squaredNorm();
+  if ((camber_ == 0 && nose_ == 0) || !(speed_sq > 0)) return force;
+  const double speed = std::sqrt(speed_sq);
+  const WingFlow<PlainArithmetic<double>> flow{across, stalling * across, 0, 0, speed_sq, speed};
+  const double share = attachedFlow(across, flow, attached_).share;
+  if (camber_ != 0) {
+    const Vector3 turning = speed_sq * normal_ - across * u;
+    const double induced = induced_ * std::max(0.0, 4 * camber_ * (camber_ - across / speed));
+    force +=
+        share * along * along / speed_sq * (2 * camber_ * slope_ * turning - induced * speed * u);
+  }
+  const double ahead = std::max(nose_ * along, 0.0);
+  if (ahead > 0) {
+    constexpr double kSuction = 0.9, kOnset = 0.06;  // of eq. (181), of (49a)
+    const double sine_sq = across * across / speed_sq, onset = sine_sq / kOnset;
+    const double clean = share * kSuction / (1 + onset * onset) * ahead / speed;
+    force += clean * across * across * suction_ * nose_ * chord_;
+    force += clean * kPi * std::abs(across) * across * ahead / speed * normal_;
+  }
+  return force;
+}
+
 std::array<WingHalf, 2> halvesOf(const Vector3& centre, const Vector3& span, const Vector3& chord) {
   const Vector3 to_station = 0.5 / std::sqrt(3.0) * span;
   return {{{centre - to_station, span / 4, chord / 2}, {centre + to_station, span / 4, chord / 2}}};
 }
 
-WingLift::WingLift(const std::vector<BodyPart>& parts, double stall_lag)
+WingLift::WingLift(const FluidBody& body, const std::vector<BodyPart>& parts, double stall_lag)
     : rest_(parts.front().lifted, parts.front().shape, stall_lag),
       rest_centre_(parts.front().lifted.centre) {
   for (std::size_t i = 1; i < parts.size(); ++i) {
@@ -31,7 +72,8 @@ WingLift::WingLift(const std::vector<BodyPart>& parts, double stall_lag)
     const FormShape& shape = wing.shape.shape;
     const Vector3 chord = shape.chord * shape.facing.cross(shape.span);
     wings_.push_back({FormLift(halfOf(wing.lifted), wing.shape, stall_lag),
-                      halvesOf(wing.lifted.centre, wing.shape.reach, chord)});
+                      halvesOf(wing.lifted.centre, wing.shape.reach, chord), wing.shape,
+                      Profile(body.wings[i - 1], wing.shape, 0), wing.lifted.area / 4});
   }
 }
 
@@ -54,8 +96,13 @@ Wrench WingLift::load(const Twist& x, double density, const MunkFactors& munk,
   for (const One& wing : wings_)
     for (const WingHalf& half : wing.halves) {
       const double share = wet ? half.wetShare(*wet) : 1;
-      const Wrench load =
-          wing.half.load(x.angular, x.at(half.station), share * density, munk.wings);
+      const Vector3 u = x.at(half.station);
+      Wrench load = wing.half.load(x.angular, u, share * density, munk.wings);
+      if (!wing.profile.isFlat()) {
+        const double stalling = wing.shape.stallingShare(x.angular, x.linear);
+        load.force +=
+            share * munk.wings * density / 2 * wing.planform * wing.profile.force(u, stalling);
+      }
       sum += aboutOrigin(load, half.station);
     }
   return sum;

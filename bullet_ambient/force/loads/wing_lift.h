@@ -13,6 +13,26 @@ struct MunkFactors {
   double rest = 1, wings = 1;
 };
 
+/// Section of a wing: what it adds to a plate, docs/theory.md eq. (166), (167), (181). Power <= 0
+/// with that of the plate.
+class Profile {
+ public:
+  /// `shape`: of the wing; `drag`: C_D0.
+  Profile(const Wing& wing, const ShapeFactors& shape, double drag);
+
+  bool isFlat() const { return camber_ == 0 && nose_ == 0 && drag_ == 0; }
+  /// Force per rho/2 and area for the velocity u of a place of the wing relative to the fluid, in
+  /// the axes of the wing's; stalling: 1 - chi of eq. (161) [m^2/s^2].
+  Vector3 force(const Vector3& u, double stalling) const noexcept;
+
+ private:
+  Vector3 normal_, chord_;  ///< z, and h x z
+  double camber_, nose_, drag_;
+  double slope_;              ///< K
+  double induced_, suction_;  ///< K^2/(pi L); K (1 - K/(pi L)) without kappa
+  WingFactors<double> attached_;
+};
+
 /// Half of a wing around a station.
 struct WingHalf {
   Vector3 station;      ///< Gauss point of the span [m]
@@ -29,8 +49,8 @@ std::array<WingHalf, 2> halvesOf(const Vector3& centre, const Vector3& span, con
 /// two Gauss points of its span, and of the rest, docs/theory.md eq. (160). Frame F. Power 0.
 class WingLift {
  public:
-  /// parts: LoadTables::parts(), the rest first.
-  WingLift(const std::vector<BodyPart>& parts, double stall_lag);
+  /// parts: LoadTables::parts() of the body, the rest first.
+  WingLift(const FluidBody& body, const std::vector<BodyPart>& parts, double stall_lag);
 
   /// Wrench about F's origin for a twist relative to the flow; density [kg/m^3]. `wet`: of the part
   /// in the fluid; null: all of it is.
@@ -41,6 +61,9 @@ class WingLift {
   struct One {
     FormLift half;  ///< of half of the wing
     std::array<WingHalf, 2> halves;
+    ShapeFactors shape;
+    Profile profile;
+    double planform;  ///< of half of the wing [m^2]
   };
 
   FormLift rest_;

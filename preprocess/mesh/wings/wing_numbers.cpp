@@ -9,6 +9,7 @@
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
+#include "preprocess/mesh/wings/wing_sections.h"
 
 namespace ambient {
 namespace {
@@ -82,6 +83,7 @@ class WingMeasure {
     wing.thickness = rays_ ? thicknessOf(triangles, wing) / (planform.sum / 2) : 0;
     const Matrix3 variance = planform.variance();
     if (!setJoint(joint, variance, measured)) setFree(variance, wing);
+    if (rays_) setSection(mesh_, triangles, wing);
     return measured;
   }
 

@@ -53,7 +53,8 @@ class WingSearch {
     const std::vector<MeasuredWing> measured = measureWings(mesh_, labels, false);
     keep(labels, [&](std::size_t w) { return wings_[w].is_cut || standsOff(measured[w]); });
     const int count = static_cast<int>(wings_.size());
-    if (count == 0 || count > kMostFoundWings || isWhole(labels, count)) return {};
+    if (count == 0 || count > kMostFoundWings) return {};
+    if (isWhole(labels, count)) std::fill(labels.begin(), labels.end(), std::uint8_t{1});
     return labels;
   }
 
