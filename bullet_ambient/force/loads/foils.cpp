@@ -70,6 +70,8 @@ Wing wingOf(const Foil& foil) {
   wing.thickness = foil.thickness;
   wing.aspect = foil.aspect > 0 ? foil.aspect : foil.span / foil.chord;
   wing.camber = foil.camber;
+  constexpr double kThinnest = 0.04;  // of the chord: a thicker foil has a round nose
+  wing.nose = foil.thickness > kThinnest * foil.chord ? 1 : 0;
   return wing;
 }
 
@@ -101,9 +103,7 @@ Foils::Placed Foils::place(const Foil& foil, std::size_t index) {
   checkFoil(foil, index);
   const Wing wing = wingOf(foil);
   const double share = wingShare(wing, foil.span * foil.chord * foil.thickness, 1);
-  const ShapeFactors shape(wing, share);
-  Placed placed{
-      foil, 0, {}, {}, shape, Profile(wing, shape, foil.drag), nullptr, {}, wing.plateMass() / 2};
+  Placed placed{foil, 0, {}, {}, ShapeFactors(wing, share), nullptr, {}, wing.plateMass() / 2};
   if (foil.polar.empty()) placed.law = lawOfWing(foil, wing, share);
   placed.halves =
       halvesOf(Vector3::Zero(), foil.span * Vector3::UnitY(), foil.chord * Vector3::UnitX());
@@ -149,17 +149,16 @@ Vector3 Foils::byPolar(const Foil& foil, const Vector3& u) noexcept {
   return speed * ((is_mirrored ? -lift : lift) * across - drag * along);
 }
 
-// Force on half of a foil, and what its added mass lacks in K: Munk's moment, of which the law
-// of wings takes a share, eq. (169).
+// Drag of the profile of half of a foil, eq. (167), and what its added mass lacks in K: Munk's
+// moment, of which the law of wings takes a share, eq. (169).
 Wrench Foils::atStation(const Placed& placed, const Vector3& station, const Twist& x) noexcept {
   const Foil& foil = placed.foil;
   const Vector3 u = x.at(station);
   const double half = foil.span * foil.chord / 4;  // rho/2 of half of the area
   if (!placed.law) return Wrench::ofForceAt(half * byPolar(foil, u), station);
-  const double stalling = placed.shape.stallingShare(x.angular, x.linear);
-  const Vector3 impulse(0, 0, placed.mass * u.z());
-  Wrench load = Wrench::ofForceAt(
-      half * placed.profile.force(u, stalling) + impulse.cross(x.angular), station);
+  const Vector3 in_plane(u.x(), u.y(), 0), impulse(0, 0, placed.mass * u.z());
+  const Vector3 drag = -foil.drag * in_plane.norm() * in_plane;
+  Wrench load = Wrench::ofForceAt(half * drag + impulse.cross(x.angular), station);
   load.torque += impulse.cross(u);
   return load;
 }

@@ -25,7 +25,7 @@ struct Foil {
   Vector3 span_axis{0, 1, 0};   ///< h, made perpendicular to it; z = chord x span is its upper side
   double span = 0;              ///< b [m]
   double chord = 0;             ///< c [m]
-  double thickness = 0;         ///< t, at most 0.3 c [m]
+  double thickness = 0;         ///< t, mean, at most 0.3 c; above 0.04 c its nose is round [m]
   double camber = 0;            ///< zeta: rise of the mean line over the chord, from -0.2 to 0.2
   double drag = 0.01;           ///< C_D of its profile at no lift
   double aspect = 0;            ///< L; 2 b/c of a fin on a wall; 0: b/c
@@ -63,10 +63,9 @@ class Foils {
   struct Placed {
     Foil foil;
     double angle = 0;
-    Matrix3 axes = Matrix3::Identity();  ///< of its frame in F, at no angle
-    FrameOffset pose;                    ///< of its frame in F
-    ShapeFactors shape;                  ///< of its Wing
-    Profile profile;
+    Matrix3 axes = Matrix3::Identity();       ///< of its frame in F, at no angle
+    FrameOffset pose;                         ///< of its frame in F
+    ShapeFactors shape;                       ///< of its Wing
     std::shared_ptr<const SurfaceLoads> law;  ///< of wings, per unit density; null: a polar
     std::array<WingHalf, 2> halves;
     double mass = 0;  ///< k / 2 [m^3]

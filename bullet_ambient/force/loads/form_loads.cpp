@@ -134,7 +134,11 @@ class FormLoads final : public ViscousLoads {
   }
   Wrench withWings(Wrench load, const Twist& x, const WetPart* wet) const noexcept {
     if (!wings_) return load;
-    for (const auto& wing : wings_->on_faces) load += wet ? wing->wetLoad(x, *wet) : wing->load(x);
+    for (std::size_t i = 0; i < wings_->on_faces.size(); ++i) {
+      const SurfaceLoads& wing = *wings_->on_faces[i];
+      const Wrench on_wing = wet ? wing.wetLoad(x, *wet) : wing.load(x);
+      load += on_wing + wings_->lift.bySection(i, x, density_, wet, on_wing);
+    }
     return load;
   }
   Wrench atCentre(const Wrench& about) const noexcept {

@@ -20,12 +20,11 @@ Wrench aboutOrigin(const Wrench& about, const Vector3& point) {
 
 }  // namespace
 
-Profile::Profile(const Wing& wing, const ShapeFactors& shape, double drag)
+Profile::Profile(const Wing& wing, const ShapeFactors& shape)
     : normal_(wing.facing),
       chord_(wing.span_axis.cross(wing.facing)),
       camber_(wing.camber),
       nose_(wing.nose),
-      drag_(drag),
       slope_(shape.slope),
       induced_(shape.slope * shape.slope / (kPi * wing.aspect)),
       suction_(normalForceSlope(wing.aspect)),
@@ -35,10 +34,9 @@ Profile::Profile(const Wing& wing, const ShapeFactors& shape, double drag)
 
 Vector3 Profile::force(const Vector3& u, double stalling) const noexcept {
   const double across = normal_.dot(u), along = chord_.dot(u);
-  const Vector3 in_plane = u - across * normal_;
-  Vector3 force = -drag_ * in_plane.norm() * in_plane;
   const double speed_sq = u.squaredNorm();
-  if ((camber_ == 0 && nose_ == 0) || !(speed_sq > 0)) return force;
+  Vector3 force{0, 0, 0};
+  if (!(speed_sq > 0)) return force;
   const double speed = std::sqrt(speed_sq);
   const WingFlow<PlainArithmetic<double>> flow{across, stalling * across, 0, 0, speed_sq, speed};
   const double share = attachedFlow(across, flow, attached_).share;
@@ -73,7 +71,7 @@ WingLift::WingLift(const FluidBody& body, const std::vector<BodyPart>& parts, do
     const Vector3 chord = shape.chord * shape.facing.cross(shape.span);
     wings_.push_back({FormLift(halfOf(wing.lifted), wing.shape, stall_lag),
                       halvesOf(wing.lifted.centre, wing.shape.reach, chord), wing.shape,
-                      Profile(body.wings[i - 1], wing.shape, 0), wing.lifted.area / 4});
+                      Profile(body.wings[i - 1], wing.shape), wing.lifted.area / 4});
   }
 }
 
@@ -96,16 +94,27 @@ Wrench WingLift::load(const Twist& x, double density, const MunkFactors& munk,
   for (const One& wing : wings_)
     for (const WingHalf& half : wing.halves) {
       const double share = wet ? half.wetShare(*wet) : 1;
-      const Vector3 u = x.at(half.station);
-      Wrench load = wing.half.load(x.angular, u, share * density, munk.wings);
-      if (!wing.profile.isFlat()) {
-        const double stalling = wing.shape.stallingShare(x.angular, x.linear);
-        load.force +=
-            share * munk.wings * density / 2 * wing.planform * wing.profile.force(u, stalling);
-      }
+      const Wrench load =
+          wing.half.load(x.angular, x.at(half.station), share * density, munk.wings);
       sum += aboutOrigin(load, half.station);
     }
   return sum;
+}
+
+// Cut by a surface, halves are not wet as their faces are: the faces may take less power then.
+Wrench WingLift::bySection(std::size_t number, const Twist& x, double density, const WetPart* wet,
+                           const Wrench& on_faces) const noexcept {
+  const One& wing = wings_[number];
+  Wrench sum;
+  if (wing.profile.isFlat()) return sum;
+  const double stalling = wing.shape.stallingShare(x.angular, x.linear);
+  for (const WingHalf& half : wing.halves) {
+    const double share = wet ? half.wetShare(*wet) : 1;
+    const Vector3 force = wing.profile.force(x.at(half.station), stalling);
+    sum += Wrench::ofForceAt(share * density / 2 * wing.planform * force, half.station);
+  }
+  const double gained = power(sum, x), taken = std::max(-power(on_faces, x), 0.0);
+  return gained > taken ? taken / gained * sum : sum;
 }
 
 }  // namespace ambient

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "bullet_ambient/force/loads/load_tables.h"
@@ -13,21 +14,20 @@ struct MunkFactors {
   double rest = 1, wings = 1;
 };
 
-/// Section of a wing: what it adds to a plate, docs/theory.md eq. (166), (167), (181). Power <= 0
-/// with that of the plate.
+/// Section of a wing: what it adds to a plate, docs/theory.md eq. (166), (181). Power <= 0 with
+/// that of the plate.
 class Profile {
  public:
-  /// `shape`: of the wing; `drag`: C_D0.
-  Profile(const Wing& wing, const ShapeFactors& shape, double drag);
+  Profile(const Wing& wing, const ShapeFactors& shape);
 
-  bool isFlat() const { return camber_ == 0 && nose_ == 0 && drag_ == 0; }
+  bool isFlat() const { return camber_ == 0 && nose_ == 0; }
   /// Force per rho/2 and area for the velocity u of a place of the wing relative to the fluid, in
   /// the axes of the wing's; stalling: 1 - chi of eq. (161) [m^2/s^2].
   Vector3 force(const Vector3& u, double stalling) const noexcept;
 
  private:
   Vector3 normal_, chord_;  ///< z, and h x z
-  double camber_, nose_, drag_;
+  double camber_, nose_;
   double slope_;              ///< K
   double induced_, suction_;  ///< K^2/(pi L); K (1 - K/(pi L)) without kappa
   WingFactors<double> attached_;
@@ -56,6 +56,9 @@ class WingLift {
   /// in the fluid; null: all of it is.
   Wrench load(const Twist& x, double density, const MunkFactors& munk,
               const WetPart* wet) const noexcept;
+  /// What the section of a wing adds to the load on its faces, of which it takes at most the power.
+  Wrench bySection(std::size_t wing, const Twist& x, double density, const WetPart* wet,
+                   const Wrench& on_faces) const noexcept;
 
  private:
   struct One {

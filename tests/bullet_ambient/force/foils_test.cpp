@@ -81,6 +81,23 @@ TEST(Foils, LiftByTheirCamber) {
               2e-5);
 }
 
+// Round noses keep 0.9 of their suction at small incidence, eq. (181); backwards and thin foils
+// none.
+TEST(Foils, KeepTheSuctionOfRoundNoses) {
+  Foil thin = plainFoil(6), thick = plainFoil(6);
+  thick.thickness = 0.08;
+  const double slope = 2 * kPi * 6 / (2 + std::sqrt(40.0)), i = 0.03;
+  const double kept = 0.9 * slope * (1 - slope / (kPi * 6)) * i * i;
+  EXPECT_NEAR(coefficientsOf(thick, alongChord(i)).x(), kept, 0.03 * kept);
+  EXPECT_NEAR(coefficientsOf(thick, alongChord(i)).z(), slope * i, 0.01 * slope * i);
+  for (const Vector3& none :
+       {coefficientsOf(thin, alongChord(i)), coefficientsOf(thick, alongChord(kPi - i))})
+    EXPECT_NEAR(none.x(), 0, 1e-12);
+  // They stall later.
+  EXPECT_GT(coefficientsOf(thick, alongChord(0.2)).z(),
+            1.1 * coefficientsOf(thin, alongChord(0.2)).z());
+}
+
 TEST(Foils, HaveTheDragOfTheirProfile) {
   Foil foil = plainFoil();
   foil.drag = 0.02;
