@@ -26,6 +26,7 @@ Matrix3 positivePartOf(const Matrix3& matrix) {
 }  // namespace
 
 double wingShare(const Wing& wing, double volume, double phi) {
+  if (wing.nose != 0) return 1;
   const auto squared = [](double x) { return x * x; };
   const double thick = squared(volume / wing.plateMass());
   const double aside = squared(1.5 * std::max(1 - phi, 0.0));

@@ -15,7 +15,7 @@ struct LiftedPart {
 };
 
 /// Returns W of docs/theory.md eq. (158) of a wing with a volume A t [m^3] and phi, 1 of flat
-/// sides.
+/// sides; 1 of one with a nose.
 double wingShare(const Wing& wing, double volume, double phi);
 
 /// Returns both sides of the rectangle b c of a wing, at 4 x 2 Gauss points of span and chord.

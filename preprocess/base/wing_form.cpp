@@ -18,7 +18,6 @@ double shareOf(const Wing& wing, const LiftedPart& part, const FaceTable& faces)
     area += faces.area[i];
   }
   if (!(area > 0)) return 0;
-  if (wing.nose != 0) return 1;
   return wingShare(wing, part.volume, facing / area);
 }
 

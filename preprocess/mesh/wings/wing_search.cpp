@@ -46,6 +46,7 @@ class WingSearch {
     for (const Chosen& piece : pieces()) addArms(piece);
     if (wings_.empty() || wings_.size() > kMostWings) return {};
     addRims();
+    if (isNearlyAll()) return all();
     std::vector<std::uint8_t> labels = labelsOfTriangles();
     addEdges(labels);
     mendIslands(labels);
@@ -54,8 +55,7 @@ class WingSearch {
     keep(labels, [&](std::size_t w) { return wings_[w].is_cut || standsOff(measured[w]); });
     const int count = static_cast<int>(wings_.size());
     if (count == 0 || count > kMostFoundWings) return {};
-    if (isWhole(labels, count)) std::fill(labels.begin(), labels.end(), std::uint8_t{1});
-    return labels;
+    return isWhole(labels, count) ? all() : labels;
   }
 
  private:
@@ -432,6 +432,17 @@ class WingSearch {
         !measured.wing.is_joined || joint.body_width >= kLeastBody * joint.root_thickness;
     return joint.step >= kLeastStep && std::isfinite(joint.step) && is_beside &&
            measured.wing.thickness < kThickest * measured.wing.chord;
+  }
+
+  std::vector<std::uint8_t> all() const {
+    return std::vector<std::uint8_t>(static_cast<std::size_t>(mesh_.triangleCount()), 1);
+  }
+
+  /// True if one wing has nearly all samples: the others lie on its rims.
+  bool isNearlyAll() const {
+    constexpr double kNearly = 0.95;
+    const auto own = std::count(part_.begin(), part_.end(), 1);
+    return wings_.size() == 1 && static_cast<double>(own) > kNearly * count();
   }
 
   /// True if one wing, not joined, is most of the body.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <sstream>
 #include <vector>
 
 #include "bullet_ambient/base/pi.h"
@@ -16,6 +17,7 @@
 #include "preprocess/mesh/wings/wing_numbers.h"
 #include "tests/support/bodies/random_bodies.h"
 #include "tests/support/refusal_of.h"
+#include "tests/support/temporary_folder.h"
 
 namespace ambient {
 namespace {
@@ -59,8 +61,8 @@ TriangleMesh wingOf(const Naca& naca, double span, int half = 12, int along = 10
   for (int j = 0; j < along; ++j)
     for (int i = 0; i < points; ++i) {
       const int a = j * points + i, b = j * points + (i + 1) % points;
-      triangles.emplace_back(a, a + points, b + points);
-      triangles.emplace_back(a, b + points, b);
+      triangles.emplace_back(a, b + points, a + points);
+      triangles.emplace_back(a, b, b + points);
     }
   for (int i = 0; i < half; ++i)  // the ends: strips between upper and lower side
     for (const int first : {0, along * points}) {
@@ -69,9 +71,9 @@ TriangleMesh wingOf(const Naca& naca, double span, int half = 12, int along = 10
       for (const auto& [a, b, c] : {std::array{q[0], q[1], q[2]}, std::array{q[0], q[2], q[3]}}) {
         if (a == b || b == c || a == c) continue;
         if (first == 0)
-          triangles.emplace_back(a, b, c);
-        else
           triangles.emplace_back(a, c, b);
+        else
+          triangles.emplace_back(a, b, c);
       }
     }
   mesh.triangles.resize(3, static_cast<Eigen::Index>(triangles.size()));
@@ -81,8 +83,16 @@ TriangleMesh wingOf(const Naca& naca, double span, int half = 12, int along = 10
 }
 
 FluidBody built(const TriangleMesh& mesh) {
+  const TemporaryFolder folder;
+  std::ostringstream text;
+  text.precision(17);
+  for (Eigen::Index v = 0; v < mesh.vertexCount(); ++v)
+    text << "v " << mesh.vertices.col(v).transpose() << "\n";
+  for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t)
+    text << "f " << (mesh.triangles.col(t).array() + 1).transpose() << "\n";
+  writeText(folder / "wing.obj", text.str());
   ShapeDescription shape;
-  shape.geometry = mesh;
+  shape.geometry = MeshFile{folder / "wing.obj"};
   shape.source = "wing";
   ShapeBuildSettings settings;
   settings.name = "wing";
@@ -125,7 +135,7 @@ TEST(Aerofoils, AreFoundInAMesh) {
   for (const FluidBody* body : {&symmetricWing(), &camberedWing()}) {
     ASSERT_EQ(body->wings.size(), 1u) << "the body as a whole";
     const Wing& wing = body->wings.front();
-    EXPECT_EQ(wing.nose * wing.span_axis.cross(wing.facing).x(), 1) << "ahead";
+    EXPECT_NEAR(wing.nose * wing.span_axis.cross(wing.facing).x(), 1, 1e-3) << "ahead";
     EXPECT_NEAR(wing.aspect, 6, 0.01);
     EXPECT_EQ(body->form.wing_shares.front(), 1);
   }
@@ -190,8 +200,8 @@ TEST(Aerofoils, AreTheSameInAnyAttitudeAndInAFile) {
   const FluidBody body = built(turned);
   ASSERT_EQ(body.wings.size(), 1u);
   const Wing &one = camberedWing().wings.front(), &other = body.wings.front();
-  EXPECT_NEAR(std::abs(other.camber), std::abs(one.camber), 1e-9);
-  EXPECT_LT((other.camber * other.facing - turn * (one.camber * one.facing)).norm(), 1e-9);
+  EXPECT_NEAR(std::abs(other.camber), std::abs(one.camber), 1e-7);
+  EXPECT_LT((other.camber * other.facing - turn * (one.camber * one.facing)).norm(), 1e-7);
   const FluidBody read = decodeFluidBody(encodeFluidBody(body, "wing"), "wing");
   EXPECT_EQ(contentHash(read), contentHash(body));
   EXPECT_EQ(read.wings.front().nose, other.nose);
