@@ -123,6 +123,27 @@ py::list holdsOf(const FluidBody& body) {
   return holds;
 }
 
+py::list wingsOf(const FluidBody& body) {
+  py::list wings;
+  for (const Wing& wing : body.wings) {
+    py::dict facts;
+    facts["name"] = wing.name;
+    facts["span"] = wing.span;
+    facts["chord"] = wing.chord;
+    facts["thickness"] = wing.thickness;
+    facts["aspect"] = wing.aspect;
+    facts["body_lift"] = wing.body_lift;
+    facts["joined"] = wing.is_joined;
+    facts["nose"] = wing.nose;
+    facts["camber"] = wing.camber;
+    facts["facing"] = arrayOf(wing.facing);
+    facts["span_axis"] = arrayOf(wing.span_axis);
+    facts["centre"] = arrayOf(wing.centre);
+    wings.append(facts);
+  }
+  return wings;
+}
+
 void bindProperties(py::class_<FluidBody, FluidBodyPtr>& type) {
   const auto get = [&type](const char* name, auto function, const char* doc) {
     type.def_property_readonly(name, function, doc);
@@ -174,6 +195,10 @@ void bindProperties(py::class_<FluidBody, FluidBodyPtr>& type) {
       "Number of divisions of the table of added mass at the surface of water; 0: no table.");
   get("holds", holdsOf,
       "Rooms that stay dry: name, volume [m^3], centre (3,) in F [m], number of openings.");
+  get("wings", wingsOf,
+      "Parts that lift where they are, dicts as of `ambient_preprocess inspect`; lengths in m, "
+      "axes "
+      "and centres (3,) in F.");
   get(
       "settings", [](const FluidBody& b) { return b.provenance.settings; },
       "Settings of its build, in words.");

@@ -37,8 +37,9 @@ using Indices = py::array_t<std::int64_t, py::array::c_style | py::array::forcec
 
 /// Settings for building a fluid body in Python.
 struct SourceSettings : CommonBuildSettings {
-  BodyFolder cache;     ///< default: none
-  bool strict = false;  ///< refuse a mesh that is not a closed body, in place of wrapping it
+  BodyFolder cache;            ///< default: none
+  bool strict = false;         ///< refuse a mesh that is not a closed body, in place of wrapping it
+  std::string wings = "none";  ///< as ShapeBuildSettings::wings
 };
 
 namespace fs = std::filesystem;
@@ -72,6 +73,7 @@ Provenance provenanceOf(const TriangleMesh& mesh, bool sheet, const SourceSettin
     text << ", waterline " << settings.waterline_subdivisions;
   if (settings.strict) text << ", strict";
   if (!sheet) text << holdsText(settings.holds);
+  text << wingsText(settings.wings);
   Provenance provenance;
   provenance.source = "arrays";
   provenance.source_hash =
@@ -99,6 +101,9 @@ FluidBody buildFromMesh(const TriangleMesh& mesh, bool sheet, const SourceSettin
     if (!sheet) {
       const std::vector<std::string> lines = takeHolds(checked.mesh, build);
       checked.warnings.insert(checked.warnings.end(), lines.begin(), lines.end());
+      ShapeDescription arrays;
+      arrays.source = settings.name;
+      build.wings = planWings(settings.wings, checked.mesh, arrays, 1);
     }
     build.warn = [&](const std::string& text) { checked.warnings.push_back(text); };
     FluidBody body = makeFluidBody(checked.mesh, build);
@@ -116,6 +121,7 @@ FluidBody buildFromShape(const std::string& json, const fs::path& folder,
     mesh->strict = mesh->strict || settings.strict;
   ShapeBuildSettings build;
   static_cast<CommonBuildSettings&>(build) = settings;
+  build.wings = settings.wings;
   if (std::holds_alternative<FluidBodyFile>(shape.geometry)) return buildShape(shape, build).body;
   return buildOnce(settings, describeShape(shape, build), [&](const auto& begin) {
     build.begin = begin;
@@ -183,6 +189,15 @@ bool holdsWanted(const py::handle& given) {
   return word == "auto";
 }
 
+/// "none", "auto" or a file that lists them.
+std::string wingsWanted(const py::handle& given) {
+  const auto word = py::str(given).cast<std::string>();
+  if (word == "auto" || word == "none") return word;
+  const fs::path file = pathFrom(py::reinterpret_borrow<py::object>(given));
+  requireReadable(file);
+  return file.string();
+}
+
 std::vector<fs::path> tanksFrom(const py::handle& given) {
   if (py::isinstance<py::str>(given) || !py::isinstance<py::sequence>(given))
     throw py::value_error("tanks must be a list of files");
@@ -232,6 +247,8 @@ SourceSettings settingsFrom(const std::string& name, const py::kwargs& given) {
       settings.waterline_subdivisions = value.cast<int>();
     else if (word == "holds")
       settings.holds.is_wanted = holdsWanted(value);
+    else if (word == "wings")
+      settings.wings = wingsWanted(value);
     else if (word == "tanks")
       settings.holds.tanks = tanksFrom(value);
     else if (word == "openings")
@@ -245,7 +262,7 @@ SourceSettings settingsFrom(const std::string& name, const py::kwargs& given) {
     else
       throw py::type_error("unknown keyword " + word +
                            "; known are origin, panels, threads, waterline_table, holds, up, "
-                           "tanks, openings, strict, cache");
+                           "tanks, openings, wings, strict, cache");
   }
   return settings;
 }
@@ -311,6 +328,8 @@ holds : "auto" (default): rooms that hold water stay dry, with a warning that na
 up : (3,) which way the mesh stands when its holds are found; default: the axis with the largest ones
 tanks : files of closed meshes in the walls or in a cavity that are holds without openings
 openings : list of (place (3,) [m], normal (3,) out of the hold, area [m^2]): holes in the nearest wall of a hold
+wings : "none" (default): one lift for the whole body; "auto": thin parts lift where they are; or a JSON file that
+    lists them, docs/wings.md
 strict : raise ValueError where the mesh is open, crosses itself or is otherwise no body; default: wrap it
     into a closed surface, with a warning that has volume and area before and after
 cache : folder in which results are stored and found by content
@@ -322,7 +341,7 @@ Cost: a second or two for a thousand faces.)")
           py::arg("folder") = ".",
           R"(Builds the fluid body of a shape described as in scenes: {"type": "box", "size": [1, 2, 3]}.
 
-`folder` is the folder of relative file names. from_mesh() describes origin, panels, threads, waterline_table, holds, up, tanks, openings, strict and cache.)")
+`folder` is the folder of relative file names. from_mesh() describes origin, panels, threads, waterline_table, holds, up, tanks, openings, wings, strict and cache.)")
       .def_static("read", &read, py::arg("path"), "Reads an .ambient file.")
       .def("write", &write, py::arg("path"),
            "Writes an .ambient file completely, or leaves the old one.")

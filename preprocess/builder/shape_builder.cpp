@@ -145,9 +145,7 @@ std::string settingsText(const ShapeDescription& shape, const ShapeBuildSettings
   }
   text << ", faces " << settings.least_faces;
   if (mayHaveHolds(shape)) text << holdsText(searchFor(shape, settings));
-  if (settings.wings == "auto") text << ", wings auto";
-  if (settings.wings != "auto" && settings.wings != "none")
-    text << ", wings " << hashText(fnv1a64(readBytes(settings.wings)));
+  text << wingsText(settings.wings);
   if (settings.waterline_subdivisions > 0)
     text << ", waterline " << settings.waterline_subdivisions;
   if (const auto known = knownAddedMass(shape, settings)) {

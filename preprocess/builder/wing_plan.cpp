@@ -4,10 +4,12 @@
 #include <cctype>
 #include <functional>
 
+#include "bullet_ambient/base/fnv1a.h"
 #include "preprocess/mesh/import/scene_triangles.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/wings/wing_numbers.h"
 #include "preprocess/mesh/wings/wing_search.h"
+#include "preprocess/shape/json_schema.h"
 #include "preprocess/shape/shape_mesh.h"
 #include "preprocess/shape/wing_list.h"
 
@@ -192,6 +194,11 @@ WingPlan planWings(const std::string& wanted, const TriangleMesh& mesh,
   }
   if (wants_rest) addFound(source, mesh, isSheet(shape), maker);
   return std::move(maker).result(isSheet(shape));
+}
+
+std::string wingsText(const std::string& wanted) {
+  if (wanted == "none") return "";
+  return ", wings " + (wanted == "auto" ? wanted : hashText(fnv1a64(readBytes(wanted))));
 }
 
 void setWings(const WingPlan& plan, const TriangleMesh& mesh, std::vector<std::uint8_t> labels,

@@ -34,6 +34,9 @@ struct WingPlan {
 WingPlan planWings(const std::string& wanted, const TriangleMesh& mesh,
                    const ShapeDescription& shape, double scale);
 
+/// Words of a provenance for what is asked for; empty: none.
+std::string wingsText(const std::string& wanted);
+
 /// Sets the wings of a fluid body whose surface and origin are there, and the part of each
 /// triangle. `mesh`: that of the body, in its frame, with `labels` of its triangles; `sheet`: they
 /// have two sides.

@@ -51,7 +51,7 @@ FormShape formShapeOf(const Wing& wing, double share) {
   return shape;
 }
 
-/// How much later the flow around a thick round nose separates than around an edge, eq. (181).
+/// How much later the flow around a thick round nose separates than around an edge, eq. (161b).
 double lateStallOf(const Wing& wing) {
   constexpr double kThickest = 1.3;  // thickness of a section over its mean
   return wing.nose == 0 ? 0 : 0.6 * std::min(kThickest * wing.thickness / wing.chord, 0.12);

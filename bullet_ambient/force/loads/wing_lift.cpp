@@ -48,7 +48,7 @@ Vector3 Profile::force(const Vector3& u, double stalling) const noexcept {
   }
   const double ahead = std::max(nose_ * along, 0.0);
   if (ahead > 0) {
-    constexpr double kSuction = 0.9, kOnset = 0.06;  // of eq. (181), of (49a)
+    constexpr double kSuction = 0.9, kOnset = 0.06;  // of eq. (161b), of (49a)
     const double sine_sq = across * across / speed_sq, onset = sine_sq / kOnset;
     const double clean = share * kSuction / (1 + onset * onset) * ahead / speed;
     force += clean * across * across * suction_ * nose_ * chord_;

@@ -14,7 +14,7 @@ struct MunkFactors {
   double rest = 1, wings = 1;
 };
 
-/// Section of a wing: what it adds to a plate, docs/theory.md eq. (166), (181). Power <= 0 with
+/// Section of a wing: what it adds to a plate, docs/theory.md eq. (166), (161b). Power <= 0 with
 /// that of the plate.
 class Profile {
  public:

@@ -40,6 +40,7 @@ class FluidBody:
         waterline_table: int = ...,
         holds: str = ...,
         up: _Vector | None = ...,
+        wings: _Path = ...,
         strict: bool = ...,
         cache: _Path | None = ...,
     ) -> FluidBody: ...
@@ -55,6 +56,7 @@ class FluidBody:
         waterline_table: int = ...,
         holds: str = ...,
         up: _Vector | None = ...,
+        wings: _Path = ...,
         strict: bool = ...,
         cache: _Path | None = ...,
     ) -> FluidBody: ...
@@ -119,6 +121,8 @@ class FluidBody:
     def waterline_table(self) -> int: ...
     @property
     def holds(self) -> list[dict[str, Any]]: ...
+    @property
+    def wings(self) -> list[dict[str, Any]]: ...
     @property
     def settings(self) -> str: ...
     @property

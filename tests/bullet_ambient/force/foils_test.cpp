@@ -81,7 +81,7 @@ TEST(Foils, LiftByTheirCamber) {
               2e-5);
 }
 
-// Round noses keep 0.9 of their suction at small incidence, eq. (181); backwards and thin foils
+// Round noses keep 0.9 of their suction at small incidence, eq. (161b); backwards and thin foils
 // none.
 TEST(Foils, KeepTheSuctionOfRoundNoses) {
   Foil thin = plainFoil(6), thick = plainFoil(6);

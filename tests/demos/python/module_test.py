@@ -288,6 +288,11 @@ class FluidBodyTest(Temporary):
         body = ba.FluidBody.from_shape({"type": "mesh", "file": str(dart)})
         body.write(self.folder / "dart.ambient")
         ba.FluidBody.read(self.folder / "dart.ambient")  # layers in the hollows between its fins end at those of a plate
+        self.assertEqual(body.wings, [])
+        fins = ba.FluidBody.from_shape({"type": "mesh", "file": str(dart)}, wings="auto").wings
+        self.assertEqual([(fin["joined"], fin["nose"], round(fin["span"], 3)) for fin in fins], 4 * [(True, 0, 0.04)])
+        with self.assertRaisesRegex(FileNotFoundError, "nowhere"):
+            ba.FluidBody.from_shape({"type": "mesh", "file": str(dart)}, wings="nowhere")
 
 
 class SceneTest(Temporary):
