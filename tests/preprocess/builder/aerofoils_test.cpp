@@ -175,7 +175,7 @@ TEST(Aerofoils, KeepTheSuctionOfTheirNoses) {
 }
 
 TEST(Aerofoils, NeverFeedEnergy) {
-  test::Arbitrary arbitrary(161b);
+  test::Arbitrary arbitrary(182);
   for (const FluidBody* body : {&symmetricWing(), &camberedWing()})
     for (const double viscosity : {0.0, 1e-4}) {
       const auto loads = makeWaterlineLoads(std::make_shared<FluidBody>(*body),
