@@ -63,7 +63,7 @@ def aeroplane():
     """Named parts: a wing of 1.2 m of NACA 2412, a tail at -3 degrees, a fin, a hull. Origin in the middle of the wing."""
     turn = np.radians(3)
     tail, tail_faces = wing(section(0, 0.12, 14), 0.1, 0.4, 10)
-    tilt = np.array([[np.cos(turn), 0, -np.sin(turn)], [0, 1, 0], [np.sin(turn), 0, np.cos(turn)]])
+    tilt = np.array([[np.cos(turn), 0, np.sin(turn)], [0, 1, 0], [-np.sin(turn), 0, np.cos(turn)]])
     fin, fin_faces = wing(section(0, 0.10, 14), 0.1, 0.15, 6)
     return {
         "wing": wing(section(0.02, 0.12), CHORD, 1.2, 24),
@@ -84,22 +84,23 @@ def write_obj(parts, file):
 
 
 def numbers(body):
-    """Slope of the lift [1/rad], place of no change of the moment behind the wing's quarter chord [chords], best L/D."""
-    attack = np.radians([-2.0, 0, 2, 4, 6, 8, 10])
+    """Slope of the lift [1/rad], place of no change of the moment behind the wing's quarter chord [chords], lift over
+    drag at 4 degrees, and where the lift acts then ahead of F's origin [m]."""
+    attack = np.radians([-2.0, 2, 4])
     polar = body.polar(attack, medium=AIR, speed=SPEED, reference_area=AREA, reference_length=CHORD)
     lift, moment = polar["C_L"], polar["C_m"]
-    slope = (lift[2] - lift[0]) / (attack[2] - attack[0])
-    ahead = (moment[2] - moment[0]) / (lift[2] - lift[0])  # of F's origin [chords]
+    slope = (lift[1] - lift[0]) / (attack[1] - attack[0])
+    ahead = (moment[1] - moment[0]) / (lift[1] - lift[0])  # of F's origin [chords]
     quarter = (CHORD / 4 - body.origin[0]) / CHORD
-    return slope, quarter - ahead, np.max(lift / polar["C_D"])
+    return slope, quarter - ahead, lift[2] / polar["C_D"][2], CHORD * moment[2] / lift[2]
 
 
-def glide(file, centre, seconds=20):
-    """Glide ratio and speed in the second half of a flight that begins at 9.3 m/s; centre: of mass, ahead of the wing's middle [m]."""
+def glide(file, centre, step=1 / 240, seconds=40):
+    """Glide ratio and speed in the second half of a flight that begins at 9.3 m/s. centre: of mass, ahead of F's origin [m]."""
     inertia = [0.02, 0.03, 0.05, 0, 0, 0]
-    body = {"name": "aeroplane", "mass": MASS, "shape": {"type": "fluid_body", "file": str(file)}, "position": [0, 0, 100],
-            "centre_of_mass": [centre - ba.FluidBody.read(file).origin[0], 0, 0], "inertia": inertia, "linear_velocity": [SPEED, 0, 0]}
-    scene = ba.Scene({"duration": seconds, "time_step": 1 / 240, "medium": {"density": 1.2, "viscosity": 1.8e-5}, "bodies": [body]})
+    body = {"name": "aeroplane", "mass": MASS, "shape": {"type": "fluid_body", "file": str(file)}, "position": [0, 0, 200],
+            "centre_of_mass": [centre, 0, 0], "inertia": inertia, "linear_velocity": [SPEED, 0, 0]}
+    scene = ba.Scene({"duration": seconds, "time_step": step, "medium": {"density": 1.2, "viscosity": 1.8e-5}, "bodies": [body]})
     with ba.World(scene) as world:
         places = world.run(seconds, 0.05).position[:, 0]
     way = places[-1] - places[len(places) // 2]
@@ -116,10 +117,10 @@ def main():
         shape = {"type": "mesh", "file": str(Path(mesh).resolve())}
         for wings in ("none", "auto"):
             body = ba.FluidBody.from_shape(shape, name="aeroplane", panels=3000, wings=wings)
-            slope, neutral, best = numbers(body)
-            print(f"wings {wings}: {len(body.wings)} parts; lift {slope:.2f} per rad, neutral {neutral:.2f} chords behind c/4, L/D {best:.1f}")
+            slope, neutral, ratio, centre = numbers(body)
+            print(f"wings {wings}: {len(body.wings)} parts; lift {slope:.2f} per rad, neutral {neutral:.2f} chords behind c/4, L/D {ratio:.1f}")
         body.write(Path(folder) / "aeroplane.ambient")
-        ratio, speed = glide(Path(folder) / "aeroplane.ambient", CHORD * (0.25 - 0.1))
+        ratio, speed = glide(Path(folder) / "aeroplane.ambient", centre)
         print(f"it glides 1 : {ratio:.1f} at {speed:.1f} m/s")
 
 

@@ -19,6 +19,7 @@ import bullet_ambient as ba
 EXAMPLES = Path(__file__).resolve().parents[3] / "demos/python/examples"
 sys.path.append(str(EXAMPLES))
 
+import aeroplane  # noqa: E402
 import hold_hover  # noqa: E402
 import hold_place  # noqa: E402
 import hull_rates  # noqa: E402
@@ -66,6 +67,25 @@ class ViscosityTest(unittest.TestCase):
                     scene = ba.Scene(name, {"time_step": step, "output_step": step})
                     fallen = -1e3 * ba.World(scene).run(scene.duration).twist[-1, :, 5]
                 np.testing.assert_allclose(fallen, speeds, rtol=0.01, err_msg=f"{name} at {step} s")
+
+
+class AeroplaneTest(unittest.TestCase):
+    def test_of_one_mesh_flies(self):
+        with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of parts that are united
+            mesh, file = Path(folder) / "aeroplane.obj", Path(folder) / "aeroplane.ambient"
+            aeroplane.write_obj(aeroplane.aeroplane(), mesh)
+            body = ba.FluidBody.from_shape({"type": "mesh", "file": str(mesh)}, panels=2000, wings="auto")
+            body.write(file)
+            self.assertEqual(sorted(wing["name"] for wing in body.wings), ["fin", "tail", "tail", "wing", "wing"])
+            slope, neutral, ratio, centre = aeroplane.numbers(body)
+            self.assertAlmostEqual(slope, 5.7, delta=0.3)
+            self.assertAlmostEqual(neutral, 0.5, delta=0.08)
+            self.assertGreater(ratio, 10)
+            glides = [aeroplane.glide(file, centre, step) for step in (1 / 60, 1 / 240)]
+            for distance, speed in glides:
+                self.assertAlmostEqual(distance, 13.5, delta=0.5)
+                self.assertAlmostEqual(speed, 8.1, delta=0.2)
 
 
 class WindFieldTest(unittest.TestCase):
