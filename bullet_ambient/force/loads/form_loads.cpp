@@ -95,6 +95,7 @@ class FormLoads final : public ViscousLoads {
     return faces;
   }
   double wakeShare() const noexcept override { return shape_->wakeShare(); }
+  bool needsGuard() const noexcept override { return wings_ && wings_->lift.hasWakes(); }
 
  protected:
   Parts compute(const Twist& x, const WetPart* wet) const noexcept override {
@@ -136,8 +137,9 @@ class FormLoads final : public ViscousLoads {
     if (!wings_) return load;
     for (std::size_t i = 0; i < wings_->on_faces.size(); ++i) {
       const SurfaceLoads& wing = *wings_->on_faces[i];
-      const Wrench on_wing = wet ? wing.wetLoad(x, *wet) : wing.load(x);
-      load += on_wing + wings_->lift.bySection(i, x, density_, wet, on_wing);
+      const Twist seen = wings_->lift.seenBy(i, x);
+      const Wrench on_wing = wet ? wing.wetLoad(seen, *wet) : wing.load(seen);
+      load += on_wing + wings_->lift.bySection(i, seen, density_, wet, on_wing);
     }
     return load;
   }

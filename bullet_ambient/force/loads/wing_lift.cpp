@@ -32,14 +32,24 @@ Profile::Profile(const Wing& wing, const ShapeFactors& shape)
   suction_ *= 1 - suction_ / (kPi * wing.aspect);
 }
 
+double Profile::attachedShare(double across, double stalling, double speed_sq) const noexcept {
+  const WingFlow<PlainArithmetic<double>> flow{across, stalling * across, 0, 0, speed_sq, 0};
+  return attachedFlow(across, flow, attached_).share;
+}
+
+Vector3 Profile::liftingVelocity(const Vector3& u, double stalling) const noexcept {
+  const double across = normal_.dot(u), along = std::abs(chord_.dot(u));
+  const double share = attachedShare(across, stalling, u.squaredNorm());
+  return share * (across - 2 * camber_ * along) * normal_;
+}
+
 Vector3 Profile::force(const Vector3& u, double stalling) const noexcept {
   const double across = normal_.dot(u), along = chord_.dot(u);
   const double speed_sq = u.squaredNorm();
   Vector3 force{0, 0, 0};
   if (!(speed_sq > 0)) return force;
   const double speed = std::sqrt(speed_sq);
-  const WingFlow<PlainArithmetic<double>> flow{across, stalling * across, 0, 0, speed_sq, speed};
-  const double share = attachedFlow(across, flow, attached_).share;
+  const double share = attachedShare(across, stalling, speed_sq);
   if (camber_ != 0) {
     const Vector3 turning = speed_sq * normal_ - across * u;
     const double induced = induced_ * std::max(0.0, 4 * camber_ * (camber_ - across / speed));
@@ -73,6 +83,45 @@ WingLift::WingLift(const FluidBody& body, const std::vector<BodyPart>& parts, do
                       halvesOf(wing.lifted.centre, wing.shape.reach, chord), wing.shape,
                       Profile(body.wings[i - 1], wing.shape), wing.lifted.area / 4});
   }
+  for (std::size_t i = 0; i < wings_.size(); ++i)
+    for (std::size_t j = 0; j < wings_.size(); ++j)
+      if (i != j) addWake(body, i, j);
+}
+
+void WingLift::addWake(const FluidBody& body, std::size_t from, std::size_t to) {
+  constexpr double kAlike = 0.5, kAlong = 0.7, kNear = 1.5;  // cosines of z, of h; chords
+  const Wing &one = body.wings[from], &other = body.wings[to];
+  const Vector3 way = other.centre - one.centre, chord = one.span_axis.cross(one.facing);
+  const double behind = chord.dot(way), distance = std::abs(behind);
+  const double whole = (one.is_joined ? 2 : 1) * one.span;  // with its image
+  const double aside = one.span_axis.dot(way) + (one.is_joined ? one.span / 2 : 0);
+  const bool is_behind = distance > kNear * one.chord && std::abs(aside) <= whole / 2 &&
+                         std::abs(one.facing.dot(other.facing)) > kAlike &&
+                         std::abs(one.span_axis.dot(other.span_axis)) > kAlong;
+  if (!is_behind || wings_[from].planform < wings_[to].planform) return;
+  const double slope = normalForceSlope(one.aspect);
+  double share = slope / (kPi * one.aspect) *
+                 (1 + distance / std::sqrt(distance * distance + whole * whole / 4));
+  if (one.is_joined) share /= 2;
+  const double strength = wings_[from].shape.slope * wings_[from].planform;
+  const double felt = wings_[to].shape.slope * wings_[to].planform;
+  share = std::min(share, 2 * std::sqrt(strength / felt));
+  wakes_.push_back({from, to, std::copysign(1.0, behind) * chord, share});
+}
+
+Twist WingLift::seenBy(std::size_t wing, const Twist& x) const noexcept {
+  Twist seen = x;
+  for (const Wake& wake : wakes_) {
+    if (wake.to != wing) continue;
+    const One& one = wings_[wake.from];
+    const Vector3 u = x.at(one.shape.shape.centre);
+    const double ahead = std::max(-wake.behind.dot(u), 0.0);
+    if (!(ahead > 0)) continue;
+    const double stalling = one.shape.stallingShare(x.angular, x.linear);
+    seen.linear -=
+        wake.share * ahead * ahead / u.squaredNorm() * one.profile.liftingVelocity(u, stalling);
+  }
+  return seen;
 }
 
 double WingHalf::wetShare(const WetPart& wet) const noexcept {
@@ -91,13 +140,16 @@ Wrench WingLift::load(const Twist& x, double density, const MunkFactors& munk,
   const double wet_density = (wet ? wet->share : 1) * density;
   Wrench sum =
       aboutOrigin(rest_.load(x.angular, x.at(rest_centre_), wet_density, munk.rest), rest_centre_);
-  for (const One& wing : wings_)
+  for (std::size_t i = 0; i < wings_.size(); ++i) {
+    const One& wing = wings_[i];
+    const Twist seen = seenBy(i, x);
     for (const WingHalf& half : wing.halves) {
       const double share = wet ? half.wetShare(*wet) : 1;
       const Wrench load =
-          wing.half.load(x.angular, x.at(half.station), share * density, munk.wings);
+          wing.half.load(seen.angular, seen.at(half.station), share * density, munk.wings);
       sum += aboutOrigin(load, half.station);
     }
+  }
   return sum;
 }
 

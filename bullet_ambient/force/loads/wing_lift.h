@@ -24,8 +24,13 @@ class Profile {
   /// Force per rho/2 and area for the velocity u of a place of the wing relative to the fluid, in
   /// the axes of the wing's; stalling: 1 - chi of eq. (161) [m^2/s^2].
   Vector3 force(const Vector3& u, double stalling) const noexcept;
+  /// Velocity across the wing, along z, whose lift it has at such a place, with the share of its
+  /// flow that is attached [m/s].
+  Vector3 liftingVelocity(const Vector3& u, double stalling) const noexcept;
 
  private:
+  double attachedShare(double across, double stalling, double speed_sq) const noexcept;
+
   Vector3 normal_, chord_;  ///< z, and h x z
   double camber_, nose_;
   double slope_;              ///< K
@@ -59,6 +64,10 @@ class WingLift {
   /// What the section of a wing adds to the load on its faces, of which it takes at most the power.
   Wrench bySection(std::size_t wing, const Twist& x, double density, const WetPart* wet,
                    const Wrench& on_faces) const noexcept;
+  /// Twist relative to the flow as a wing sees it behind others, docs/theory.md eq. (161c).
+  Twist seenBy(std::size_t wing, const Twist& x) const noexcept;
+  /// True: a wing is in the wake of another one, with which the power of all may be above 0.
+  bool hasWakes() const { return !wakes_.empty(); }
 
  private:
   struct One {
@@ -68,10 +77,19 @@ class WingLift {
     Profile profile;
     double planform;  ///< of half of the wing [m^2]
   };
+  /// Flow that a wing turns and another one feels.
+  struct Wake {
+    std::size_t from, to;
+    Vector3 behind;  ///< d: along the chord of the first, to the second one
+    double share;    ///< e
+  };
+
+  void addWake(const FluidBody& body, std::size_t from, std::size_t to);
 
   FormLift rest_;
   Vector3 rest_centre_;
   std::vector<One> wings_;
+  std::vector<Wake> wakes_;
 };
 
 }  // namespace ambient

@@ -152,12 +152,8 @@ TEST(Wings, OfARocketTurnItAsBarrowmanSays) {
   EXPECT_GT(momentSlope(built(rocket(), "none")), 0.65 * expected) << "as one part they do little";
 }
 
-TEST(Wings, FarApartAreTwoBodies) {
-  // So thin that its rims, which count in the moments of a body as a whole, are 3e-4 of its area.
-  const TriangleMesh plate = box({-0.5, -1.5, -2e-4}, {0.5, 1.5, 2e-4});
-  const Vector3d apart(0, 40, 7);
-  const TriangleMesh both = joinMeshes(
-      {placed(plate, Matrix3::Identity(), apart), placed(plate, Matrix3::Identity(), -apart)});
+/// Two boxes, each a wing, without any other part.
+FluidBody twoWings(const TriangleMesh& one, const TriangleMesh& other) {
   BuildSettings settings;
   settings.name = "two";
   settings.origin = Vector3d::Zero();
@@ -165,7 +161,15 @@ TEST(Wings, FarApartAreTwoBodies) {
   settings.wings.labels.assign(24, 1);
   std::fill(settings.wings.labels.begin() + 12, settings.wings.labels.end(), std::uint8_t{2});
   settings.wings.given.resize(2);
-  const FluidBody two = makeFluidBody(both, settings);
+  return makeFluidBody(joinMeshes({one, other}), settings);
+}
+
+TEST(Wings, FarApartAreTwoBodies) {
+  // So thin that its rims, which count in the moments of a body as a whole, are 3e-4 of its area.
+  const TriangleMesh plate = box({-0.5, -1.5, -2e-4}, {0.5, 1.5, 2e-4});
+  const Vector3d apart(0, 40, 7);
+  const FluidBody two = twoWings(placed(plate, Matrix3::Identity(), apart),
+                                 placed(plate, Matrix3::Identity(), -apart));
   ASSERT_EQ(two.wings.size(), 2u);
   EXPECT_FALSE(two.wings[0].is_joined);
   EXPECT_NEAR(two.wings[0].span, 3, 1e-9);
@@ -189,6 +193,30 @@ TEST(Wings, FarApartAreTwoBodies) {
   const Wrench up = of_one->load({Vector3::Zero(), {0.3, -7, 40}});
   const double turning = loads->load({{1, 0, 0}, {0.3, 0, 0}}).torque.x();
   EXPECT_NEAR(turning, 2 * (40 * up.force.z() - 7 * up.force.y()), 0.01 * std::abs(turning));
+}
+
+// In tandem the second one loses e of its lift, eq. (161c): here K/(pi L) [1 + 4/sqrt(4^2 + 3^2)]
+// for L = 6, x = 4 chords and half of the span 3. Flying backwards it is the small one that leads.
+TEST(Wings, BehindOthersMeetTheirDownwash) {
+  const TriangleMesh front = box({-0.5, -3, -2e-4}, {0.5, 3, 2e-4});
+  const TriangleMesh tail = box({-4.3, -1, -2e-4}, {-3.7, 1, 2e-4});
+  const FluidBody both = twoWings(front, tail);
+  const FluidBody apart = twoWings(front, placed(tail, Matrix3::Identity(), {0, 50, 0}));
+  ASSERT_EQ(both.wings.size(), 2u);
+  const auto loads = loadsOn(both), free = loadsOn(apart);
+  EXPECT_TRUE(loads->needsGuard());
+  EXPECT_FALSE(free->needsGuard());
+  const auto force = [](const auto& on, double along, double up) {
+    return on->load({Vector3::Zero(), {along, 0, up}}).force.z();
+  };
+  const auto slope = [](double aspect) {
+    return 2 * kPi * aspect / (2 + std::sqrt(4 + aspect * aspect));
+  };
+  const double up = 0.01, lost = force(loads, 1, -up) - force(free, 1, -up);
+  const double e = slope(6) / (kPi * 6) * (1 + 4 / 5.0);
+  const double of_tail = 0.6 * slope(2 / 0.6) * up * 1.2 * 2 / 2;
+  EXPECT_NEAR(lost, -e * of_tail, 0.03 * e * of_tail);
+  EXPECT_NEAR(force(loads, -1, -up), force(free, -1, -up), 1e-9);
 }
 
 TEST(Wings, NeverFeedEnergy) {
