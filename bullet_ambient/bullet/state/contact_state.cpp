@@ -320,9 +320,8 @@ class ManifoldMaker {
   static bool isThere(const btBroadphasePair& pair, const ContactState& contact,
                       const PartKeys& keys) {
     if (!hasParts(contact.points.front())) return manifoldsOf(pair).size() > contact.part;
-    const ManifoldKey key = keyOf(contact);
     return std::any_of(keys.begin(), keys.end(),
-                       [&key](const auto& known) { return known.second == key; });
+                       [&](const auto& known) { return known.second == keyOf(contact); });
   }
 
   btCollisionWorld& world_;
