@@ -295,7 +295,8 @@ void rewriteRows(btConstraintArray& rows, RowKind kind, btScalar relaxation, Row
 namespace {
 
 // Largest motion across a push relative to the motion, that needs no second row: it lets a body
-// creep down a slope by a millimetre in ten seconds.
+// creep down a slope by a millimetre in ten seconds, and one that is turned in a current by a
+// millimetre in a minute.
 constexpr double kLeastAnisotropy = 1e-3;
 
 }  // namespace
@@ -306,6 +307,18 @@ bool isInFrictionCone(const btVector3& push_W, const btVector3& normal_W,
   const btScalar pressed = -push_W.dot(normal_W);
   const btScalar along = (push_W + pressed * normal_W).length();
   return along > kFlat * pressed && along <= friction * pressed;
+}
+
+bool isTurnedInFrictionCone(const btSolverConstraint& contact, const btVector3& push_W,
+                            const btVector3& normal_W, RowBodies& bodies) noexcept {
+  const auto turned = [&](int id, const btVector3& arm) {
+    const RowBody* const body = bodies.find(id);
+    return body ? btFabs(body->spin_to_hold.dot(normal_W)) * arm.length() : btScalar(0);
+  };
+  const btScalar pressed = -push_W.dot(normal_W);
+  const btScalar along = turned(contact.m_solverBodyIdA, contact.m_relpos1CrossNormal) +
+                         turned(contact.m_solverBodyIdB, contact.m_relpos2CrossNormal);
+  return along > btScalar(kLeastAnisotropy) * pressed && along <= contact.m_friction * pressed;
 }
 
 bool mayDeflect(const AmbientBody& ambient) noexcept {

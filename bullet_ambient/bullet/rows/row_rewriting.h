@@ -97,6 +97,7 @@ struct RowBody {
   btScalar inverse_mass = 0;       ///< inverse mass of the dry body [1/kg]
   btVector3 spin_change{0, 0, 0};  ///< k + X of eq. (28): velocity change outside the rows [rad/s]
   btVector3 velocity_change{0, 0, 0};  ///< [m/s]
+  btVector3 spin_to_hold{0, 0, 0};     ///< k' + 2X of a body that turns by less, u_n - X; else 0
   btVector3 spin_excess{0, 0, 0};      ///< k' - k of eq. (28b), added while Bullet sets up contacts
   btVector3 velocity_excess{0, 0, 0};  ///< [m/s]
   btVector3 spin_by_load{0, 0, 0};     ///< part of spin_change by surface loads; 0: no bounces
@@ -198,6 +199,12 @@ void reapplyImpulses(const btAlignedObjectArray<Row>& rows, RowBodies& bodies,
 /// friction. `normal_W`: from the second body to the first.
 bool isInFrictionCone(const btVector3& push_W, const btVector3& normal_W,
                       btScalar friction) noexcept;
+
+/// True if bodies that hardly turn are turned about the normal of a contact, by Munk's moment say,
+/// and this moves them along the face by 10^-3 of what presses them together up to the coefficient
+/// of friction. @pre the row is as Bullet has made it
+bool isTurnedInFrictionCone(const btSolverConstraint& contact, const btVector3& push_W,
+                            const btVector3& normal_W, RowBodies& bodies) noexcept;
 
 /// False: deflects() is false for every normal.
 bool mayDeflect(const AmbientBody& ambient) noexcept;

@@ -178,6 +178,10 @@ void fillRowBody(const AmbientBody& ambient, const BodyModel& model, const Matri
   row_body.velocity_change = solver_body.m_externalForceImpulse;
   row_body.spin_excess = toBullet(row.isotropic_excess_W.angular);
   row_body.velocity_excess = toBullet(row.isotropic_excess_W.linear);
+  const btVector3 half_turn = toBullet(row.turning_W.angular);
+  const btVector3 push = row_body.spin_change + row_body.spin_excess + half_turn;
+  if ((solver_body.m_angularVelocity - half_turn).length2() < push.length2())
+    row_body.spin_to_hold = push;
   if (row_body.is_locked) return;
   const bool is_diagonal = model.has_diagonal_inertia;
   const Matrix6 basis_B = basisOf(ambient, model, row);

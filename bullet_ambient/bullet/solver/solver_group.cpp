@@ -285,6 +285,7 @@ bool SolverGroup::needsSecondFriction(const SolverBodies& solver_bodies,
       static_cast<const btManifoldPoint*>(contact.m_originalContactPoint)->m_normalWorldOnB;
   const btVector3 push = solver_bodies[contact.m_solverBodyIdA].m_externalForceImpulse -
                          solver_bodies[contact.m_solverBodyIdB].m_externalForceImpulse;
+  if (isTurnedInFrictionCone(contact, push, normal, *row_bodies_)) return true;
   if (!isInFrictionCone(push, normal, contact.m_friction)) return false;
   for (const int id : {contact.m_solverBodyIdA, contact.m_solverBodyIdB}) {
     const Member* member = memberOf(id);

@@ -273,21 +273,26 @@ class ManifoldMaker {
 
  private:
   // Bullet keeps a contact of two parts of compounds across gaps at which it would not find it
-  // anew: then the second object is moved into contact, which tells the parts, too.
+  // anew, and along faces that slide: then the second object is moved until the points meet, and on
+  // along the normal, which tells the parts, too. A move may cost others their place: two rounds.
   void makeFor(btBroadphasePair& pair, const std::vector<const ContactState*>& contacts) {
+    PartKeys keys;
     makeManifolds(pair, btVector3(0, 0, 0), world_);
-    noteParts(pair);
-    for (const ContactState* contact : contacts) {
-      if (contact->points.empty() || isThere(pair, *contact)) continue;
-      const btManifoldPoint& point = contact->points.front();
-      const btCollisionObject& first = *objects_[contact->pair.object_a];
-      const btVector3 gap =
-          first.getWorldTransform() * point.m_localPointA -
-          objects_[contact->pair.object_b]->getWorldTransform() * point.m_localPointB;
-      const bool is_in_order = pair.m_pProxy0->m_clientObject == &first;
-      makeManifolds(pair, is_in_order ? 2 * gap : -2 * gap, world_);
-      noteParts(pair);
+    noteParts(pair, keys);
+    for (int round = 0; round < 2; ++round) {
+      for (const ContactState* contact : contacts) {
+        if (contact->points.empty() || isThere(pair, *contact, keys)) continue;
+        const btManifoldPoint& point = contact->points.front();
+        const btCollisionObject& first = *objects_[contact->pair.object_a];
+        const btVector3 gap =
+            first.getWorldTransform() * point.m_localPointA -
+            objects_[contact->pair.object_b]->getWorldTransform() * point.m_localPointB;
+        const btVector3 way = gap + gap.length() * point.m_normalWorldOnB;
+        makeManifolds(pair, pair.m_pProxy0->m_clientObject == &first ? way : -way, world_);
+        noteParts(pair, keys);
+      }
     }
+    keys_.insert(keys.begin(), keys.end());
   }
 
   static btManifoldArray manifoldsOf(const btBroadphasePair& pair) {
@@ -296,24 +301,27 @@ class ManifoldMaker {
     return manifolds;
   }
 
-  void noteParts(const btBroadphasePair& pair) {
+  // Forgets places that are gone: Bullet uses their memory again.
+  void noteParts(const btBroadphasePair& pair, PartKeys& keys) const {
+    PartKeys now;
     const btManifoldArray manifolds = manifoldsOf(pair);
     for (int i = 0; i < manifolds.size(); ++i) {
       btPersistentManifold& manifold = *manifolds[i];
-      if (manifold.getNumContacts() == 0 || !hasParts(manifold.getContactPoint(0))) continue;
-      keys_[&manifold] = keyOf(numbers_.pair(manifold.getBody0(), manifold.getBody1()), 0,
+      const auto known = keys.find(&manifold);
+      if (manifold.getNumContacts() > 0 && hasParts(manifold.getContactPoint(0)))
+        now[&manifold] = keyOf(numbers_.pair(manifold.getBody0(), manifold.getBody1()), 0,
                                &manifold.getContactPoint(0));
+      else if (known != keys.end())
+        now.insert(*known);
     }
+    keys = std::move(now);
   }
 
-  bool isThere(const btBroadphasePair& pair, const ContactState& contact) const {
-    const btManifoldArray manifolds = manifoldsOf(pair);
-    if (!hasParts(contact.points.front())) return manifolds.size() > contact.part;
-    for (int i = 0; i < manifolds.size(); ++i) {
-      const auto known = keys_.find(manifolds[i]);
-      if (known != keys_.end() && known->second == keyOf(contact)) return true;
-    }
-    return false;
+  static bool isThere(const btBroadphasePair& pair, const ContactState& contact,
+                      const PartKeys& keys) {
+    if (!hasParts(contact.points.front())) return manifoldsOf(pair).size() > contact.part;
+    return std::any_of(keys.begin(), keys.end(),
+                       [&](const auto& known) { return known.second == keyOf(contact); });
   }
 
   btCollisionWorld& world_;

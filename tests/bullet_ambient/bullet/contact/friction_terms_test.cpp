@@ -288,5 +288,49 @@ TEST(Slope, CostsASecondRowOnlyWhereFrictionHoldsItAndThePushTurnsAside) {
   EXPECT_EQ(rowsPerContact(0.05, inertiaAlone(even.asDiagonal())), 2);
 }
 
+// A block on level ground, kept awake, `askew` to a current along x [rad]; in a vacuum it has what
+// buoyancy leaves of its weight.
+struct Block : FluidWorld {
+  Block(double askew, double current, bool in_fluid) {
+    const double volume = ellipsoidVolume(kSemiAxes), mass = 1500 * volume;
+    world.setGravity({0, 0, bt(in_fluid ? -9.81 : -9.81 * (1 - 998.2 / 1500))});
+    world.addRigidBody(&floor);
+    BodyDef def{mass, ellipsoidMoments(kSemiAxes, mass), {}, &shape};
+    def.start.position = {0, 0, kSemiAxes.z()};
+    def.start.orientation = Eigen::AngleAxisd(askew, Vector3::UnitZ());
+    Medium stream = water();
+    stream.velocity = {current, 0, 0};
+    body = in_fluid ? &add(def, meshedEllipsoid(kSemiAxes, 2), stream) : &add(def);
+  }
+  ~Block() { world.removeRigidBody(&floor); }
+
+  /// Distance that it creeps in 20 s after 5 s [m].
+  double creep(double hertz) {
+    step(1 / hertz, static_cast<int>(5 * hertz));
+    const Vector3 start = readState(*body).position;
+    step(1 / hertz, static_cast<int>(20 * hertz));
+    return (readState(*body).position - start).norm();
+  }
+
+  inline static const Vector3 kSemiAxes{0.3, 0.1, 0.15};
+  btBoxShape shape{toBullet(kSemiAxes)};
+  btStaticPlaneShape plane{{0, 0, 1}, 0};
+  btRigidBody floor{0, nullptr, &plane};
+  btRigidBody* body = nullptr;
+};
+
+// Munk's moment turns it in each step, and friction holds it.
+TEST(Current, LetsBlocksCreepNoFartherThanStockBulletInAVacuum) {
+  for (const double hertz : {30.0, 60.0}) {
+    Worst worst;
+    for (const double askew : {0.1, 0.25, 0.4, 0.55, 0.8, 1.1, 1.4}) {
+      worst.stock = std::max(worst.stock, Block(askew, 0, false).creep(hertz));
+      for (const double current : {0.2, 0.4})
+        worst.ambient = std::max(worst.ambient, Block(askew, current, true).creep(hertz));
+    }
+    EXPECT_LT(worst.ambient, worst.stock) << hertz << " Hz";
+  }
+}
+
 }  // namespace
 }  // namespace ambient::test

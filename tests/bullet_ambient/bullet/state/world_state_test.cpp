@@ -1,5 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <map>
+#include <tuple>
+
 #include "bullet_ambient/saved_state.h"
 #include "tests/bullet_ambient/bullet/state/state_scene.h"
 
@@ -134,6 +138,61 @@ TEST(WorldState, BodiesThatWereJoinedInContactGoOnBitForBit) {
   const auto motions = record(scene.saved(), kAfter);
   scene.scene.fluid.restore(state);
   expectSameMotion(motions, record(scene.saved(), kAfter));
+}
+
+// Tables with four legs fall on a floor and on each other; each instance is built in the same way.
+struct Tables : FluidWorld {
+  explicit Tables(int seed) {
+    world.getDispatchInfo().m_deterministicOverlappingPairs = true;
+    world.setGravity({0, 0, bt(-9.81)});
+    const auto at = [](double x, double y, double z) {
+      return btTransform(btQuaternion::getIdentity(), {bt(x), bt(y), bt(z)});
+    };
+    table.addChildShape(at(0, 0, 0), &top);
+    for (const double x : {-0.25, 0.25})
+      for (const double y : {-0.16, 0.16}) table.addChildShape(at(x, y, -0.17), &leg);
+    BodyDef def{0, Vector3::Zero(), {}, &floor};
+    def.start.position = {0, 0, -0.5};
+    add(def);
+    def = {8, Vector3(0.15, 0.3, 0.4), {}, &table};
+    for (int i = 0; i < 6; ++i) {
+      def.start.position = {0.05 * i, 0.08 * std::sin(2 * i), 0.6 + 0.45 * i};
+      def.start.orientation =
+          Eigen::AngleAxisd(0.7 * i + 0.37 * seed, Vector3(0.3 * i, 1, 0.2).normalized());
+      def.start.twist.angular = {0.5 * std::sin(i), 0.3, 0.2 * i};
+      add(def);
+    }
+  }
+
+  btBoxShape floor{{10, 10, bt(0.5)}};
+  btBoxShape top{{bt(0.3), bt(0.2), bt(0.02)}}, leg{{bt(0.02), bt(0.02), bt(0.15)}};
+  btCompoundShape table;
+};
+
+// Parts that touch, and in how many points.
+std::map<std::tuple<int, int, int, int>, std::size_t> touchingParts(const WorldState& state) {
+  std::map<std::tuple<int, int, int, int>, std::size_t> parts;
+  for (const ContactState& contact : state.contacts)
+    if (!contact.points.empty())
+      parts[{contact.pair.object_a, contact.pair.object_b, contact.points[0].m_index0,
+             contact.points[0].m_index1}] += contact.points.size();
+  return parts;
+}
+
+TEST(WorldState, HasAllContactsOfThePartsOfCompounds) {
+  std::size_t touching = 0;
+  for (int seed = 0; seed < 8; ++seed) {
+    Tables tables(seed), others(seed);
+    for (int i = 0; i < 12; ++i) {
+      tables.step(kSceneStep, 15);
+      const WorldState state = tables.fluid.save();
+      others.fluid.restore(state);
+      const auto parts = touchingParts(state);
+      touching += parts.size();
+      EXPECT_EQ(touchingParts(others.fluid.save()), parts) << seed << ", " << i;
+    }
+  }
+  EXPECT_GT(touching, 500u);
 }
 
 TEST(WorldState, RefusesAWorldOfOtherBodiesOrJoints) {
