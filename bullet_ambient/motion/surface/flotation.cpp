@@ -8,8 +8,8 @@
 #include "bullet_ambient/motion/body/one_body.h"
 #include "bullet_ambient/motion/lanes/added_mass_change.h"
 #include "bullet_ambient/motion/lanes/body_kernel.h"
+#include "bullet_ambient/motion/lanes/viscous_kernel.h"
 #include "bullet_ambient/motion/lanes/wave_kernel.h"
-#include "bullet_ambient/spatial/cholesky.h"
 #include "bullet_ambient/spatial/inertia.h"
 
 namespace ambient {
@@ -56,21 +56,21 @@ Vector6 shiftWater(const WaterLeft& before, const WaterAt& after, const Vector6&
   SymmetricMatrix changed = inertia;
   for (int i = 0; i < kSymmetricEntries; ++i)
     changed.entries[i] += after.place.inside_F->inertia.entries[i] - before.inertia.entries[i];
-  const Matrix6 K_after = changed.full();
-  const Cholesky<6> factors(K_after);
+  const PositiveFactor<double> factors(changed);
   if (!factors.isPositive()) return x;
-  const Vector6 own = inertia.full() * x, momentum = own + givenMomentum(before, after, states);
-  const double twice_most = x.dot(own) + 2 * (before.energy - sloshing);
+  const SpatialsOf<double> own = inertia * plain(x),
+                           momentum = own + plain(givenMomentum(before, after, states));
+  const double twice_most = dot(plain(x), own) + 2 * (before.energy - sloshing);
   inertia = changed;
-  Vector6 end = factors.solve(momentum);
+  SpatialsOf<double> end = factors.solve(momentum);
   // A torque along the tilt: the part of the spin across the normal.
-  const Vector3& normal = after.place.plane.normal;
-  const Vector3 tilt = end.head<3>() - normal.dot(end.head<3>()) * normal;
-  const Vector6 response = factors.solve(stack(tilt, Vector3::Zero()));
-  const double a = response.head<3>().dot(tilt), b = tilt.squaredNorm();
-  const double excess = end.dot(momentum) - twice_most, square = b * b - a * excess;
-  if (a > 0 && square > 0) end -= excess / (b + std::sqrt(square)) * response;
-  return scaledWithin(end, end.dot(K_after * end), std::max(0.0, twice_most)).twist;
+  const VectorsOf<double> normal = plain(after.place.plane.normal);
+  const VectorsOf<double> tilt = end.angular - dot(normal, end.angular) * normal;
+  const SpatialsOf<double> response = factors.solve({tilt, {}});
+  const double a = dot(response.angular, tilt), b = dot(tilt, tilt);
+  const double excess = dot(end, momentum) - twice_most, square = b * b - a * excess;
+  if (a > 0 && square > 0) end = end - excess / (b + std::sqrt(square)) * response;
+  return scaledWithin(asEigen(end), dot(end, changed * end), std::max(0.0, twice_most)).twist;
 }
 
 bool isStable(const SurfaceModel& model, const Flotation& flotation) noexcept {
