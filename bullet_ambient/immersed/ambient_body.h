@@ -150,6 +150,7 @@ struct VesselState {
   bool is_known = false;         ///< false: the body has met no surface yet, and no water was given
   bool has_sunk = false;         ///< true: it was said that the body sinks
   std::vector<HoldState> holds;  ///< as in FluidBody::holds
+  SurfacePlane plane_F{};        ///< of the surface near it at the start of this step
   RimRises rises;                ///< of waves at the openings in this step
   bool has_waves = false;        ///< true: `rises` counts
   WavesInside waves_inside;      ///< of the water in the holds at the openings in this step

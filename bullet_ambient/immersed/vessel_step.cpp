@@ -61,13 +61,12 @@ void findRimWaves(AmbientBody& ambient, const MotionView& now,
                    R * frame.rotation,
                    now.centre() + R * frame.translation,
                    -now.gravity.normalized()};
-  const SurfacePlane plane_F = seenFrom(ambient.floating->plane_W, at.R_WF, at.origin_W);
   vessel.has_waves = true;
   forEachOpening(*model.holds, &vessel.changes,
                  [&](const HoldShapes::Opening& opening, std::size_t number) {
                    std::vector<double>& rises = vessel.rises[number];
                    std::fill(rises.begin(), rises.end(), 0.0);
-                   if (opening.to >= 0 || !isNearOpening(at, plane_F, opening.shape)) return;
+                   if (opening.to >= 0 || !isNearOpening(at, vessel.plane_F, opening.shape)) return;
                    for (std::size_t i = 0; i < rises.size(); ++i)
                      rises[i] = riseAt(at, opening.shape.edges()[i].middle);
                  });
@@ -115,14 +114,13 @@ void warnOfSunkVessel(AmbientBody& ambient, Warnings& warnings) noexcept {
   if (vessel.has_sunk) warnings.warnOfSunkVessel(*ambient.def, filled);
 }
 
-void initializeHolds(AmbientBody& ambient, const MotionView& now,
-                     const NearSurface& near) noexcept {
-  if (near.media < 0 || std::exchange(ambient.vessel->is_known, true)) return;
-  if (!ambient.def->holds.are_open) return;
+void meetSurface(AmbientBody& ambient, const NearSurface& near) noexcept {
+  if (near.media < 0) return;
+  VesselState& vessel = *ambient.vessel;
   const SurfaceModel& model = ambient.models->surfaces[static_cast<std::size_t>(near.media)].model;
-  const SurfacePlane plane_B = seenFrom(near.plane_W, now.rotation(), now.state.position);
-  fillCoveredHolds(*model.holds, &ambient.vessel->changes, seenFrom(plane_B, model.fluid_frame),
-                   ambient.vessel->holds.data());
+  vessel.plane_F = seenFrom(near.plane_B, model.fluid_frame);
+  if (std::exchange(vessel.is_known, true) || !ambient.def->holds.are_open) return;
+  fillCoveredHolds(*model.holds, &vessel.changes, vessel.plane_F, vessel.holds.data());
 }
 
 namespace {
@@ -219,8 +217,7 @@ bool exchangeWater(AmbientBody& ambient, const MotionView& now, double duration)
   ExchangeStep step{settings.are_open, duration, settings.atmosphere, &vessel.changes,
                     vessel.has_waves ? &vessel.rises : nullptr};
   vessel.change_B.setZero();
-  const SurfacePlane plane_F = seenFrom(planeAt(ambient, now.state), model.fluid_frame);
-  if (staysDry(*model.holds, plane_F, step, vessel.holds.data())) {
+  if (staysDry(*model.holds, vessel.plane_F, step, vessel.holds.data())) {
     for (HoldState& hold : vessel.holds) stayDry(hold);
     vessel.sloshing_energy = 0;  // setWater() may have emptied a hold
     return false;
@@ -274,7 +271,8 @@ Vector6 sloshForRows(AmbientBody& ambient, const RigidState& now, double duratio
   const Vector6 end =
       exchangeSloshing(at.sloshing(), ambient.flotation().inverse,
                        ambient.def->holds.sloshing_damping, duration, x, sloshing.moved.data());
-  vessel.before_rows = WaterLeft(at, sloshing.moved.data());
+  vessel.before_rows = WaterLeft(at, sloshing.moved.data(),
+                                 energyOfSloshing(at.sloshing(), sloshing.moved.data()).sum());
   return end;
 }
 

@@ -25,9 +25,9 @@ const HoldAround* holdAround(const AmbientBody& ambient, const FluidRegions& reg
 void replaceSurfaceByHold(const HoldAround& around, const AmbientBody& ambient,
                           const MotionView& now, RegionSample& sample) noexcept;
 
-/// Decides which holds of a body that first meets a surface are full. Allocates nothing. @pre it
-/// has holds
-void initializeHolds(AmbientBody& ambient, const MotionView& now, const NearSurface& near) noexcept;
+/// Keeps the plane of a surface near a body for this step, and decides which holds of one that
+/// first meets a surface are full. Allocates nothing. @pre it has holds
+void meetSurface(AmbientBody& ambient, const NearSurface& near) noexcept;
 
 /// Kinetic energy of the water in the holds that swings on its own, beside x.K x / 2 [J].
 double sloshingEnergyNow(const AmbientBody& ambient, const MotionView& now);
@@ -36,7 +36,7 @@ double sloshingEnergyNow(const AmbientBody& ambient, const MotionView& now);
 /// [s]. Water that comes in was at rest in the water around: sets VesselState::change_B, which the
 /// motion of the step adds. Counts, and keeps the body from rest while water flows. Returns true if
 /// water has passed. Allocates nothing.
-/// @pre it has holds, and a surface is near
+/// @pre it has holds, and a surface is near: meetSurface()
 bool exchangeWater(AmbientBody& ambient, const MotionView& now, double duration) noexcept;
 
 /// Lets the water in the holds slosh over a step in which rows move the body, whose twist in B

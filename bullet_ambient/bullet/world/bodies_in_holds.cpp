@@ -43,23 +43,25 @@ bool isAwake(const MovingBody& moving) {
 
 bool isVesselAtSurface(const AmbientBody& body) { return body.vessel && body.surface(); }
 
-/// Puts all bodies out of holds. Returns the volume of the largest hold at a surface [m^3]; 0:
-/// none.
+/// Puts all bodies out of holds. Returns the volume of the largest hold at a surface [m^3]; 0: no
+/// body fits in one, and none was there before.
 double leaveHolds(AmbientBodies& bodies) {
-  double largest = 0;
+  double largest = 0, smallest = std::numeric_limits<double>::infinity();
   std::size_t count = 0;
   bodies.forEach([&](AmbientBody& body) {
     body.in_hold = -1;
     ++count;
+    smallest = std::min(smallest, body.def->fluid_body->volume);
     if (!isVesselAtSurface(body)) return;
     for (const HoldShape& hold : body.surface()->holds->shapes)
       largest = std::max(largest, hold.capacity());
   });
   bodies.west_to_east.clear();
   bodies.west_to_east.reserve(count);
+  const bool were_any = !bodies.regions.in_holds.empty();
   bodies.regions.in_holds.clear();
   bodies.regions.in_holds.reserve(count);
-  return largest;
+  return were_any || smallest < largest ? largest : 0;
 }
 
 /// Gathers the vessels of this world and what may be in one of their holds, and places links.

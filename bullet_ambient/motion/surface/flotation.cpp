@@ -8,7 +8,7 @@
 #include "bullet_ambient/motion/body/one_body.h"
 #include "bullet_ambient/motion/lanes/added_mass_change.h"
 #include "bullet_ambient/motion/lanes/body_kernel.h"
-#include "bullet_ambient/motion/lanes/viscous_kernel.h"
+#include "bullet_ambient/motion/lanes/water_kernel.h"
 #include "bullet_ambient/motion/lanes/wave_kernel.h"
 #include "bullet_ambient/spatial/inertia.h"
 
@@ -29,48 +29,43 @@ SurfacePlace placeAt(const SurfaceModel& model, const SurfacePlane& plane_B,
   return place;
 }
 
-WaterLeft::WaterLeft(const WaterAt& at, const Sloshing* states) noexcept
+WaterLeft::WaterLeft(const WaterAt& at, const Sloshing* states, double sloshing_energy) noexcept
     : inertia(at.place.inside_F->inertia),
       momentum_W(momentumOfSloshing(at.sloshing(), states)),
-      energy(energyOfSloshing(at.sloshing(), states).sum()),
+      energy(sloshing_energy),
       position_W(at.position_W) {}
 
-namespace {
-
-/// Momentum that the sloshing gives the body on its way, in B: that before, about the centre of
-/// mass after it, less that after.
-Vector6 givenMomentum(const WaterLeft& before, const WaterAt& after, const Sloshing* states) {
-  const Momentum now_W = momentumOfSloshing(after.sloshing(), states);
+WaterMoved moveWater(const WaterLeft& before, const WaterAt& after, Sloshing* states) noexcept {
+  WaterMoved moved;
+  for (int i = 0; i < kSymmetricEntries; ++i)
+    moved.inertia.entries[i] = after.place.inside_F->inertia.entries[i] - before.inertia.entries[i];
+  const SloshingAt at = after.sloshing();
+  moved.energy2 = 2 * (before.energy - projectOnModes(at, before.energy, states));
+  // The momentum before, about the centre of mass after it, less that after.
+  const Momentum now_W = momentumOfSloshing(at, states);
   const Momentum& then_W = before.momentum_W;
   const Vector3 displacement_W = after.position_W - before.position_W;
   const Matrix3 to_body = after.to_world.transpose();
-  return stack(to_body * (then_W.angular - displacement_W.cross(then_W.linear) - now_W.angular),
-               to_body * (then_W.linear - now_W.linear));
+  moved.given = {to_body * (then_W.angular - displacement_W.cross(then_W.linear) - now_W.angular),
+                 to_body * (then_W.linear - now_W.linear)};
+  return moved;
 }
-
-}  // namespace
 
 Vector6 shiftWater(const WaterLeft& before, const WaterAt& after, const Vector6& x,
                    SymmetricMatrix& inertia, Sloshing* states) noexcept {
-  const double sloshing = projectOnModes(after.sloshing(), before.energy, states);
+  const WaterMoved moved = moveWater(before, after, states);
   SymmetricMatrix changed = inertia;
-  for (int i = 0; i < kSymmetricEntries; ++i)
-    changed.entries[i] += after.place.inside_F->inertia.entries[i] - before.inertia.entries[i];
-  const PositiveFactor<double> factors(changed);
-  if (!factors.isPositive()) return x;
-  const SpatialsOf<double> own = inertia * plain(x),
-                           momentum = own + plain(givenMomentum(before, after, states));
-  const double twice_most = dot(plain(x), own) + 2 * (before.energy - sloshing);
+  for (int i = 0; i < kSymmetricEntries; ++i) changed.entries[i] += moved.inertia.entries[i];
+  const AfterShiftOf<double> shifted =
+      afterShift<double>({inertia,
+                          changed,
+                          {plain(moved.given.angular), plain(moved.given.linear)},
+                          moved.energy2,
+                          plain(after.place.plane.normal)},
+                         plain(x));
+  if (!shifted.is_fine) return x;
   inertia = changed;
-  SpatialsOf<double> end = factors.solve(momentum);
-  // A torque along the tilt: the part of the spin across the normal.
-  const VectorsOf<double> normal = plain(after.place.plane.normal);
-  const VectorsOf<double> tilt = end.angular - dot(normal, end.angular) * normal;
-  const SpatialsOf<double> response = factors.solve({tilt, {}});
-  const double a = dot(response.angular, tilt), b = dot(tilt, tilt);
-  const double excess = dot(end, momentum) - twice_most, square = b * b - a * excess;
-  if (a > 0 && square > 0) end = end - excess / (b + std::sqrt(square)) * response;
-  return scaledWithin(asEigen(end), dot(end, changed * end), std::max(0.0, twice_most)).twist;
+  return asEigen(shifted.twist);
 }
 
 bool isStable(const SurfaceModel& model, const Flotation& flotation) noexcept {

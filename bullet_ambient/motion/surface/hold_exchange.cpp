@@ -151,28 +151,31 @@ void exchangeThrough(const HoldShapes& holds, const HoldShapes::Opening& opening
   }
 }
 
-/// Whether all openings of a hold are above the water on both sides, and air comes to its own.
-bool isClear(const HoldShapes& holds, int hold, const SurfacePlane& plane_F,
-             const ExchangeStep& step, HoldState& state) {
-  const HoldShape& shape = holds.shapes[static_cast<std::size_t>(hold)];
-  const double level = state.volume > 0 ? levelOf(shape, plane_F.normal, state) : kNoWater;
-  bool is_clear = true, has_air = level == kNoWater;
-  forEachOpening(holds, step.changes, [&](const HoldShapes::Opening& opening, std::size_t number) {
-    if (opening.from != hold && opening.to != hold) return;
-    has_air = has_air || opening.to < 0;
-    is_clear = is_clear &&
-               (opening.to < 0 ? isClear(seaAt(opening, number, plane_F, step), level)
-                               : level == kNoWater || opening.shape.isAbove(level, plane_F.normal));
-  });
-  return is_clear && has_air;
-}
-
-/// Whether nothing flows, as all openings are above all water.
+/// Whether nothing flows: all openings are above the water on both sides, and each hold with water
+/// has one to the air.
 bool areClear(const HoldShapes& holds, const SurfacePlane& plane_F, const ExchangeStep& step,
               HoldState* states) {
-  for (int i = 0; i < static_cast<int>(holds.shapes.size()); ++i)
-    if (!isClear(holds, i, plane_F, step, states[i])) return false;
-  return true;
+  const auto level = [&](int hold) {
+    return states[hold].volume > 0
+               ? levelOf(holds.shapes[static_cast<std::size_t>(hold)], plane_F.normal, states[hold])
+               : kNoWater;
+  };
+  bool are_clear = true;
+  forEachOpening(holds, step.changes, [&](const HoldShapes::Opening& opening, std::size_t number) {
+    if (!are_clear) return;
+    const double here = level(opening.from);
+    are_clear = opening.to < 0
+                    ? isClear(seaAt(opening, number, plane_F, step), here)
+                    : opening.shape.isAbove(std::max(here, level(opening.to)), plane_F.normal);
+  });
+  for (int i = 0; are_clear && i < static_cast<int>(holds.shapes.size()); ++i) {
+    if (!(states[i].volume > 0)) continue;
+    are_clear = false;
+    forEachOpening(holds, step.changes, [&](const HoldShapes::Opening& opening, std::size_t) {
+      are_clear = are_clear || (opening.from == i && opening.to < 0);
+    });
+  }
+  return are_clear;
 }
 
 /// Lets the pump of a hold run. Sealed air is pressed together to a half in a step at most.

@@ -5,6 +5,7 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/motion/body/one_body.h"
+#include "bullet_ambient/motion/lanes/water_kernel.h"
 
 namespace ambient {
 namespace {
@@ -82,23 +83,27 @@ double projectOnModes(const SloshingAt& at, double energy, Sloshing* states) noe
   return std::max(0.0, energy);
 }
 
+SloshAlong::SloshAlong(const SloshingAt& at, const SloshMode& of, double damping,
+                       const Sloshing& state) noexcept
+    : axis_W(at.to_world * of.axis) {
+  const double way = axis_W.dot(state.displacement_W);
+  mode = {plain(motionOf(of)),
+          at.density * of.volume,
+          of.square,
+          dampingRatio(damping, way, of.farthest),
+          way,
+          axis_W.dot(state.velocity_W)};
+}
+
 Vector6 exchangeSloshing(const SloshingAt& at, const SymmetricMatrix& inverse, double damping,
                          double duration, const Vector6& x, Sloshing* states) noexcept {
   AMBIENT_ASSERT(duration >= 0 && damping >= 0);
   SpatialsOf<double> end = plain(x);
-  const double half = duration / 2;
-  forEachMode(at, states, [&](const SloshMode& mode, const Vector3& axis_W, Sloshing& state) {
-    const SpatialsOf<double> N = plain(motionOf(mode)), answer = inverse * N;
-    const double q = axis_W.dot(state.displacement_W), u = axis_W.dot(state.velocity_W);
-    const double mass = at.density * mode.volume, stiffness = mass * mode.square;
-    const double loss = 2 * dampingRatio(damping, q, mode.farthest) * mass * std::sqrt(mode.square);
-    const double inverse_mass = 1 / mass + dot(N, answer);
-    const double rate = (u - dot(N, end) - half * inverse_mass * stiffness * q) /
-                        (1 + half * inverse_mass * (loss + half * stiffness));
-    const double force = stiffness * (q + half * rate) + loss * rate;
-    state.displacement_W += duration * rate * axis_W;
-    state.velocity_W -= duration * force / mass * axis_W;
-    end = end + duration * force * answer;
+  forEachMode(at, states, [&](const SloshMode& mode, const Vector3&, Sloshing& state) {
+    const SloshAlong before(at, mode, damping, state);
+    SloshOf<double> slosh = before.mode;
+    end = exchangeSlosh<double>(slosh, inverse, duration, end);
+    before.move(slosh.way, slosh.velocity, state);
   });
   return asEigen(end);
 }

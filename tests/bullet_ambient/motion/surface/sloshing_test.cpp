@@ -245,7 +245,8 @@ TEST(Sloshing, ShiftKeepsMomentumAndEnergy) {
     const Flotation before = run.flotation();
     const Matrix3 R = run.state.orientation.toRotationMatrix();
     Sloshing state{true, 0.01 * arbitrary.vector(), 0.1 * arbitrary.vector()};
-    const WaterLeft left({run.model(), before, R, run.state.position}, &state);
+    const WaterAt there{run.model(), before, R, run.state.position};
+    const WaterLeft left(there, &state, energyOfSloshing(there.sloshing(), &state).sum());
     run.state.orientation =
         rotationFromVector(0.02 * arbitrary.vector().normalized()) * run.state.orientation;
     run.state.position += 0.01 * arbitrary.vector();
