@@ -47,21 +47,16 @@ double riseAt(const AtWaves& at, const Vector3& place_F) {
 void findRimWaves(AmbientBody& ambient, const MotionView& now,
                   const FluidRegions& regions) noexcept {
   VesselState& vessel = *ambient.vessel;
-  vessel.has_waves = false;
-  const auto found = regions.all().find(ambient.location.region);
-  if (found == regions.all().end()) return;
-  const FluidRegion& region = found->second.region;
+  if (!vessel.waves) return;
   const SurfaceModel& model = *ambient.surface();
-  if (!isLargeAgainstWaves(region, 2 * model.radius)) return;
   const FrameOffset& frame = model.fluid_frame;
   const Matrix3 R = now.rotation();
   const AtWaves at{ambient,
                    regions,
-                   region,
+                   *vessel.waves,
                    R * frame.rotation,
                    now.centre() + R * frame.translation,
                    -now.gravity.normalized()};
-  vessel.has_waves = true;
   forEachOpening(*model.holds, &vessel.changes,
                  [&](const HoldShapes::Opening& opening, std::size_t number) {
                    std::vector<double>& rises = vessel.rises[number];
@@ -114,11 +109,13 @@ void warnOfSunkVessel(AmbientBody& ambient, Warnings& warnings) noexcept {
   if (vessel.has_sunk) warnings.warnOfSunkVessel(*ambient.def, filled);
 }
 
-void meetSurface(AmbientBody& ambient, const NearSurface& near) noexcept {
+void meetSurface(AmbientBody& ambient, const NearSurface& near,
+                 const FluidRegion& region) noexcept {
   if (near.media < 0) return;
   VesselState& vessel = *ambient.vessel;
   const SurfaceModel& model = ambient.models->surfaces[static_cast<std::size_t>(near.media)].model;
   vessel.plane_F = seenFrom(near.plane_B, model.fluid_frame);
+  vessel.waves = isLargeAgainstWaves(region, 2 * model.radius) ? &region : nullptr;
   if (std::exchange(vessel.is_known, true) || !ambient.def->holds.are_open) return;
   fillCoveredHolds(*model.holds, &vessel.changes, vessel.plane_F, vessel.holds.data());
 }
@@ -215,7 +212,7 @@ bool exchangeWater(AmbientBody& ambient, const MotionView& now, double duration)
   const SurfaceModel& model = *ambient.surface();
   const HoldSettings& settings = ambient.def->holds;
   ExchangeStep step{settings.are_open, duration, settings.atmosphere, &vessel.changes,
-                    vessel.has_waves ? &vessel.rises : nullptr};
+                    vessel.waves ? &vessel.rises : nullptr};
   vessel.change_B.setZero();
   if (staysDry(*model.holds, vessel.plane_F, step, vessel.holds.data())) {
     for (HoldState& hold : vessel.holds) stayDry(hold);
