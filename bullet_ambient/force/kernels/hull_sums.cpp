@@ -75,7 +75,6 @@ struct HullRows {
     const WetCorners wet(za, zb, zc);
     if (!anyOf(wet.any())) return;
     const Vectors twice_area = cross(places[1] - places[0], places[2] - places[0]);
-    if (!anyOf(dot(twice_area, twice_area) > zero)) return;  // unused lanes
     const Doubles flux = -dot(planes.normal, twice_area) / 2;
     const Vectors a = planes.seen(places[0], za), b = planes.seen(places[1], zb),
                   c = planes.seen(places[2], zc);
