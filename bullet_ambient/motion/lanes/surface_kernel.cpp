@@ -66,13 +66,13 @@ void shiftWater(SurfaceLanes& bodies, int at, const Mask& active) {
   const Mask has_water = active & (load(bodies.has_water + at) > Lanes{});
   if (!anyOf(has_water)) return;
   FlightLanes& flight = bodies.flight;
-  const FullMatrices before(flight.inertia, at), change(bodies.water_change, at);
+  const FullMatrices before(flight.inertia, at), change(bodies.water->change, at);
   SymmetricOf<Lanes> after;
   for (int i = 0; i < kSymmetricEntries; ++i)
     after.entries[i] = before.entries[i] + change.entries[i];
   const AfterShiftOf<Lanes> shifted =
-      afterShift<Lanes>({before, after, load6(bodies.water_momentum, at),
-                         load(bodies.water_energy2 + at), load(bodies.flotation.normal, at)},
+      afterShift<Lanes>({before, after, load6(bodies.water->momentum, at),
+                         load(bodies.water->energy2 + at), load(bodies.flotation.normal, at)},
                         load6(flight.twist_B, at));
   const Mask moves = has_water & shifted.is_fine;
   setTwist(flight, at, moves, shifted.twist);
@@ -148,7 +148,7 @@ void exchangeWithSloshing(SurfaceLanes& bodies, int at, const Mask& active) {
   const FullMatrices inverse(bodies.flight.inverse_inertia, at);
   Spatials x = load6(bodies.flight.twist_B, at);
   Lanes energy = load(bodies.slosh_energy + at);
-  for (SloshOf<FlightLane>& lanes : bodies.slosh) {
+  for (SloshOf<FlightLane>& lanes : bodies.water->slosh) {
     SloshOf<Lanes> mode;
     forEachNumber(mode, lanes, [&](Lanes& to, const FlightLane& from) { to = load(from + at); });
     x = exchangeSlosh<Lanes>(mode, inverse, halfKick(bodies.flight, at), x);

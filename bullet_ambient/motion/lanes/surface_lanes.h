@@ -126,6 +126,15 @@ inline void forEachNumber(SloshOf<To>& to, const SloshOf<From>& from, const Act&
 
 }  // namespace
 
+/// Water in the holds of bodies, for exchangeSloshing() and shiftWater().
+struct alignas(64) WaterLanes {
+  SloshOf<FlightLane> slosh[2];  ///< modes of one hold of each body
+  // What has moved in the flow, docs/theory.md eq. (142), (154).
+  FlightLane change[kSymmetricEntries];  ///< of K by it
+  FlightLane momentum[6];                ///< that its sloshing gives the body, in B
+  FlightLane energy2;                    ///< twice the energy that this gives [J]
+};
+
 /// Bodies in flight near a surface. `flight` holds pose, motion, forces, loads, and the inertia of
 /// the last computeFlotations(). Kernels compute the bodies that are active in `flight`.
 struct alignas(64) SurfaceLanes {
@@ -143,14 +152,9 @@ struct alignas(64) SurfaceLanes {
 
   WavesOf<FlightLane> waves;
 
-  SloshOf<FlightLane> slosh[2];  ///< modes of one hold of each body
-  FlightLane slosh_energy;       ///< of the modes of all its holds [J]
-  // Water in the holds that has moved in the flow, docs/theory.md eq. (142), (154): input of
-  // shiftWater().
-  FlightLane has_water;                        ///< 1: there is some
-  FlightLane water_change[kSymmetricEntries];  ///< of K by it
-  FlightLane water_momentum[6];                ///< that its sloshing gives the body, in B
-  FlightLane water_energy2;                    ///< twice the energy that this gives [J]
+  FlightLane has_water;         ///< 1: there is water in the holds
+  FlightLane slosh_energy;      ///< of its modes [J]
+  WaterLanes* water = nullptr;  ///< null: no body has water in its holds; not owned
 
   FlightLane kinetic2, potential;  ///< results of measure(): x.K x, and eq. (64) without T [J]
 };

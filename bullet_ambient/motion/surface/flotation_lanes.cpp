@@ -68,7 +68,13 @@ void readFlotation(const FlotationLanes& lanes, int body, Flotation& flotation) 
   flotation.frequency = lanes.frequency[body];
 }
 
-void setSlosh(SurfaceLanes& lanes, int body, const SloshingAt& at, std::size_t hold, double damping,
+void setMoved(WaterLanes& lanes, int body, const WaterMoved& moved) noexcept {
+  setLane(lanes.change, body, moved.inertia);
+  setLane(lanes.momentum, body, moved.given);
+  lanes.energy2[body] = moved.energy2;
+}
+
+void setSlosh(WaterLanes& lanes, int body, const SloshingAt& at, std::size_t hold, double damping,
               const Sloshing& state, SloshAlong (&own)[2]) noexcept {
   for (int i = 0; i < 2; ++i) {
     const SloshMode& mode = at.modes[hold].modes[i];
@@ -79,7 +85,7 @@ void setSlosh(SurfaceLanes& lanes, int body, const SloshingAt& at, std::size_t h
   }
 }
 
-void moveSlosh(const SurfaceLanes& lanes, int body, const SloshAlong (&own)[2],
+void moveSlosh(const WaterLanes& lanes, int body, const SloshAlong (&own)[2],
                Sloshing* state) noexcept {
   for (int i = 0; i < 2; ++i) {
     const SloshOf<FlightLane>& slosh = lanes.slosh[i];

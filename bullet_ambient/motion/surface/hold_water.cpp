@@ -45,6 +45,7 @@ WaterInside waterInside(const HoldShapes& holds, const HoldState* states,
                         const SurfacePlane& plane_F, const HoldsInBody& body,
                         HoldModes* modes) noexcept {
   WaterInside all;
+  all.inertia = {};
   all.modes = modes;
   for (std::size_t i = 0; i < holds.shapes.size(); ++i) {
     if (modes) modes[i].modes[0].volume = modes[i].modes[1].volume = 0;

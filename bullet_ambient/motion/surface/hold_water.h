@@ -110,7 +110,7 @@ struct WaterInside {
   /// Terms of V, S and W in docs/theory.md eq. (135), in F: volume and moment are negative.
   WetVolume below;
   Matrix3 spread = Matrix3::Zero();  ///< sum of Waterplane::spread of its levels, in F [m^4]
-  SymmetricMatrix inertia{};         ///< in B, of the water less that of its modes of sloshing
+  SymmetricMatrix inertia;           ///< in B, of the water less that of its modes of sloshing
   const HoldModes* modes = nullptr;  ///< of each hold, in B; null: not kept
 
   /// Returns the wet part of the closed vessel less the water; the waterplane is that outside.

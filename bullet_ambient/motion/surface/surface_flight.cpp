@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
@@ -154,6 +155,7 @@ class SurfaceFlights {
     p.error = p.energy_removed = 0;
     p.has_gained = false;
     if (!p.hasWater()) return;
+    if (!lanes_.water) lanes_.water = &water_.emplace();
     VesselSloshing& sloshing = *flight.task.water.sloshing;
     sloshing.moved = sloshing.now;
     joinVessel(sloshingAt(i), p.start.twist.vector(), p.sloshing());
@@ -179,7 +181,7 @@ class SurfaceFlights {
       kernel_.exchangeSloshing(lanes_);
       for (int i = 0; i < count_; ++i)
         if (progress_[i].hasWater())
-          moveSlosh(lanes_, i, progress_[i].slosh, progress_[i].sloshing() + hold);
+          moveSlosh(*lanes_.water, i, progress_[i].slosh, progress_[i].sloshing() + hold);
     }
   }
   /// Sets the lanes of sloshing. False: no body has water and so many holds.
@@ -188,11 +190,11 @@ class SurfaceFlights {
     for (int i = 0; i < count_; ++i) {
       Progress& p = progress_[i];
       if (!p.hasWater()) continue;
-      for (SloshOf<FlightLane>& lanes : lanes_.slosh) lanes.mass[i] = 0;
+      for (SloshOf<FlightLane>& lanes : lanes_.water->slosh) lanes.mass[i] = 0;
       if (!isActive(i) || hold >= p.model().holds->shapes.size()) continue;
       is_any = true;
       if (hold == 0) lanes_.slosh_energy[i] = 0;
-      ambient::setSlosh(lanes_, i, sloshingAt(i), hold, p.flight->task.water.damping,
+      ambient::setSlosh(*lanes_.water, i, sloshingAt(i), hold, p.flight->task.water.damping,
                         p.sloshing()[hold], p.slosh);
     }
     return is_any;
@@ -297,14 +299,6 @@ class SurfaceFlights {
 
   void noteError(int i, double error) { progress_[i].error = std::max(progress_[i].error, error); }
 
-  /// The water in the holds has moved to another level, before the surface is passed.
-  void setMovedWater(int i) {
-    const WaterMoved moved = moveWater(progress_[i].left, waterAt(i), progress_[i].sloshing());
-    setLane(lanes_.water_change, i, moved.inertia);
-    setLane(lanes_.water_momentum, i, moved.given);
-    lanes_.water_energy2[i] = moved.energy2;
-  }
-
   void findPlace(int i) {
     Progress& p = progress_[i];
     const SurfacePlane& plane = p.place->plane;
@@ -318,7 +312,7 @@ class SurfaceFlights {
     p.later = placeAt(p.model(), plane_B, water);
     p.place = &p.later;
     lanes_.has_water[i] = has_water ? 1 : 0;
-    if (has_water) setMovedWater(i);
+    if (has_water) setMoved(*lanes_.water, i, moveWater(p.left, waterAt(i), p.sloshing()));
     setPlace(lanes_.flotation, i, p.model(), p.later);
     setLane(lanes_.centre_of_buoyancy, i, centreOfBuoyancy(p.model(), p.later));
     const MeanDepths depths = meanDepths(before, p.later.immersion_F);
@@ -488,6 +482,7 @@ class SurfaceFlights {
   int count_;
   bool has_loads_below_ = false, has_loads_above_ = false, has_still_axis_ = false;
   SurfaceLanes lanes_{};
+  std::optional<WaterLanes> water_;
   Progress progress_[kFlightLanes];
 };
 
