@@ -150,11 +150,13 @@ struct VesselState {
   bool is_known = false;         ///< false: the body has met no surface yet, and no water was given
   bool has_sunk = false;         ///< true: it was said that the body sinks
   std::vector<HoldState> holds;  ///< as in FluidBody::holds
+  SurfacePlane plane_F{};        ///< of the surface near it at the start of this step
   RimRises rises;                ///< of waves at the openings in this step
-  bool has_waves = false;        ///< true: `rises` counts
-  WavesInside waves_inside;      ///< of the water in the holds at the openings in this step
-  OpeningChanges changes;        ///< of openings while the body is in its fluid
-  WaterInside inside;            ///< at FloatingState::flotation
+  /// The region in this step if its waves are short against the body; null: `rises` does not count.
+  const FluidRegion* waves = nullptr;
+  WavesInside waves_inside;  ///< of the water in the holds at the openings in this step
+  OpeningChanges changes;    ///< of openings while the body is in its fluid
+  WaterInside inside;        ///< at FloatingState::flotation
   VesselSloshing sloshing;
   double sloshing_energy = 0;  ///< of VesselSloshing::now [J]
   WaterLeft before_rows;       ///< after it has sloshed for a step in which rows move the body

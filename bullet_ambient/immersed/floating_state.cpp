@@ -133,7 +133,7 @@ NearSurface nearSurface(const AmbientBody& ambient, const MotionView& now, const
       duration * (speed + model.radius * state.twist.angular.norm() + duration * gravity.norm());
   const SurfacePlane plane_B =
       seenFrom(plane_W, state.orientation.toRotationMatrix(), state.position);
-  return {withWater(ambient, model, sideOf(model, plane_B, travel)), media, plane_W};
+  return {withWater(ambient, model, sideOf(model, plane_B, travel)), media, plane_W, plane_B};
 }
 
 SurfaceSide enterSurface(AmbientBody& ambient, const NearSurface& near, const RegionSample& sample,

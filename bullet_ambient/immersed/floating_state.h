@@ -26,8 +26,8 @@ SurfacePlane planeNear(const Vector3& position, const RegionSample& sample,
 /// A body near the surface of a region.
 struct NearSurface {
   SurfaceSide side = SurfaceSide::kAt;
-  int media = -1;             ///< index into FluidModels::surfaces; -1: it meets no surface
-  SurfacePlane plane_W = {};  ///< where it meets one
+  int media = -1;  ///< index into FluidModels::surfaces; -1: it meets no surface
+  SurfacePlane plane_W = {}, plane_B = {};  ///< where it meets one
 };
 /// Decides whether the surface matters to the body in a step of `duration` [s]. `sample`: of the
 /// region where the body is, at `point_W`. Without gravity there is no surface, and the place of

@@ -177,7 +177,7 @@ SurfaceSide findWaterSide(AmbientBody& ambient, const FlowStep& step, bool is_al
   const FluidRegion& region = step.entry->region;
   const NearSurface near = nearSurface(ambient, *step.now, SurfaceKind(region), sample,
                                        pointIn(region, step.now->centre()), step.duration);
-  if (ambient.vessel) initializeHolds(ambient, *step.now, near);
+  if (ambient.vessel) meetSurface(ambient, near, region);
   const bool has_sides = !is_alone && near.side != SurfaceSide::kAbove;
   return enterSurface(
       ambient, near, sample,

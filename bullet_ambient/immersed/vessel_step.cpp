@@ -47,27 +47,21 @@ double riseAt(const AtWaves& at, const Vector3& place_F) {
 void findRimWaves(AmbientBody& ambient, const MotionView& now,
                   const FluidRegions& regions) noexcept {
   VesselState& vessel = *ambient.vessel;
-  vessel.has_waves = false;
-  const auto found = regions.all().find(ambient.location.region);
-  if (found == regions.all().end()) return;
-  const FluidRegion& region = found->second.region;
+  if (!vessel.waves) return;
   const SurfaceModel& model = *ambient.surface();
-  if (!isLargeAgainstWaves(region, 2 * model.radius)) return;
   const FrameOffset& frame = model.fluid_frame;
   const Matrix3 R = now.rotation();
   const AtWaves at{ambient,
                    regions,
-                   region,
+                   *vessel.waves,
                    R * frame.rotation,
                    now.centre() + R * frame.translation,
                    -now.gravity.normalized()};
-  const SurfacePlane plane_F = seenFrom(ambient.floating->plane_W, at.R_WF, at.origin_W);
-  vessel.has_waves = true;
   forEachOpening(*model.holds, &vessel.changes,
                  [&](const HoldShapes::Opening& opening, std::size_t number) {
                    std::vector<double>& rises = vessel.rises[number];
                    std::fill(rises.begin(), rises.end(), 0.0);
-                   if (opening.to >= 0 || !isNearOpening(at, plane_F, opening.shape)) return;
+                   if (opening.to >= 0 || !isNearOpening(at, vessel.plane_F, opening.shape)) return;
                    for (std::size_t i = 0; i < rises.size(); ++i)
                      rises[i] = riseAt(at, opening.shape.edges()[i].middle);
                  });
@@ -115,14 +109,15 @@ void warnOfSunkVessel(AmbientBody& ambient, Warnings& warnings) noexcept {
   if (vessel.has_sunk) warnings.warnOfSunkVessel(*ambient.def, filled);
 }
 
-void initializeHolds(AmbientBody& ambient, const MotionView& now,
-                     const NearSurface& near) noexcept {
-  if (near.media < 0 || std::exchange(ambient.vessel->is_known, true)) return;
-  if (!ambient.def->holds.are_open) return;
+void meetSurface(AmbientBody& ambient, const NearSurface& near,
+                 const FluidRegion& region) noexcept {
+  if (near.media < 0) return;
+  VesselState& vessel = *ambient.vessel;
   const SurfaceModel& model = ambient.models->surfaces[static_cast<std::size_t>(near.media)].model;
-  const SurfacePlane plane_B = seenFrom(near.plane_W, now.rotation(), now.state.position);
-  fillCoveredHolds(*model.holds, &ambient.vessel->changes, seenFrom(plane_B, model.fluid_frame),
-                   ambient.vessel->holds.data());
+  vessel.plane_F = seenFrom(near.plane_B, model.fluid_frame);
+  vessel.waves = isLargeAgainstWaves(region, 2 * model.radius) ? &region : nullptr;
+  if (std::exchange(vessel.is_known, true) || !ambient.def->holds.are_open) return;
+  fillCoveredHolds(*model.holds, &vessel.changes, vessel.plane_F, vessel.holds.data());
 }
 
 namespace {
@@ -217,10 +212,9 @@ bool exchangeWater(AmbientBody& ambient, const MotionView& now, double duration)
   const SurfaceModel& model = *ambient.surface();
   const HoldSettings& settings = ambient.def->holds;
   ExchangeStep step{settings.are_open, duration, settings.atmosphere, &vessel.changes,
-                    vessel.has_waves ? &vessel.rises : nullptr};
+                    vessel.waves ? &vessel.rises : nullptr};
   vessel.change_B.setZero();
-  const SurfacePlane plane_F = seenFrom(planeAt(ambient, now.state), model.fluid_frame);
-  if (staysDry(*model.holds, plane_F, step, vessel.holds.data())) {
+  if (staysDry(*model.holds, vessel.plane_F, step, vessel.holds.data())) {
     for (HoldState& hold : vessel.holds) stayDry(hold);
     vessel.sloshing_energy = 0;  // setWater() may have emptied a hold
     return false;
@@ -274,7 +268,8 @@ Vector6 sloshForRows(AmbientBody& ambient, const RigidState& now, double duratio
   const Vector6 end =
       exchangeSloshing(at.sloshing(), ambient.flotation().inverse,
                        ambient.def->holds.sloshing_damping, duration, x, sloshing.moved.data());
-  vessel.before_rows = WaterLeft(at, sloshing.moved.data());
+  vessel.before_rows = WaterLeft(at, sloshing.moved.data(),
+                                 energyOfSloshing(at.sloshing(), sloshing.moved.data()).sum());
   return end;
 }
 

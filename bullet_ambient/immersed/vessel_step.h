@@ -8,7 +8,7 @@
 namespace ambient {
 
 /// Finds how high a sea with waves stands above its plane at the edges of the openings of a vessel:
-/// VesselState::rises and has_waves. Cost: nothing in still water and for bodies that are small
+/// VesselState::rises. Cost: nothing in still water and for bodies that are small
 /// against the waves, else a call of the surface for each edge of an opening that is no farther
 /// from the plane than the body is large. Allocates nothing. @pre the body has holds and is at a
 /// surface
@@ -25,9 +25,10 @@ const HoldAround* holdAround(const AmbientBody& ambient, const FluidRegions& reg
 void replaceSurfaceByHold(const HoldAround& around, const AmbientBody& ambient,
                           const MotionView& now, RegionSample& sample) noexcept;
 
-/// Decides which holds of a body that first meets a surface are full. Allocates nothing. @pre it
-/// has holds
-void initializeHolds(AmbientBody& ambient, const MotionView& now, const NearSurface& near) noexcept;
+/// Keeps the plane of the surface of a region for this step, and whether waves there are short
+/// against the body; decides which holds of one that
+/// first meets a surface are full. Allocates nothing. @pre it has holds
+void meetSurface(AmbientBody& ambient, const NearSurface& near, const FluidRegion& region) noexcept;
 
 /// Kinetic energy of the water in the holds that swings on its own, beside x.K x / 2 [J].
 double sloshingEnergyNow(const AmbientBody& ambient, const MotionView& now);
@@ -36,7 +37,7 @@ double sloshingEnergyNow(const AmbientBody& ambient, const MotionView& now);
 /// [s]. Water that comes in was at rest in the water around: sets VesselState::change_B, which the
 /// motion of the step adds. Counts, and keeps the body from rest while water flows. Returns true if
 /// water has passed. Allocates nothing.
-/// @pre it has holds, and a surface is near
+/// @pre it has holds, and a surface is near: meetSurface()
 bool exchangeWater(AmbientBody& ambient, const MotionView& now, double duration) noexcept;
 
 /// Lets the water in the holds slosh over a step in which rows move the body, whose twist in B

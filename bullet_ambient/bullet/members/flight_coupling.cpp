@@ -128,9 +128,10 @@ void keepAwake(AmbientBody& ambient, Outcome kind) noexcept {
                      drifts(static_cast<double>(body.getLinearVelocity().length()),
                             static_cast<double>(body.getAngularVelocity().length()),
                             ambient.model().reference_length);
-  const bool may_turn_over =
-      ambient.surface() && !has_rows && !mayRestAtSurface(ambient, motionOf(body));
-  if (moves || may_turn_over || !ambient.may_rest) body.setDeactivationTime(0);
+  const auto mayTurnOver = [&] {
+    return ambient.surface() && !has_rows && !mayRestAtSurface(ambient, motionOf(body));
+  };
+  if (moves || !ambient.may_rest || mayTurnOver()) body.setDeactivationTime(0);
 }
 
 namespace {

@@ -41,18 +41,41 @@ bool isAwake(const MovingBody& moving) {
   return moving.link ? !isAsleep(*moving.body->multi_body) : moving.body->body->isActive();
 }
 
-/// Gathers what moves in this world from west to east, and places links.
-void gatherMovingBodies(const btCollisionWorld& world, AmbientBodies& bodies) {
-  std::vector<MovingBody>& west_to_east = bodies.west_to_east;
-  west_to_east.clear();
+bool isVesselAtSurface(const AmbientBody& body) { return body.vessel && body.surface(); }
+
+/// Puts all bodies out of holds. Returns the volume of the largest hold at a surface [m^3]; 0: no
+/// body fits in one, and none was there before.
+double leaveHolds(AmbientBodies& bodies) {
+  double largest = 0, smallest = std::numeric_limits<double>::infinity();
   std::size_t count = 0;
-  bodies.forEach([&count](AmbientBody& body) {
+  bodies.forEach([&](AmbientBody& body) {
     body.in_hold = -1;
     ++count;
+    smallest = std::min(smallest, body.def->fluid_body->volume);
+    if (!isVesselAtSurface(body)) return;
+    for (const HoldShape& hold : body.surface()->holds->shapes)
+      largest = std::max(largest, hold.capacity());
   });
-  west_to_east.reserve(count);
+  bodies.west_to_east.clear();
+  bodies.west_to_east.reserve(count);
+  const bool were_any = !bodies.regions.in_holds.empty();
+  bodies.regions.in_holds.clear();
+  bodies.regions.in_holds.reserve(count);
+  return were_any || smallest < largest ? largest : 0;
+}
+
+/// Gathers the vessels of this world and what may be in one of their holds, and places links.
+/// Returns whether there is any such body; then they are from west to east.
+bool gatherMovingBodies(const btCollisionWorld& world, AmbientBodies& bodies) {
+  const double largest = leaveHolds(bodies);
+  if (!(largest > 0)) return false;
+  std::vector<MovingBody>& west_to_east = bodies.west_to_east;
+  bool may_be_inside = false;
   const auto place = [&](AmbientBody& body, const AmbientLink* link, const Vector3& centre) {
-    if (centre.allFinite()) west_to_east.push_back({centre, west_to_east.size(), &body, link});
+    const bool is_small = body.def->fluid_body->volume < largest;
+    if (!(is_small || isVesselAtSurface(body)) || !centre.allFinite()) return;
+    west_to_east.push_back({centre, west_to_east.size(), &body, link});
+    may_be_inside = may_be_inside || is_small;
   };
   const btCollisionObjectArray& objects = world.getCollisionObjectArray();
   for (int i = 0; i < objects.size(); ++i) {
@@ -66,13 +89,11 @@ void gatherMovingBodies(const btCollisionWorld& world, AmbientBodies& bodies) {
       for (const auto& link : tree.links)
         if (link->mass.mass > 0) place(link->ambient, link.get(), link->now.centre());
     });
+  if (!may_be_inside) return false;
   std::sort(west_to_east.begin(), west_to_east.end(), [](const MovingBody& a, const MovingBody& b) {
     return a.centre.x() < b.centre.x() || (a.centre.x() == b.centre.x() && a.number < b.number);
   });
-}
-
-bool isVesselAtSurface(const MovingBody& moving) {
-  return moving.body->vessel && moving.body->surface();
+  return true;
 }
 
 /// Calls visit(const MovingBody&) for the others whose centre is no farther from that of a vessel
@@ -257,23 +278,24 @@ void gatherReactions(const Vessel& vessel) {
   });
 }
 
-}  // namespace
-
-void findBodiesInHolds(btCollisionWorld& world, AmbientBodies& bodies) noexcept {
-  gatherMovingBodies(world, bodies);
-  const std::vector<MovingBody>& west_to_east = bodies.west_to_east;
-  bodies.regions.in_holds.clear();
-  bodies.regions.in_holds.reserve(west_to_east.size());
-  for (const MovingBody& moving : west_to_east) {
-    if (!isVesselAtSurface(moving)) continue;
+/// Puts the bodies into the holds that they are in.
+void enterHolds(AmbientBodies& bodies) {
+  for (const MovingBody& moving : bodies.west_to_east) {
+    if (!isVesselAtSurface(*moving.body)) continue;
     std::optional<Vessel> vessel;
-    forEachNear(west_to_east, moving, [&](const MovingBody& other) {
+    forEachNear(bodies.west_to_east, moving, [&](const MovingBody& other) {
       if (!vessel) vessel.emplace(moving, bodies);
       enterHold(*vessel, other);
     });
   }
-  for (const MovingBody& moving : west_to_east) {
-    if (!isVesselAtSurface(moving)) continue;
+}
+
+}  // namespace
+
+void findBodiesInHolds(btCollisionWorld& world, AmbientBodies& bodies) noexcept {
+  if (gatherMovingBodies(world, bodies)) enterHolds(bodies);
+  for (const MovingBody& moving : bodies.west_to_east) {
+    if (!isVesselAtSurface(*moving.body)) continue;
     moving.body->vessel->reaction_W = {};
     moving.body->vessel->reaction_speed = 0;
     if (!isShared(moving, bodies)) continue;

@@ -213,9 +213,11 @@ inline void addMoments(const HullMoments& moments, const double (&s)[3], double 
 /// Partial sums, lane by lane.
 struct WetRows {
   double lanes[kLanes][kWetRows] = {};
+  bool is_any = false;
 
   /// Adds the moments of wholly wet blocks.
   void add(const HullMoments* moments, const Choice& choice, const double (&s)[3]) {
+    is_any = is_any || choice.wet_count > 0;
     for (int i = 0; i < choice.wet_count; ++i)
       addMoments(moments[choice.wet[i]], s, lanes[choice.wet[i] % kLanes]);
   }
@@ -346,8 +348,9 @@ HullSums sumHull(const HullBlocks& hull, const HullPlane& plane) noexcept {
   });
   double of_cut[kRows], of_wet[kWetRows];
   sumRows(cut, of_cut);
-  for (int row = 0; row < kWetRows; ++row) of_wet[row] = wet.sumOf(row);
   HullSums sums = sumsOf(of_cut);
+  if (!wet.is_any) return sums;
+  for (int row = 0; row < kWetRows; ++row) of_wet[row] = wet.sumOf(row);
   addWetTo(sums, of_wet, plane);
   return sums;
 }

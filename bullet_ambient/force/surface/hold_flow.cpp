@@ -74,6 +74,13 @@ BothWays throughPieces(const OpeningShape& opening, const Vector3& normal, const
 OpeningShape::OpeningShape(const HoldOpening& opening) {
   for (std::size_t i = 0; i < opening.outline.size(); i += 3)
     corners_.emplace_back(opening.outline[i], opening.outline[i + 1], opening.outline[i + 2]);
+  Vector3 low = corners_.front(), high = low;
+  for (const Vector3& corner : corners_) {
+    low = low.cwiseMin(corner);
+    high = high.cwiseMax(corner);
+  }
+  middle_ = (low + high) / 2;
+  half_ = (high - low) / 2;
   std::vector<Vector3> outline = corners_;
   while (outline.size() < kEdges) {
     std::vector<Vector3> finer;
@@ -116,6 +123,12 @@ double OpeningShape::top(const Vector3& normal) const noexcept {
   double top = -std::numeric_limits<double>::infinity();
   for (const Vector3& corner : corners_) top = std::max(top, normal.dot(corner));
   return top;
+}
+
+bool OpeningShape::isAbove(double height, const Vector3& normal) const noexcept {
+  return normal.dot(middle_) - normal.cwiseAbs().dot(half_) >= height ||
+         std::none_of(corners_.begin(), corners_.end(),
+                      [&](const Vector3& corner) { return normal.dot(corner) < height; });
 }
 
 HoldOpening openingOf(const WallHole& hole) {

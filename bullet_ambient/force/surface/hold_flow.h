@@ -29,9 +29,13 @@ class OpeningShape {
   const Vector3& outward() const { return outward_; }
   /// Height of its highest corner along a normal [m].
   double top(const Vector3& normal) const noexcept;
+  /// Whether no corner is below a height along a normal [m]. Cost: where their box is above it, two
+  /// products of vectors.
+  bool isAbove(double height, const Vector3& normal) const noexcept;
 
  private:
   std::vector<Vector3> corners_;
+  Vector3 middle_, half_;  ///< of the box around the corners
   std::vector<Edge> edges_;
   std::vector<Piece> pieces_;
   Vector3 outward_{0, 0, 0};

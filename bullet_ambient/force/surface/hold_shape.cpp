@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/elementary.h"
@@ -57,20 +58,20 @@ HoldFill fillHold(const HoldShape& shape, const Vector3& normal, double volume,
   constexpr int kMostClips = 60;  // bisections alone need fewer
   const double capacity = shape.capacity();
   AMBIENT_ASSERT(isUnit(normal) && capacity > 0);
-  auto [low, high] = computeExtent(shape.hull(), normal);
   HoldFill fill;
   const auto clip = [&](double height) {
     fill.height = height;
     fill.water = computeWetVolume(shape.hull(), {normal, height, 0, 0});
     ++fill.clips;
   };
+  double low = 0, high = 0;
   if (volume <= kEmpty * capacity || volume >= (1 - kEmpty) * capacity) {
+    std::tie(low, high) = computeExtent(shape.hull(), normal);
     clip(volume <= kEmpty * capacity ? low : high);
     fill.water.waterplane = {};
     return fill;
   }
   double next = std::isnan(guess) ? shape.levelNear(normal, volume) : guess;
-  if (!(low < next && next < high)) next = low + (high - low) * volume / capacity;
   const double near = kNear * std::min(volume, capacity - volume);
   while (fill.clips < kMostClips) {
     clip(next);
@@ -80,7 +81,8 @@ HoldFill fillHold(const HoldShape& shape, const Vector3& normal, double volume,
       moveLevel(normal, volume, fill);
       return fill;
     }
-    (error > 0 ? high : low) = next;
+    if (fill.clips == 1) std::tie(low, high) = computeExtent(shape.hull(), normal);
+    (error > 0 ? high : low) = std::clamp(next, low, high);
     next = area > 0 ? next - error / area : low;
     if (!(low < next && next < high)) next = (low + high) / 2;
   }
@@ -107,73 +109,67 @@ double tanhOf(double x) {
 /// Level of the water in a hold: its principal axes and the box with its moments.
 struct Level {
   Level(const Waterplane& section, const Vector3& normal) {
-    const Vector3 least = normal.cwiseAbs();
-    int thin = 0;
-    least.minCoeff(&thin);
-    const Vector3 e = normal.cross(Vector3::Unit(thin)).normalized(), f = normal.cross(e);
-    const Vector3 along = section.spread * e;
-    const double xx = e.dot(along), xy = f.dot(along), yy = f.dot(section.spread * f);
+    const PlaneAxes plane(normal);
+    const Vector3 &e = plane.first, &f = plane.second;
+    const Vector3 of_e = section.spread * e;
+    const double xx = e.dot(of_e), xy = f.dot(of_e), yy = f.dot(section.spread * f);
     const double half = (xx - yy) / 2, size = std::sqrt(half * half + xy * xy);
     // From the row of the matrix that does not cancel.
     const double x = half > 0 ? half + size : std::abs(xy);
     const double y = half > 0 ? xy : std::copysign(size - half, xy);
-    axes[0] = size > 0 ? Vector3((x * e + y * f).normalized()) : e;
-    axes[1] = normal.cross(axes[0]);
+    axis = size > 0 ? Vector3((x * e + y * f).normalized()) : e;
     for (int i = 0; i < 2; ++i) {
-      moments[i] = std::max(0.0, axes[i].dot(section.spread * axes[i]));
       constexpr double kSliver = 1e-12;  // of the area
+      moments[i] = std::max(0.0, (xx + yy) / 2 + (i == 0 ? size : -size));
       squares[i] = std::max(12 * moments[i] / section.area, kSliver * section.area);
     }
   }
 
-  Vector3 axes[2];
+  /// Inertia of water of a depth below it that resists turning as in a closed box, per unit mass.
+  /// `axes`: the principal ones and the normal, in the frame of the result.
+  Matrix3 turningBelow(const Vector3 (&axes)[2], const Vector3& normal, double depth) const {
+    const double square = depth * depth;
+    const Vector3 &e = axes[0], &f = axes[1];
+    return boxTurning(squares[1], square) * e * e.transpose() +
+           boxTurning(squares[0], square) * f * f.transpose() +
+           boxTurning(squares[0], squares[1]) * normal * normal.transpose();
+  }
+
+  Vector3 axis;       ///< of the larger moment; the other one is normal x axis
   double moments[2];  ///< of the area along the axes [m^4]
   double squares[2];  ///< of the sides of the box [m^2]
 };
 
-/// Inertia of water of a depth below a level that resists turning as in a closed box, per unit
-/// mass.
-Matrix3 turningBelow(const Level& level, const Vector3& normal, double depth) {
-  const double square = depth * depth;
-  const Vector3 &e = level.axes[0], &f = level.axes[1];
-  return boxTurning(level.squares[1], square) * e * e.transpose() +
-         boxTurning(level.squares[0], square) * f * f.transpose() +
-         boxTurning(level.squares[0], level.squares[1]) * normal * normal.transpose();
-}
-
 }  // namespace
 
-HoldModes modesOf(const HoldShape& shape, const HoldFill& fill,
-                  const SurfacePlane& plane_F) noexcept {
+HoldModes modesOf(const HoldShape& shape, const HoldFill& fill, const SurfacePlane& plane_F,
+                  const FrameOffset& frame) noexcept {
   HoldModes found;
   const WetVolume& water = fill.water;
   const double volume = water.volume, area = water.waterplane.area;
   if (!(volume > 0)) return found;
   found.height = fill.height;
-  const Vector3& normal = plane_F.normal;
-  const double share = volume / shape.capacity();
-  const auto turnAsFull = [&] {
-    const double root = portable::cbrt(share);
-    return Matrix3(share * root * root * shape.turningInertia());
+  const Matrix3& R = frame.rotation;
+  const Vector3 centre_F = water.moment / volume, normal = R * plane_F.normal;
+  found.centre = R * centre_F + frame.translation;
+  const auto turnAsFull = [&](double part) {
+    const double share = volume / shape.capacity(), root = portable::cbrt(share);
+    return Matrix3(R * (part * share * root * root * shape.turningInertia()) * R.transpose());
   };
-  if (!(area > 0) || !(plane_F.gravity > 0)) {
-    found.turning = turnAsFull();
-    return found;
-  }
-  const Vector3 centre = water.moment / volume;
-  const double mean = volume / area;
-  const double depth = std::min(mean, 2 * (fill.height - normal.dot(centre)));
+  const double mean = area > 0 && plane_F.gravity > 0 ? volume / area : 0;
+  const double depth = std::min(mean, 2 * (fill.height - plane_F.normal.dot(centre_F)));
   if (!(depth > 0)) {
-    found.turning = turnAsFull();
+    found.turning = turnAsFull(1);
     return found;
   }
-  found.middle = water.waterplane.centroid;
-  const Level level(water.waterplane, normal);
+  found.middle = R * water.waterplane.centroid + frame.translation;
+  const Level level(water.waterplane, plane_F.normal);
+  const Vector3 along = R * level.axis, axes[2] = {along, normal.cross(along)};
   // Where the hold narrows above the water, it turns as the full one.
   const double open = depth / mean;
   constexpr double kRounding = 1e-12;
-  found.turning = open * volume * turningBelow(level, normal, depth);
-  if (1 - open > kRounding) found.turning += (1 - open) * turnAsFull();
+  found.turning = open * volume * level.turningBelow(axes, normal, depth);
+  if (1 - open > kRounding) found.turning += turnAsFull(1 - open);
   const double cube = volume + area * std::sqrt(area);
   for (int i = 0; i < 2; ++i) {
     constexpr double kSliver = 1e-6;
@@ -181,18 +177,19 @@ HoldModes modesOf(const HoldShape& shape, const HoldFill& fill,
     if (square * square * square < cube * cube) continue;
     SloshMode& mode = found.modes[i];
     const double length = std::sqrt(level.squares[i]), k = kPi / length;
-    const double wave_number_deep = k * tanhOf(k * depth);
-    mode.axis = level.axes[i];
+    const double half = tanhOf(k * depth / 2);  // tanh 2x = 2 tanh x / (1 + tanh^2 x)
+    const double wave_number_deep = k * 2 * half / (1 + half * half);
+    mode.axis = axes[i];
     mode.length = length;
     mode.square = plane_F.gravity * wave_number_deep;
     mode.volume = wave_number_deep * level.moments[i];
     // The rest of the water keeps a positive inertia.
     constexpr double kMost = 0.9;
-    const double turning = level.axes[1 - i].dot(found.turning * level.axes[1 - i]);
+    const double turning = axes[1 - i].dot(found.turning * axes[1 - i]);
     const double most =
         std::sqrt(kMost * turning * (volume - mode.volume) / (mode.volume * volume));
-    const double rise = std::clamp(depth / 2 - 2 / k * tanhOf(k * depth / 2), -most, most);
-    mode.bob = centre + rise * normal;
+    const double rise = std::clamp(depth / 2 - 2 / k * half, -most, most);
+    mode.bob = found.centre + rise * normal;
     mode.pivot = mode.bob + normal / wave_number_deep;
     const double head = std::min(mean, (shape.capacity() - volume) / area);
     mode.farthest = 2 * head / (length * wave_number_deep);
@@ -200,35 +197,23 @@ HoldModes modesOf(const HoldShape& shape, const HoldFill& fill,
   return found;
 }
 
-HoldModes HoldModes::inB(const FrameOffset& frame) const noexcept {
-  const Matrix3& R = frame.rotation;
-  HoldModes there = *this;
-  there.turning = R * turning * R.transpose();
-  there.middle = R * middle + frame.translation;
-  for (SloshMode& mode : there.modes) {
-    if (!(mode.volume > 0)) continue;
-    mode.axis = R * mode.axis;
-    mode.bob = R * mode.bob + frame.translation;
-    mode.pivot = R * mode.pivot + frame.translation;
-  }
-  return there;
-}
-
-Matrix6 carriedInertia(const WetVolume& water, const HoldModes& modes) noexcept {
-  if (!(water.volume > 0)) return Matrix6::Zero();
-  const Vector3 &S = water.moment, centre = S / water.volume;
-  const Matrix3 coupling = crossMatrix(S);
-  Matrix6 inertia;
-  inertia.topLeftCorner<3, 3>() =
-      modes.turning + S.dot(centre) * Matrix3::Identity() - S * centre.transpose();
-  inertia.topRightCorner<3, 3>() = coupling;
-  inertia.bottomLeftCorner<3, 3>() = -coupling;
-  inertia.bottomRightCorner<3, 3>() = water.volume * Matrix3::Identity();
+Matrix6 carriedInertia(double volume, const HoldModes& modes) noexcept {
+  const Vector3& centre = modes.centre;
+  Matrix3 turning = modes.turning + volume * (centre.squaredNorm() * Matrix3::Identity() -
+                                              centre * centre.transpose());
+  Matrix3 coupling = volume * crossMatrix(centre), pushing = volume * Matrix3::Identity();
   for (const SloshMode& mode : modes.modes) {
     if (!(mode.volume > 0)) continue;
-    const Vector6 n = stack(mode.bob.cross(mode.axis), mode.axis);
-    inertia -= mode.volume * n * n.transpose();
+    const Vector3 arm = mode.bob.cross(mode.axis), part = mode.volume * mode.axis;
+    turning -= arm * (mode.volume * arm).transpose();
+    coupling -= arm * part.transpose();
+    pushing -= part * mode.axis.transpose();
   }
+  Matrix6 inertia;
+  inertia.topLeftCorner<3, 3>() = turning;
+  inertia.topRightCorner<3, 3>() = coupling;
+  inertia.bottomLeftCorner<3, 3>() = coupling.transpose();
+  inertia.bottomRightCorner<3, 3>() = pushing;
   return inertia;
 }
 

@@ -84,24 +84,22 @@ inline double crestOf(const SloshMode& mode, double way, double gravity) noexcep
 struct HoldModes {
   SloshMode modes[2];
   double height = 0;                  ///< HoldFill::height, in F; without water of no meaning [m]
+  Vector3 centre{0, 0, 0};            ///< of the water [m]
   Vector3 middle{0, 0, 0};            ///< of the level [m]
-  Matrix3 turning = Matrix3::Zero();  ///< J about its centre, per unit density, eq. (151) [m^5]
-
-  /// Converts from F, all but the height. `frame`: pose of F in B.
-  HoldModes inB(const FrameOffset& frame) const noexcept;
+  Matrix3 turning = Matrix3::Zero();  ///< J about the centre, per unit density, eq. (151) [m^5]
 };
 
 /// Finds the modes along the principal axes of the level. Exact for boxes; of cylinders and half
 /// balls omega is at most 1.5 % off, of round canals and V's 7 %. Full or empty holds have none.
 /// `fill` is that of the hold by fillHold() along the normal of the plane, whose gravity is that
-/// which the water feels.
-HoldModes modesOf(const HoldShape& shape, const HoldFill& fill,
-                  const SurfacePlane& plane_F) noexcept;
+/// which the water feels. All but the height is in the frame in which F has the pose `frame`.
+HoldModes modesOf(const HoldShape& shape, const HoldFill& fill, const SurfacePlane& plane_F,
+                  const FrameOffset& frame = {}) noexcept;
 
 /// Inertia of the water in a hold as it moves with the body, less that of its modes, per unit
-/// density, about the origin of the frame of both; docs/theory.md eq. (150). Positive semidefinite.
-/// Reads volume and moment of the water alone.
-Matrix6 carriedInertia(const WetVolume& water, const HoldModes& modes) noexcept;
+/// density, about the origin of the frame of the modes; docs/theory.md eq. (150). Positive
+/// semidefinite. `volume`: of the water, those of its modes included [m^3].
+Matrix6 carriedInertia(double volume, const HoldModes& modes) noexcept;
 
 /// Lines in which a plane cuts a closed surface: pairs of points, each with the inside on its left
 /// seen from above, where the normal points.

@@ -8,8 +8,8 @@
 #include "bullet_ambient/motion/body/one_body.h"
 #include "bullet_ambient/motion/lanes/added_mass_change.h"
 #include "bullet_ambient/motion/lanes/body_kernel.h"
+#include "bullet_ambient/motion/lanes/water_kernel.h"
 #include "bullet_ambient/motion/lanes/wave_kernel.h"
-#include "bullet_ambient/spatial/cholesky.h"
 #include "bullet_ambient/spatial/inertia.h"
 
 namespace ambient {
@@ -29,48 +29,43 @@ SurfacePlace placeAt(const SurfaceModel& model, const SurfacePlane& plane_B,
   return place;
 }
 
-WaterLeft::WaterLeft(const WaterAt& at, const Sloshing* states) noexcept
+WaterLeft::WaterLeft(const WaterAt& at, const Sloshing* states, double sloshing_energy) noexcept
     : inertia(at.place.inside_F->inertia),
       momentum_W(momentumOfSloshing(at.sloshing(), states)),
-      energy(energyOfSloshing(at.sloshing(), states).sum()),
+      energy(sloshing_energy),
       position_W(at.position_W) {}
 
-namespace {
-
-/// Momentum that the sloshing gives the body on its way, in B: that before, about the centre of
-/// mass after it, less that after.
-Vector6 givenMomentum(const WaterLeft& before, const WaterAt& after, const Sloshing* states) {
-  const Momentum now_W = momentumOfSloshing(after.sloshing(), states);
+WaterMoved moveWater(const WaterLeft& before, const WaterAt& after, Sloshing* states) noexcept {
+  WaterMoved moved;
+  for (int i = 0; i < kSymmetricEntries; ++i)
+    moved.inertia.entries[i] = after.place.inside_F->inertia.entries[i] - before.inertia.entries[i];
+  const SloshingAt at = after.sloshing();
+  moved.energy2 = 2 * (before.energy - projectOnModes(at, before.energy, states));
+  // The momentum before, about the centre of mass after it, less that after.
+  const Momentum now_W = momentumOfSloshing(at, states);
   const Momentum& then_W = before.momentum_W;
   const Vector3 displacement_W = after.position_W - before.position_W;
   const Matrix3 to_body = after.to_world.transpose();
-  return stack(to_body * (then_W.angular - displacement_W.cross(then_W.linear) - now_W.angular),
-               to_body * (then_W.linear - now_W.linear));
+  moved.given = {to_body * (then_W.angular - displacement_W.cross(then_W.linear) - now_W.angular),
+                 to_body * (then_W.linear - now_W.linear)};
+  return moved;
 }
-
-}  // namespace
 
 Vector6 shiftWater(const WaterLeft& before, const WaterAt& after, const Vector6& x,
                    SymmetricMatrix& inertia, Sloshing* states) noexcept {
-  const double sloshing = projectOnModes(after.sloshing(), before.energy, states);
+  const WaterMoved moved = moveWater(before, after, states);
   SymmetricMatrix changed = inertia;
-  for (int i = 0; i < kSymmetricEntries; ++i)
-    changed.entries[i] += after.place.inside_F->inertia.entries[i] - before.inertia.entries[i];
-  const Matrix6 K_after = changed.full();
-  const Cholesky<6> factors(K_after);
-  if (!factors.isPositive()) return x;
-  const Vector6 own = inertia.full() * x, momentum = own + givenMomentum(before, after, states);
-  const double twice_most = x.dot(own) + 2 * (before.energy - sloshing);
+  for (int i = 0; i < kSymmetricEntries; ++i) changed.entries[i] += moved.inertia.entries[i];
+  const AfterShiftOf<double> shifted =
+      afterShift<double>({inertia,
+                          changed,
+                          {plain(moved.given.angular), plain(moved.given.linear)},
+                          moved.energy2,
+                          plain(after.place.plane.normal)},
+                         plain(x));
+  if (!shifted.is_fine) return x;
   inertia = changed;
-  Vector6 end = factors.solve(momentum);
-  // A torque along the tilt: the part of the spin across the normal.
-  const Vector3& normal = after.place.plane.normal;
-  const Vector3 tilt = end.head<3>() - normal.dot(end.head<3>()) * normal;
-  const Vector6 response = factors.solve(stack(tilt, Vector3::Zero()));
-  const double a = response.head<3>().dot(tilt), b = tilt.squaredNorm();
-  const double excess = end.dot(momentum) - twice_most, square = b * b - a * excess;
-  if (a > 0 && square > 0) end -= excess / (b + std::sqrt(square)) * response;
-  return scaledWithin(end, end.dot(K_after * end), std::max(0.0, twice_most)).twist;
+  return asEigen(shifted.twist);
 }
 
 bool isStable(const SurfaceModel& model, const Flotation& flotation) noexcept {

@@ -35,16 +35,23 @@ struct WaterAt {
 /// Water in the holds at a place that the body has left: its part of K, in B, and its sloshing.
 struct WaterLeft {
   WaterLeft() = default;
-  WaterLeft(const WaterAt& at, const Sloshing* states) noexcept;
+  WaterLeft(const WaterAt& at, const Sloshing* states, double sloshing_energy) noexcept;
 
   SymmetricMatrix inertia;
   Momentum momentum_W;
   double energy = 0;  ///< [J]
   Vector3 position_W{0, 0, 0};
 };
-/// Replaces the water before in an inertia K by that after, takes the sloshing to the modes there,
-/// and returns the twist thereafter, docs/theory.md eq. (142), (154): the momentum of both stays
-/// but for a torque along the tilt, by which the energy does, too, and it never grows. In B.
+/// Change by water that has moved with its body to another place, docs/theory.md eq. (142), (154);
+/// in B there.
+struct WaterMoved {
+  SymmetricMatrix inertia;  ///< change of K
+  Momentum given;           ///< that its sloshing gives the body
+  double energy2;           ///< twice the energy that this gives [J]
+};
+/// Takes the sloshing to the modes of another place.
+WaterMoved moveWater(const WaterLeft& before, const WaterAt& after, Sloshing* states) noexcept;
+/// Does so, adds the change to an inertia K, and returns the twist thereafter: afterShift().
 Vector6 shiftWater(const WaterLeft& before, const WaterAt& after, const Vector6& x,
                    SymmetricMatrix& inertia, Sloshing* states) noexcept;
 

@@ -68,6 +68,31 @@ void readFlotation(const FlotationLanes& lanes, int body, Flotation& flotation) 
   flotation.frequency = lanes.frequency[body];
 }
 
+void setMoved(WaterLanes& lanes, int body, const WaterMoved& moved) noexcept {
+  setLane(lanes.change, body, moved.inertia);
+  setLane(lanes.momentum, body, moved.given);
+  lanes.energy2[body] = moved.energy2;
+}
+
+void setSlosh(WaterLanes& lanes, int body, const SloshingAt& at, std::size_t hold, double damping,
+              const Sloshing& state, SloshAlong (&own)[2]) noexcept {
+  for (int i = 0; i < 2; ++i) {
+    const SloshMode& mode = at.modes[hold].modes[i];
+    if (!(mode.volume > 0)) continue;
+    own[i] = SloshAlong(at, mode, damping, state);
+    forEachNumber(lanes.slosh[i], own[i].mode,
+                  [&](FlightLane& to, const double& from) { to[body] = from; });
+  }
+}
+
+void moveSlosh(const WaterLanes& lanes, int body, const SloshAlong (&own)[2],
+               Sloshing* state) noexcept {
+  for (int i = 0; i < 2; ++i) {
+    const SloshOf<FlightLane>& slosh = lanes.slosh[i];
+    if (slosh.mass[body] > 0) own[i].move(slosh.way[body], slosh.velocity[body], *state);
+  }
+}
+
 void computeFlotations(FlotationLanes& lanes, const SurfaceModel* const* models,
                        SurfacePlace* const* places, int count) noexcept {
   kSurfaceKernels.fastest()->computeFlotations(lanes);

@@ -35,6 +35,14 @@ void setPlace(FlotationLanes& lanes, int body, const SurfaceModel& model,
 /// Writes into lane `body` the fields of a flotation that a flight reads.
 void setFlotation(FlotationLanes& lanes, int body, const SurfaceModel& model,
                   const Flotation& flotation) noexcept;
+/// Writes what water that has moved changes into lane `body`.
+void setMoved(WaterLanes& lanes, int body, const WaterMoved& moved) noexcept;
+/// Writes the modes of the water in a hold into lane `body`, and keeps them in `own`.
+void setSlosh(WaterLanes& lanes, int body, const SloshingAt& at, std::size_t hold, double damping,
+              const Sloshing& state, SloshAlong (&own)[2]) noexcept;
+/// Moves a state by what the kernel has made of those modes, if there are any.
+void moveSlosh(const WaterLanes& lanes, int body, const SloshAlong (&own)[2],
+               Sloshing* state) noexcept;
 /// Copies the result of computeFlotations() from lane `body` to a flotation.
 void readFlotation(const FlotationLanes& lanes, int body, Flotation& flotation) noexcept;
 

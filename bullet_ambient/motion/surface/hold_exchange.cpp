@@ -25,7 +25,7 @@ WaterSide waterSideOf(const HoldShape& shape, const HoldState& state, double lev
           std::max(0.0, std::min(shape.capacity() - state.filled(), change))};
 }
 
-/// An opening to the sea.
+/// An opening to the sea; made by seaAt().
 struct SeaAt {
   const OpeningShape& opening;
   const SurfacePlane& plane_F;
@@ -36,21 +36,24 @@ struct SeaAt {
   const double* dataInside() const { return inside ? inside->data() : nullptr; }
 };
 
+SeaAt seaAt(const HoldShapes::Opening& opening, std::size_t number, const SurfacePlane& plane_F,
+            const ExchangeStep& step) {
+  return {opening.shape, plane_F, step.rises ? &(*step.rises)[number] : nullptr,
+          step.waves ? step.waves->at(number) : nullptr};
+}
+
 /// Whether an opening is above a height, the sea and all waves, so that nothing flows.
 bool isClear(const SeaAt& sea, double height) {
-  const auto& corners = sea.opening.corners();
-  const double reach = std::max(height, sea.plane_F.height);
-  bool is_clear = std::none_of(corners.begin(), corners.end(), [&](const Vector3& corner) {
-    return sea.plane_F.normal.dot(corner) < reach;
-  });
+  const Vector3& normal = sea.plane_F.normal;
+  bool is_clear = sea.opening.isAbove(std::max(height, sea.plane_F.height), normal);
   if (sea.rises)
     for (std::size_t i = 0; i < sea.rises->size(); ++i)
       is_clear =
           is_clear && !(sea.plane_F.depth(sea.opening.edges()[i].middle) + (*sea.rises)[i] > 0);
   if (sea.inside)
     for (std::size_t i = 0; i < sea.inside->size(); ++i)
-      is_clear = is_clear && !(sea.plane_F.normal.dot(sea.opening.edges()[i].middle) <
-                               height + (*sea.inside)[i]);
+      is_clear =
+          is_clear && !(normal.dot(sea.opening.edges()[i].middle) < height + (*sea.inside)[i]);
   return is_clear;
 }
 
@@ -118,7 +121,7 @@ void exchangeBetween(const HoldShapes& holds, const HoldShapes::Opening& door,
   const HoldShape& there = holds.shapes[static_cast<std::size_t>(door.to)];
   const Vector3& normal = plane_F.normal;
   const double level = levelOf(here, normal, from), other = levelOf(there, normal, to);
-  if (!(-door.shape.top(-normal) < std::max(level, other))) return;
+  if (door.shape.isAbove(std::max(level, other), normal)) return;
   const double passed = volumeThrough(door.shape, {normal, plane_F.gravity},
                                       waterSideOf(here, from, level, other, normal),
                                       waterSideOf(there, to, other, level, normal), duration);
@@ -139,26 +142,39 @@ void exchangeThrough(const HoldShapes& holds, const HoldShapes::Opening& opening
   if (!hasOneAir(opening, states)) {
     exchangeSealed(holds, opening, plane_F, step, states);
   } else if (opening.to < 0) {
-    const SeaAt sea{opening.shape, plane_F, step.rises ? &(*step.rises)[number] : nullptr,
-                    step.waves ? step.waves->at(number) : nullptr};
     const auto hold = static_cast<std::size_t>(opening.from);
-    exchangeWithSea(holds.shapes[hold], sea, step, states[hold], hold);
+    exchangeWithSea(holds.shapes[hold], seaAt(opening, number, plane_F, step), step, states[hold],
+                    hold);
   } else {
     exchangeBetween(holds, opening, plane_F, step.duration, states);
     shareAir(holds, states[opening.from].air_group, states);
   }
 }
 
-/// Whether the holds are empty and the sea is below their openings.
-bool areDryAndClear(const HoldShapes& holds, const SurfacePlane& plane_F, const ExchangeStep& step,
-                    const HoldState* states) {
-  if (!areEmpty(holds, states)) return false;
+/// Whether nothing flows: all openings are above the water on both sides, and each hold with water
+/// has one to the air.
+bool areClear(const HoldShapes& holds, const SurfacePlane& plane_F, const ExchangeStep& step,
+              HoldState* states) {
+  const auto level = [&](int hold) {
+    return states[hold].volume > 0
+               ? levelOf(holds.shapes[static_cast<std::size_t>(hold)], plane_F.normal, states[hold])
+               : kNoWater;
+  };
   bool are_clear = true;
   forEachOpening(holds, step.changes, [&](const HoldShapes::Opening& opening, std::size_t number) {
-    const auto* rises = step.rises ? &(*step.rises)[number] : nullptr;
-    are_clear =
-        are_clear && (opening.to >= 0 || isClear({opening.shape, plane_F, rises}, kNoWater));
+    if (!are_clear) return;
+    const double here = level(opening.from);
+    are_clear = opening.to < 0
+                    ? isClear(seaAt(opening, number, plane_F, step), here)
+                    : opening.shape.isAbove(std::max(here, level(opening.to)), plane_F.normal);
   });
+  for (int i = 0; are_clear && i < static_cast<int>(holds.shapes.size()); ++i) {
+    if (!(states[i].volume > 0)) continue;
+    are_clear = false;
+    forEachOpening(holds, step.changes, [&](const HoldShapes::Opening& opening, std::size_t) {
+      are_clear = are_clear || (opening.from == i && opening.to < 0);
+    });
+  }
   return are_clear;
 }
 
@@ -188,10 +204,10 @@ void loseDregs(const HoldShape& shape, HoldState& state) {
 }  // namespace
 
 bool staysDry(const HoldShapes& holds, const SurfacePlane& plane_F, const ExchangeStep& step,
-              const HoldState* states) noexcept {
+              HoldState* states) noexcept {
   return std::none_of(states, states + holds.shapes.size(),
-                      [](const HoldState& state) { return state.pump > 0; }) &&
-         (step.are_open ? areDryAndClear(holds, plane_F, step, states) : areEmpty(holds, states));
+                      [](const HoldState& state) { return state.volume > 0 || state.pump > 0; }) &&
+         (!step.are_open || areClear(holds, plane_F, step, states));
 }
 
 Matrix6 exchangeWater(const HoldShapes& holds, const SurfacePlane& plane_F,
@@ -199,8 +215,11 @@ Matrix6 exchangeWater(const HoldShapes& holds, const SurfacePlane& plane_F,
   AMBIENT_ASSERT(step.duration >= 0 && step.atmosphere > 0);
   for (std::size_t i = 0; i < holds.shapes.size(); ++i)
     runPump(holds.shapes[i], step.duration, step.modes ? &step.modes[i] : nullptr, states[i]);
-  if (step.are_open && areDryAndClear(holds, plane_F, step, states)) {
-    for (std::size_t i = 0; i < holds.shapes.size(); ++i) states[i].is_sealed = false;
+  if (step.are_open && areClear(holds, plane_F, step, states)) {
+    for (std::size_t i = 0; i < holds.shapes.size(); ++i) {
+      states[i].is_sealed = false;
+      states[i].air = 0;
+    }
   } else if (step.are_open) {
     sealHolds(holds, plane_F, step, states);
     forEachOpening(holds, step.changes,
@@ -216,7 +235,7 @@ Matrix6 exchangeWater(const HoldShapes& holds, const SurfacePlane& plane_F,
     const HoldFill fill = fillHold(holds.shapes[i], plane_F.normal, states[i].volume,
                                    std::numeric_limits<double>::quiet_NaN());
     come += std::min(1.0, states[i].inflow / states[i].volume) *
-            carriedInertia(fill.water, modesOf(holds.shapes[i], fill, plane_F));
+            carriedInertia(fill.water.volume, modesOf(holds.shapes[i], fill, plane_F));
   }
   return come;
 }

@@ -17,7 +17,7 @@ Matrix6 exchangeWater(const HoldShapes& holds, const SurfacePlane& plane_F,
 /// Tells if all holds are empty, and neither pumps nor the water outside change that: then
 /// exchangeWater() does nothing. Parameters are its own.
 bool staysDry(const HoldShapes& holds, const SurfacePlane& plane_F, const ExchangeStep& step,
-              const HoldState* states) noexcept;
+              HoldState* states) noexcept;
 
 /// Adds water to a hold [m^3]; its level is then not known.
 void addWater(double volume, HoldState& state) noexcept;

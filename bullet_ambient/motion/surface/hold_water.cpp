@@ -17,27 +17,6 @@ HoldFill levelIn(const HoldShape& shape, const HoldState& state, const SurfacePl
   return fillHold(shape, plane_F.normal, state.filled(), kNoGuess);
 }
 
-/// Returns the modes of the water alone, in a hold where other bodies float, too.
-HoldModes modesOfWater(const HoldState& state, HoldModes modes) {
-  if (!(state.displaced > 0)) return modes;
-  const double share = state.volume / state.filled();
-  modes.turning *= share;
-  for (SloshMode& mode : modes.modes) mode.volume *= share;
-  return modes;
-}
-
-/// Returns the inertia of the water alone, in B. `below`: the level in F, with what floats there;
-/// `modes`: in B.
-Matrix6 inertiaOfWater(const HoldState& state, const WetVolume& below, const FrameOffset& frame,
-                       const HoldModes& modes) {
-  const double volume = state.displaced > 0 ? state.volume : below.volume;
-  const double share = state.displaced > 0 ? volume / below.volume : 1;
-  WetVolume water;
-  water.volume = volume;
-  water.moment = frame.rotation * (share * below.moment) + volume * frame.translation;
-  return carriedInertia(water, modes);
-}
-
 }  // namespace
 
 HoldShapes::HoldShapes(const std::vector<Hold>& holds) {
@@ -66,23 +45,25 @@ WaterInside waterInside(const HoldShapes& holds, const HoldState* states,
                         const SurfacePlane& plane_F, const HoldsInBody& body,
                         HoldModes* modes) noexcept {
   WaterInside all;
+  all.inertia = {};
   all.modes = modes;
-  Matrix6 inertia = Matrix6::Zero();
   for (std::size_t i = 0; i < holds.shapes.size(); ++i) {
     if (modes) modes[i].modes[0].volume = modes[i].modes[1].volume = 0;
     if (!(states[i].volume > 0)) continue;
     const HoldFill fill = levelIn(holds.shapes[i], states[i], plane_F);
-    const HoldModes found =
-        modesOfWater(states[i], modesOf(holds.shapes[i], fill, plane_F)).inB(body.fluid_frame);
+    HoldModes found = modesOf(holds.shapes[i], fill, plane_F, body.fluid_frame);
+    // The part of the water alone, where other bodies float in it.
+    const double share = states[i].volume / states[i].filled();
+    found.turning *= share;
+    for (SloshMode& mode : found.modes) mode.volume *= share;
     if (modes) modes[i] = found;
     all.below = withWaterInside(all.below, plane_F, fill);
     all.spread += fill.water.waterplane.spread;
-    inertia += inertiaOfWater(states[i], fill.water, body.fluid_frame, found);
+    const SymmetricMatrix carried(carriedInertia(share * fill.water.volume, found));
+    for (int entry = 0; entry < kSymmetricEntries; ++entry)
+      all.inertia.entries[entry] += body.density * carried.entries[entry];
     all.is_any = true;
   }
-  if (!all.is_any) return all;
-  all.inertia = SymmetricMatrix(inertia);
-  for (double& entry : all.inertia.entries) entry *= body.density;
   return all;
 }
 

@@ -62,7 +62,7 @@ void findWavesInside(const WaterAt& at, const OpeningChanges* changes, const Slo
     const double highest = of.highest();
     forEachOpening(holds, changes, [&](const HoldShapes::Opening& opening, std::size_t number) {
       if (opening.to >= 0 || static_cast<std::size_t>(opening.from) != hold) return;
-      if (!(-opening.shape.top(-up) < highest)) return;
+      if (opening.shape.isAbove(highest, up)) return;
       waves.reaches[number] = 1;
       waves.is_any = true;
       std::vector<double>& rises = waves.rises[number];

@@ -5,31 +5,21 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/motion/body/one_body.h"
+#include "bullet_ambient/motion/lanes/water_kernel.h"
 
 namespace ambient {
 namespace {
 
-/// A mode for the motion of the body.
-struct Pendulum {
-  Vector6 motion;  ///< N: N.x is the velocity of its pivot for a twist x in B
-  Vector3 axis_W;
-  double mass;       ///< m_1 [kg]
-  double stiffness;  ///< m_1 omega^2 [N/m]
-};
-
-Pendulum pendulumOf(const SloshingAt& at, const SloshMode& mode) {
-  const double mass = at.density * mode.volume;
-  return {stack(mode.pivot.cross(mode.axis), mode.axis), at.to_world * mode.axis, mass,
-          mass * mode.square};
-}
-
-/// Calls act(pendulum, mode, state) for each mode.
+/// Calls act(mode, e in W, state) for each mode.
 template <class States, class Act>
-void forEachPendulum(const SloshingAt& at, States* states, const Act& act) {
+void forEachMode(const SloshingAt& at, States* states, const Act& act) {
   for (std::size_t i = 0; i < at.count; ++i)
     for (const SloshMode& mode : at.modes[i].modes)
-      if (mode.volume > 0) act(pendulumOf(at, mode), mode, states[i]);
+      if (mode.volume > 0) act(mode, Vector3(at.to_world * mode.axis), states[i]);
 }
+
+/// Returns N: N.x is the velocity of the pivot of a mode for a twist x in B.
+Vector6 motionOf(const SloshMode& mode) { return stack(mode.pivot.cross(mode.axis), mode.axis); }
 
 /// Damping ratio: that of the settings, and what waves lose that reach floor or top of the hold.
 double dampingRatio(double least, double displacement, double farthest) {
@@ -45,32 +35,29 @@ void joinVessel(const SloshingAt& at, const Vector6& x, Sloshing* states) noexce
     return;
   for (std::size_t i = 0; i < at.count; ++i)
     if (!states[i].is_known) states[i] = {};
-  forEachPendulum(at, states, [&](const Pendulum& pendulum, const SloshMode&, Sloshing& state) {
-    if (!state.is_known) state.velocity_W += pendulum.motion.dot(x) * pendulum.axis_W;
+  forEachMode(at, states, [&](const SloshMode& mode, const Vector3& axis_W, Sloshing& state) {
+    if (!state.is_known) state.velocity_W += motionOf(mode).dot(x) * axis_W;
   });
-  forEachPendulum(at, states, [](const Pendulum&, const SloshMode&, Sloshing& state) {
-    state.is_known = true;
-  });
+  forEachMode(at, states,
+              [](const SloshMode&, const Vector3&, Sloshing& state) { state.is_known = true; });
 }
 
 SloshingEnergy energyOfSloshing(const SloshingAt& at, const Sloshing* states) noexcept {
   SloshingEnergy energy;
-  forEachPendulum(at, states,
-                  [&](const Pendulum& pendulum, const SloshMode&, const Sloshing& state) {
-                    const double u = pendulum.axis_W.dot(state.velocity_W);
-                    const double q = pendulum.axis_W.dot(state.displacement_W);
-                    energy.kinetic += pendulum.mass * u * u / 2;
-                    energy.potential += pendulum.stiffness * q * q / 2;
-                  });
+  forEachMode(at, states, [&](const SloshMode& mode, const Vector3& axis_W, const Sloshing& state) {
+    const double u = axis_W.dot(state.velocity_W), q = axis_W.dot(state.displacement_W);
+    const double half_mass = at.density * mode.volume / 2;
+    energy.kinetic += half_mass * u * u;
+    energy.potential += half_mass * mode.square * q * q;
+  });
   return energy;
 }
 
 Momentum momentumOfSloshing(const SloshingAt& at, const Sloshing* states) noexcept {
   Vector6 momentum = Vector6::Zero();
-  forEachPendulum(
-      at, states, [&](const Pendulum& pendulum, const SloshMode&, const Sloshing& state) {
-        momentum += pendulum.mass * pendulum.axis_W.dot(state.velocity_W) * pendulum.motion;
-      });
+  forEachMode(at, states, [&](const SloshMode& mode, const Vector3& axis_W, const Sloshing& state) {
+    momentum += at.density * mode.volume * axis_W.dot(state.velocity_W) * motionOf(mode);
+  });
   return {at.to_world * momentum.head<3>(), at.to_world * momentum.tail<3>()};
 }
 
@@ -96,29 +83,29 @@ double projectOnModes(const SloshingAt& at, double energy, Sloshing* states) noe
   return std::max(0.0, energy);
 }
 
+SloshAlong::SloshAlong(const SloshingAt& at, const SloshMode& of, double damping,
+                       const Sloshing& state) noexcept
+    : axis_W(at.to_world * of.axis) {
+  const double way = axis_W.dot(state.displacement_W);
+  mode = {plain(motionOf(of)),
+          at.density * of.volume,
+          of.square,
+          dampingRatio(damping, way, of.farthest),
+          way,
+          axis_W.dot(state.velocity_W)};
+}
+
 Vector6 exchangeSloshing(const SloshingAt& at, const SymmetricMatrix& inverse, double damping,
                          double duration, const Vector6& x, Sloshing* states) noexcept {
   AMBIENT_ASSERT(duration >= 0 && damping >= 0);
-  Vector6 end = x;
-  const double half = duration / 2;
-  forEachPendulum(
-      at, states, [&](const Pendulum& pendulum, const SloshMode& mode, Sloshing& state) {
-        const Vector6& N = pendulum.motion;
-        const double q = pendulum.axis_W.dot(state.displacement_W);
-        const double u = pendulum.axis_W.dot(state.velocity_W);
-        const double loss =
-            2 * dampingRatio(damping, q, mode.farthest) * pendulum.mass * std::sqrt(mode.square);
-        const double stiffness = pendulum.stiffness;
-        const Vector6 answer = asEigen(inverse * plain(N));
-        const double inverse_mass = 1 / pendulum.mass + N.dot(answer);
-        const double rate = (u - N.dot(end) - half * inverse_mass * stiffness * q) /
-                            (1 + half * inverse_mass * (loss + half * stiffness));
-        const double force = stiffness * (q + half * rate) + loss * rate;
-        state.displacement_W += duration * rate * pendulum.axis_W;
-        state.velocity_W -= duration * force / pendulum.mass * pendulum.axis_W;
-        end += duration * force * answer;
-      });
-  return end;
+  SpatialsOf<double> end = plain(x);
+  forEachMode(at, states, [&](const SloshMode& mode, const Vector3&, Sloshing& state) {
+    const SloshAlong before(at, mode, damping, state);
+    SloshOf<double> slosh = before.mode;
+    end = exchangeSlosh<double>(slosh, inverse, duration, end);
+    before.move(slosh.way, slosh.velocity, state);
+  });
+  return asEigen(end);
 }
 
 }  // namespace ambient

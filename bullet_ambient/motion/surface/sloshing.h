@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bullet_ambient/force/surface/hold_shape.h"
+#include "bullet_ambient/motion/lanes/surface_lanes.h"
 #include "bullet_ambient/motion/surface/symmetric_matrix.h"
 
 namespace ambient {
@@ -41,6 +42,23 @@ Momentum momentumOfSloshing(const SloshingAt& at, const Sloshing* states) noexce
 /// Takes the states to other modes, which never adds energy. Those of holds without modes become
 /// not known. `energy`: with the modes before [J]. Returns the energy thereafter [J].
 double projectOnModes(const SloshingAt& at, double energy, Sloshing* states) noexcept;
+
+/// A mode in the motion of its body, as it is for a state.
+struct SloshAlong {
+  SloshAlong() = default;
+  /// `damping`: HoldSettings::sloshing_damping.
+  SloshAlong(const SloshingAt& at, const SloshMode& of, double damping,
+             const Sloshing& state) noexcept;
+
+  /// Gives the state another way and velocity along its axis.
+  void move(double way, double velocity, Sloshing& state) const {
+    state.displacement_W += (way - mode.way) * axis_W;
+    state.velocity_W += (velocity - mode.velocity) * axis_W;
+  }
+
+  Vector3 axis_W;
+  SloshOf<double> mode;
+};
 
 /// Lets pendulums and body act on each other for `duration` [s], docs/theory.md eq. (153): the sum
 /// of x.K x / 2 and the energy of the pendulums does not grow, whatever the duration. Returns the

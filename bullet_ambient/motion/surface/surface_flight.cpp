@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
@@ -39,6 +40,7 @@ struct Progress {
   SurfacePlace later;             ///< where a substep has come to
   WaterInside inside;             ///< there
   WaterLeft left;                 ///< water in the holds where a substep begins
+  SloshAlong slosh[2];            ///< modes of one hold, before they act on the body
   SurfacePlace* place = nullptr;  ///< that of now: that of the flotation at the start, or `later`
 
   const SurfaceModel& model() const { return flight->task.model; }
@@ -153,9 +155,11 @@ class SurfaceFlights {
     p.error = p.energy_removed = 0;
     p.has_gained = false;
     if (!p.hasWater()) return;
+    if (!lanes_.water) lanes_.water = &water_.emplace();
     VesselSloshing& sloshing = *flight.task.water.sloshing;
     sloshing.moved = sloshing.now;
-    joinVessel(waterAt(i).sloshing(), p.start.twist.vector(), p.sloshing());
+    joinVessel(sloshingAt(i), p.start.twist.vector(), p.sloshing());
+    lanes_.slosh_energy[i] = energyOfSloshing(sloshingAt(i), p.sloshing()).sum();
   }
 
   /// The water in the holds of a body that has some, where it is now.
@@ -165,33 +169,42 @@ class SurfaceFlights {
             vectorOf(lanes_.flight.displacement_W, i)};
   }
 
-  /// Finds kinetic energy and energy of place, with that of the water that sloshes.
-  void measure() {
-    kernel_.measure(lanes_);
-    for (int i = 0; i < count_; ++i)
-      if (isActive(i) && progress_[i].hasWater())
-        lanes_.potential[i] +=
-            energyOfSloshing(waterAt(i).sloshing(), progress_[i].sloshing()).sum();
+  SloshingAt sloshingAt(int i) const {
+    const Progress& p = progress_[i];
+    return {p.model().excess_density, p.place->inside_F->modes, p.model().holds->shapes.size(),
+            orientationOf(lanes_.flight.orientation, i).toRotationMatrix()};
   }
 
-  /// Lets the water in the holds slosh for half of a kick.
+  /// Lets the water in the holds slosh for half of a kick, one hold of each body after the other.
   void slosh() {
-    for (int i = 0; i < count_; ++i) {
-      const Progress& p = progress_[i];
-      if (!isActive(i) || !p.hasWater()) continue;
-      const Vector6 x =
-          exchangeSloshing(waterAt(i).sloshing(), symmetricOf(lanes_.flight.inverse_inertia, i),
-                           p.flight->task.water.damping, lanes_.flight.kick_time[i] / 2,
-                           twistOf(lanes_.flight.twist_B, i).vector(), p.sloshing());
-      setLane(lanes_.flight.twist_B, i, Twist::fromVector(x));
+    for (std::size_t hold = 0; setSlosh(hold); ++hold) {
+      kernel_.exchangeSloshing(lanes_);
+      for (int i = 0; i < count_; ++i)
+        if (progress_[i].hasWater())
+          moveSlosh(*lanes_.water, i, progress_[i].slosh, progress_[i].sloshing() + hold);
     }
+  }
+  /// Sets the lanes of sloshing. False: no body has water and so many holds.
+  bool setSlosh(std::size_t hold) {
+    bool is_any = false;
+    for (int i = 0; i < count_; ++i) {
+      Progress& p = progress_[i];
+      if (!p.hasWater()) continue;
+      for (SloshOf<FlightLane>& lanes : lanes_.water->slosh) lanes.mass[i] = 0;
+      if (!isActive(i) || hold >= p.model().holds->shapes.size()) continue;
+      is_any = true;
+      if (hold == 0) lanes_.slosh_energy[i] = 0;
+      ambient::setSlosh(*lanes_.water, i, sloshingAt(i), hold, p.flight->task.water.damping,
+                        p.sloshing()[hold], p.slosh);
+    }
+    return is_any;
   }
 
   /// Brings the active bodies back to the start of the step.
   void restart() {
     for (int i = 0; i < count_; ++i)
       if (isActive(i)) restartBody(i);
-    measure();
+    kernel_.measure(lanes_);
     for (int i = 0; i < count_; ++i)
       if (isActive(i))
         progress_[i].energy =
@@ -211,7 +224,7 @@ class SurfaceFlights {
       advance();
     }
     choose([&](int i) { return is_run[i]; });
-    measure();
+    kernel_.measure(lanes_);
     for (int i = 0; i < count_; ++i)
       if (is_run[i]) boundEnergy(i);
   }
@@ -265,7 +278,7 @@ class SurfaceFlights {
       Progress& p = progress_[i];
       const Twist x = twistOf(lanes_.flight.twist_B, i);
       setLane(lanes_.gradient, i, gradientAt(p.model(), *p.place, x));
-      if (p.hasWater()) p.left = WaterLeft(waterAt(i), p.sloshing());
+      if (p.hasWater()) p.left = WaterLeft(waterAt(i), p.sloshing(), lanes_.slosh_energy[i]);
     }
     flight_kernel_.drift(lanes_.flight);
     kernel_.see(lanes_);
@@ -277,6 +290,7 @@ class SurfaceFlights {
       places[i] = &p.later;
       if (isActive(i)) findPlace(i);
     }
+    kernel_.shiftWater(lanes_);
     computeFlotations(lanes_.flotation, models, places, count_);
     kernel_.changeInertia(lanes_);
     for (int i = 0; i < count_; ++i)
@@ -285,32 +299,20 @@ class SurfaceFlights {
 
   void noteError(int i, double error) { progress_[i].error = std::max(progress_[i].error, error); }
 
-  /// The water in the holds has moved to another level, before the surface is passed.
-  void moveWater(int i) {
-    const Progress& p = progress_[i];
-    SymmetricMatrix inertia = symmetricOf(lanes_.flight.inertia, i);
-    const Vector6 x = twistOf(lanes_.flight.twist_B, i).vector();
-    setLane(lanes_.flight.twist_B, i,
-            Twist::fromVector(shiftWater(p.left, waterAt(i), x, inertia, p.sloshing())));
-    setLane(lanes_.flight.inertia, i, inertia);
-  }
-
   void findPlace(int i) {
     Progress& p = progress_[i];
     const SurfacePlane& plane = p.place->plane;
     const SurfacePlane plane_B{vectorOf(lanes_.flotation.normal, i), lanes_.flotation.height[i],
                                plane.density, plane.gravity, plane.sides_F};
     const Immersion before = p.place->immersion_F;
-    if (p.hasWater()) {
-      const VesselWater& water = p.flight->task.water;
-      p.later =
-          placeAt(p.model(), plane_B, {water.states, &p.inside, water.sloshing->later.data()});
-      p.place = &p.later;
-      moveWater(i);
-    } else {
-      p.later = placeAt(p.model(), plane_B);
-      p.place = &p.later;
-    }
+    const bool has_water = p.hasWater();
+    const VesselWater& at_start = p.flight->task.water;
+    VesselWater water;
+    if (has_water) water = {at_start.states, &p.inside, at_start.sloshing->later.data()};
+    p.later = placeAt(p.model(), plane_B, water);
+    p.place = &p.later;
+    lanes_.has_water[i] = has_water ? 1 : 0;
+    if (has_water) setMoved(*lanes_.water, i, moveWater(p.left, waterAt(i), p.sloshing()));
     setPlace(lanes_.flotation, i, p.model(), p.later);
     setLane(lanes_.centre_of_buoyancy, i, centreOfBuoyancy(p.model(), p.later));
     const MeanDepths depths = meanDepths(before, p.later.immersion_F);
@@ -433,7 +435,7 @@ class SurfaceFlights {
     int reached = 0;
     for (int substep = 1; substep <= p.substeps; ++substep) {
       advance();
-      measure();
+      kernel_.measure(lanes_);
       if (!isGain(i)) reached = substep;
     }
     restart();
@@ -480,6 +482,7 @@ class SurfaceFlights {
   int count_;
   bool has_loads_below_ = false, has_loads_above_ = false, has_still_axis_ = false;
   SurfaceLanes lanes_{};
+  std::optional<WaterLanes> water_;
   Progress progress_[kFlightLanes];
 };
 

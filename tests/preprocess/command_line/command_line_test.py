@@ -51,6 +51,8 @@ class UsageTest(CommandTest):
         for arguments in ([], ["bild"], ["build"], ["build", ball], build[:3], [*build, "--scael", "1"],
                           [*build, "--scale", "large"], [*build, "--threads", "1.5"], ["build", ball, *build[1:]],
                           [*build, "--threads", "99999999999999999999"], [*build, "--levels", "16,x"], ["inspect"],
+                          [*build, "--opening", "0", "0", "0.1"], [*build, "--opening", *"00010x1"],
+                          [*build, "--opening", *"00010012"], [*build, "--opening", *"0001001", "--opening", *"00"],
                           ["inspect", ball, "--jsn"], ["check", ball, "--panels", "many"], ["polar"],
                           ["polar", ball, "--speed", "fast"], loads[:2], loads[:4], loads, [*loads, "six"]):
             with self.subTest(arguments):

@@ -285,6 +285,18 @@ TEST(VesselContents, WhatFloatsInAHoldLoadsTheVesselAndLiftsTheLevel) {
   EXPECT_EQ(sea.water(barge), kWater);
 }
 
+// The only body that fits in a hold is taken out of the fluid.
+TEST(VesselContents, TheLevelFallsWhenTheLastBodyHasGone) {
+  Sea sea;
+  btRigidBody& barge = addBarge(sea, kWater, 4.5);
+  btRigidBody& toy = addBox(sea, {0.3, 0.3, 0.1}, 4.5, {0, 0, -0.05});
+  sea.scene.step(1 / 60.0, 10);
+  EXPECT_GT(sea.of(barge).vessel->holds[0].displaced, 0);
+  sea.scene.of(toy).remove();
+  sea.scene.step(1 / 60.0);
+  EXPECT_EQ(sea.of(barge).vessel->holds[0].displaced, 0);
+}
+
 // In a tub on land, far above the sea.
 TEST(VesselContents, AToyFloatsInATubOnLand) {
   Sea sea;

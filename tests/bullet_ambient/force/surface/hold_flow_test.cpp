@@ -76,6 +76,20 @@ TEST(HoldFlow, WaterStandsHigherWhereTheWaveIs) {
   EXPECT_NEAR(flowThrough(opening, {}, 0.5, 0, rises.data()), side, 1e-14);
 }
 
+// Whether its box is above, or its corners alone.
+TEST(HoldFlow, OpeningIsAboveWhatIsBelowItsCorners) {
+  const OpeningShape opening = rim();
+  for (const Vector3& tilted : {Vector3(0, 0, 1), Vector3(0.2, 0, 1), Vector3(-0.1, 0.3, 1)}) {
+    const Vector3 normal = tilted.normalized();
+    const double lowest = -opening.top(-normal);
+    EXPECT_TRUE(opening.isAbove(lowest - 1e-9, normal));
+    EXPECT_FALSE(opening.isAbove(lowest + 1e-9, normal));
+  }
+  const OpeningShape hole(openingOf({{0, 0, 0}, {1, 0, 0}, 0.01}));
+  const Vector3 between = Vector3(0, 1, 1).normalized();  // a corner of the box, none of the hole
+  EXPECT_TRUE(hole.isAbove(-hole.top(between) - 1e-9, between));
+}
+
 // An octagon of the area, which looks out.
 TEST(HoldFlow, HoleInAWallHasItsAreaAndDirection) {
   const Vector3 normal = Vector3(1, 2, -2) / 3, place(0.3, -0.2, 0.1);

@@ -228,6 +228,17 @@ TEST(SealedHolds, BellThatIsLiftedGivesItsWaterBack) {
   EXPECT_FALSE(water[0].is_sealed);
 }
 
+TEST(SealedHolds, TankInTheAirKeepsItsOwn) {
+  std::vector<Hold> tank = openBarge(cup()).holds;
+  tank[0].openings.clear();
+  const HoldShapes holds(tank);
+  std::vector<HoldState> water(1);
+  water[0].volume = 0.3 * holds.shapes[0].capacity();
+  exchangeWater(holds, planeOver(-1, 0), {true, 1 / 60.0}, water.data());
+  EXPECT_TRUE(water[0].is_sealed);
+  EXPECT_NEAR(water[0].air, kAir * 0.7 * holds.shapes[0].capacity(), 1e-12 * kAir);
+}
+
 // Air above the highest place of the mouth stays.
 TEST(SealedHolds, TiltedBellKeepsTheAirAboveItsMouth) {
   const HoldShapes holds(openBarge(cup()).holds);

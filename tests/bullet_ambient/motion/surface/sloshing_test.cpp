@@ -154,7 +154,7 @@ struct RollingBarge {
 // A barge of 0.16 m to its centre of mass, with 41 kg m^2 in roll and 450 kg in sway.
 TEST(Sloshing, RollAndPendulumHaveTheKnownFrequencies) {
   const BargeWater water(0.16);
-  const Matrix6 inside = 1000 * carriedInertia(water.fill.water, water.modes);
+  const Matrix6 inside = 1000 * carriedInertia(water.fill.water.volume, water.modes);
   const auto [slow, fast] =
       RollingBarge(0.16, 41 + inside(0, 0), inside(0, 4), 450 + inside(4, 4)).rates();
   EXPECT_NEAR(slow, 1.0799, 1e-4);
@@ -245,7 +245,8 @@ TEST(Sloshing, ShiftKeepsMomentumAndEnergy) {
     const Flotation before = run.flotation();
     const Matrix3 R = run.state.orientation.toRotationMatrix();
     Sloshing state{true, 0.01 * arbitrary.vector(), 0.1 * arbitrary.vector()};
-    const WaterLeft left({run.model(), before, R, run.state.position}, &state);
+    const WaterAt there{run.model(), before, R, run.state.position};
+    const WaterLeft left(there, &state, energyOfSloshing(there.sloshing(), &state).sum());
     run.state.orientation =
         rotationFromVector(0.02 * arbitrary.vector().normalized()) * run.state.orientation;
     run.state.position += 0.01 * arbitrary.vector();
