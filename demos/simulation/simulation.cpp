@@ -290,7 +290,7 @@ MotionSample Simulation::sample(const WorldBody& of) const {
   } else {
     const btTransform& pose = of.body->getWorldTransform();
     now.position = toVector3(pose.getOrigin());
-    now.orientation = toQuaternion(pose.getRotation()) * Quaternion(Matrix3(of.R_SB.transpose()));
+    now.orientation = toQuaternion(pose.getRotation()) * of.to_B;
     now.twist = {toVector3(of.body->getAngularVelocity()), toVector3(of.body->getLinearVelocity())};
   }
   now.time = time();

@@ -40,7 +40,7 @@ class Thrusters {
   /// Sets what a thruster is asked for, from the next step on.
   /// @throws std::invalid_argument, naming the thruster, if it is not finite
   void command(std::size_t index, double value);
-  double command(std::size_t index) const { return commands_.at(index); }
+  double command(std::size_t index) const { return drives_.at(index).command; }
 
   const std::vector<ThrusterState>& states() const { return states_; }
   /// @pre finite, one for each thruster
@@ -62,22 +62,31 @@ class Thrusters {
     for (std::size_t i = 0; i < defs_.size();) {
       const std::size_t body = defs_[i].body;
       const MotionSample pose = poseOf(body);
-      Wrench sum;
-      for (; i < defs_.size() && defs_[i].body == body; ++i)
-        sum += readsFluid(i) ? wrenchIn(fluidAt(body, placeOf(i, pose)), i, pose)
-                             : states_[i].load.thrust * per_thrust_[i];
-      if (sum.torque.isZero(0) && sum.force.isZero(0)) continue;
-      apply(body, Wrench{pose.orientation * sum.torque, pose.orientation * sum.force});
+      Vector6 sum = Vector6::Zero();
+      for (; i < defs_.size() && defs_[i].body == body; ++i) {
+        if (readsFluid(i))
+          sum += wrenchIn(fluidAt(body, placeOf(i, pose)), i, pose).vector();
+        else
+          sum += states_[i].load.thrust * per_thrust_[i];
+      }
+      if (sum.isZero(0)) continue;
+      const Wrench push = Wrench::fromVector(sum);
+      apply(body, Wrench{pose.orientation * push.torque, pose.orientation * push.force});
     }
   }
 
  private:
-  struct Factors {
-    double thrust = 1, lag = 1;
+  struct Drive {
+    double command = 0, thrust_factor = 1;
+    double asked = 0;  // of the drive, for the command
+    double lag = 0;    // [s]
   };
 
+  void setAsked(std::size_t index);
   /// Whether the fluid at the disc counts: of a propeller, and where a thrust could be dry.
-  bool readsFluid(std::size_t index) const;
+  bool readsFluid(std::size_t index) const {
+    return defs_[index].propeller || (defs_[index].radius > 0 && states_[index].drive != 0);
+  }
   Vector3 placeOf(std::size_t index, const MotionSample& pose) const {
     return pose.position + pose.orientation * arms_[index];
   }
@@ -87,10 +96,9 @@ class Thrusters {
   double advanceIn(const Medium& medium, std::size_t index, const MotionSample& pose) const;
 
   std::vector<ThrusterDef> defs_;
-  std::vector<Vector3> arms_;       // from the centre of mass, axes of the shape [m]
-  std::vector<Wrench> per_thrust_;  // about the centre of mass, same axes
-  std::vector<Factors> factors_;
-  std::vector<double> commands_;
+  std::vector<Vector3> arms_;        // from the centre of mass, axes of the shape [m]
+  std::vector<Vector6> per_thrust_;  // wrenches about the centre of mass, same axes
+  std::vector<Drive> drives_;
   std::vector<ThrusterState> states_;
 };
 

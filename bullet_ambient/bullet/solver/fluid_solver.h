@@ -75,21 +75,25 @@ class FluidSolver : public Base {
                                         btTypedConstraint** constraints, int constraint_count,
                                         const btContactSolverInfo& info,
                                         btIDebugDraw* debug_drawer) override {
-    if constexpr (kHasMultiBodies) trees_.prepare(info);
+    bool has_multibody_rows = false;
+    if constexpr (kHasMultiBodies) {
+      trees_.prepare(info);
+      has_multibody_rows = this->m_tmpNumMultiBodyConstraints > 0;
+    }
     manifolds = group_.inOrderOfParts(manifolds, manifold_count);
-    input_ = {manifolds, manifold_count, constraints, constraint_count};
+    const GroupInput input{manifolds, manifold_count, constraints, constraint_count};
+    converted_ = group_.select({bodies, body_count}, input, info.m_timeStep, has_multibody_rows);
+    is_over_ = manifold_count + constraint_count == 0 && !has_multibody_rows &&
+               !converted_.haveRigidBody();
+    if (is_over_) return 0;
     return Base::solveGroupCacheFriendlySetup(bodies, body_count, manifolds, manifold_count,
                                               constraints, constraint_count, info, debug_drawer);
   }
 
-  void convertBodies(btCollisionObject** bodies, int body_count,
+  void convertBodies(btCollisionObject** /*bodies*/, int body_count,
                      const btContactSolverInfo& info) override {
-    bool all_stay = false;
-    if constexpr (kHasMultiBodies) all_stay = this->m_tmpNumMultiBodyConstraints > 0;
-    const GroupBodies converted =
-        group_.select({bodies, body_count}, input_, info.m_timeStep, all_stay);
     this->m_tmpSolverBodyPool.reserve(body_count + 1);
-    Base::convertBodies(converted.first, converted.count, info);
+    Base::convertBodies(converted_.first, converted_.count, info);
     group_.begin(this->m_tmpSolverBodyPool);
   }
 
@@ -115,6 +119,7 @@ class FluidSolver : public Base {
                                              btTypedConstraint** constraints, int constraint_count,
                                              const btContactSolverInfo& info,
                                              btIDebugDraw* debug_drawer) override {
+    if (is_over_) return 0;
     btContactSolverInfo once = info;
     useQuickRows();
     if constexpr (!kSolvesAtOnce)
@@ -158,6 +163,7 @@ class FluidSolver : public Base {
 
   btScalar solveGroupCacheFriendlyFinish(btCollisionObject** bodies, int body_count,
                                          const btContactSolverInfo& info) override {
+    if (is_over_) return 0;
     if constexpr (!kHasUniformFrictionRows) reportSecondFrictions();
     group_.finish(this->m_tmpSolverBodyPool, this->m_tmpSolverNonContactConstraintPool, info);
     return Base::solveGroupCacheFriendlyFinish(bodies, body_count, info);
@@ -377,7 +383,8 @@ class FluidSolver : public Base {
   TreeGroup trees_;
   int first_frictions_ = 0;  // number of friction rows that Bullet has made; second ones follow
   int solved_joints_ = 0;    // number of joint rows solved before the iterations
-  GroupInput input_;
+  GroupBodies converted_;    // bodies that Bullet converts
+  bool is_over_ = false;     // true: the group has no rows, and none of its bodies waits for them
 };
 
 AMBIENT_END
