@@ -7,12 +7,9 @@
 namespace ambient {
 
 Thrusters::Thrusters(const Scene& scene, const std::vector<PreparedBody>& bodies)
-    : defs_(scene.thrusters),
-      arms_(defs_.size()),
-      per_thrust_(defs_.size()),
-      drives_(defs_.size()),
-      states_(defs_.size()) {
+    : defs_(scene.thrusters), arms_(defs_.size()), drives_(defs_.size()), states_(defs_.size()) {
   for (std::size_t i = 0; i < defs_.size(); ++i) {
+    drives_[i].has_disc = defs_[i].propeller || defs_[i].radius > 0;
     setFactors(i, 1, 1);
     command(i, defs_[i].command);
     setCentre(defs_[i].body, bodies[defs_[i].body].centre_of_mass);
@@ -24,7 +21,8 @@ void Thrusters::setCentre(std::size_t body, const Vector3& centre_of_mass) {
     const ThrusterDef& def = defs_[i];
     if (def.body != body) continue;
     arms_[i] = def.position - centre_of_mass;
-    per_thrust_[i] = stack(arms_[i].cross(def.axis) + def.torque_per_thrust * def.axis, def.axis);
+    drives_[i].per_thrust =
+        stack(arms_[i].cross(def.axis) + def.torque_per_thrust * def.axis, def.axis);
   }
 }
 
@@ -53,11 +51,11 @@ void Thrusters::setFactors(std::size_t index, double thrust, double lag) {
 }
 
 void Thrusters::follow(double time_step) {
-  for (std::size_t i = 0; i < defs_.size(); ++i) {
+  for (std::size_t i = 0, count = defs_.size(); i < count; ++i) {
     const Drive& to = drives_[i];
     double& drive = states_[i].drive;
     drive += (to.asked - drive) * (time_step / (to.lag + time_step));
-    if (!defs_[i].propeller) states_[i].load.thrust = drive;
+    if (!to.has_disc || !defs_[i].propeller) states_[i].load.thrust = drive;
   }
 }
 
@@ -78,9 +76,10 @@ Wrench Thrusters::wrenchIn(const RegionSample& fluid, std::size_t index, const M
     if (!(wet > 0)) wet = 1;
     state.advance = advanceIn(medium, index, pose);
     state.density = wet * medium.density;
-    load = drives_[index].thrust_factor * def.propeller->load(state.drive, state.advance, medium.density);
+    load = drives_[index].thrust_factor *
+           def.propeller->load(state.drive, state.advance, medium.density);
   }
-  Wrench wrench = Wrench::fromVector(wet * load.thrust * per_thrust_[index]);
+  Wrench wrench = Wrench::fromVector(wet * load.thrust * drives_[index].per_thrust);
   wrench.torque -= (def.is_left_handed ? -wet : wet) * load.torque * def.axis;
   return wrench;
 }

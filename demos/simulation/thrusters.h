@@ -59,15 +59,15 @@ class Thrusters {
   /// MotionSample; `fluidAt(body, place)`: RegionSample around a point in W.
   template <class PoseOf, class FluidAt, class Apply>
   void push(const PoseOf& poseOf, const FluidAt& fluidAt, const Apply& apply) {
-    for (std::size_t i = 0; i < defs_.size();) {
+    for (std::size_t i = 0, count = defs_.size(); i < count;) {
       const std::size_t body = defs_[i].body;
       const MotionSample pose = poseOf(body);
       Vector6 sum = Vector6::Zero();
-      for (; i < defs_.size() && defs_[i].body == body; ++i) {
+      for (; i < count && defs_[i].body == body; ++i) {
         if (readsFluid(i))
           sum += wrenchIn(fluidAt(body, placeOf(i, pose)), i, pose).vector();
         else
-          sum += states_[i].load.thrust * per_thrust_[i];
+          sum += states_[i].load.thrust * drives_[i].per_thrust;
       }
       if (sum.isZero(0)) continue;
       const Wrench push = Wrench::fromVector(sum);
@@ -78,14 +78,16 @@ class Thrusters {
  private:
   struct Drive {
     double command = 0, thrust_factor = 1;
-    double asked = 0;  // of the drive, for the command
-    double lag = 0;    // [s]
+    double asked = 0;      // of the drive, for the command
+    double lag = 0;        // [s]
+    bool has_disc = true;  // false: the drive is the thrust, wherever it is
+    Vector6 per_thrust;    // wrench about the centre of mass, axes of the shape
   };
 
   void setAsked(std::size_t index);
   /// Whether the fluid at the disc counts: of a propeller, and where a thrust could be dry.
   bool readsFluid(std::size_t index) const {
-    return defs_[index].propeller || (defs_[index].radius > 0 && states_[index].drive != 0);
+    return drives_[index].has_disc && (defs_[index].propeller || states_[index].drive != 0);
   }
   Vector3 placeOf(std::size_t index, const MotionSample& pose) const {
     return pose.position + pose.orientation * arms_[index];
@@ -96,8 +98,7 @@ class Thrusters {
   double advanceIn(const Medium& medium, std::size_t index, const MotionSample& pose) const;
 
   std::vector<ThrusterDef> defs_;
-  std::vector<Vector3> arms_;        // from the centre of mass, axes of the shape [m]
-  std::vector<Vector6> per_thrust_;  // wrenches about the centre of mass, same axes
+  std::vector<Vector3> arms_;  // from the centre of mass, axes of the shape [m]
   std::vector<Drive> drives_;
   std::vector<ThrusterState> states_;
 };

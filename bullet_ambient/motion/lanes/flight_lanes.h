@@ -55,7 +55,7 @@ struct alignas(64) BodyLanes {
   FlightLane kick_time;  ///< duration of the next kick, or of the step with rows [s]
   FlightLane growth[2];  ///< of the resistance at the last load, rotation first; 0: none acts
   FlightLane resistance[kSymmetricEntries];  ///< C of that load, in B: kernels that read it set it
-  FlightLane load_B[6];  ///< surface load; 0 for a body without surface loads
+  FlightLane load_B[6];                      ///< surface load; 0 for a body without surface loads
 };
 
 /// Input and output of the kernels of free flight.
