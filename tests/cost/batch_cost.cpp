@@ -1,8 +1,9 @@
 // Cost of a step of a world in a batch, whose vehicles have six thrusters and sensors.
 //
-// batch_cost FOLDER SCENE together|alone WORLDS BEFORE STEPS [rigid]: makes env steps of four steps
-// each, on one thread, for callgrind, which counts those after the first BEFORE. FOLDER keeps the
-// fluid bodies. rigid: the robot of the scene, of one link, is a rigid body.
+// batch_cost FOLDER SCENE together|alone WORLDS BEFORE STEPS [rigid|afloat]: makes env steps of
+// four steps each, on one thread, for callgrind, which counts those after the first BEFORE. FOLDER
+// keeps the fluid bodies. rigid: the robot of the scene, of one link, is a rigid body. afloat: the
+// level of the water is at the origin.
 
 #include <cstdio>
 #include <cstdlib>
@@ -42,7 +43,9 @@ void makeRigid(Scene& scene, const std::filesystem::path& folder) {
 void makeSteps(int count, char** arguments) {
   Scene scene = readScene(findScene(arguments[2], sceneFolders()));
   const std::filesystem::path folder = arguments[1];
-  if (count > 7) makeRigid(scene, folder);
+  const std::string change = count > 7 ? arguments[7] : "";
+  if (change == "rigid") makeRigid(scene, folder);
+  if (change == "afloat") scene.water.emplace();
   BatchSettings settings;
   settings.fluid_bodies = folder;
   settings.together = std::string(arguments[3]) == "alone" ? 1 : 8;
@@ -65,8 +68,9 @@ void makeSteps(int count, char** arguments) {
 }  // namespace ambient::test
 
 int main(int count, char** arguments) {
-  if (count != 7 && !(count == 8 && std::string(arguments[7]) == "rigid")) {
-    std::fprintf(stderr, "batch_cost FOLDER SCENE together|alone WORLDS BEFORE STEPS [rigid]\n");
+  if (count < 7 || count > 8) {
+    std::fprintf(stderr,
+                 "batch_cost FOLDER SCENE together|alone WORLDS BEFORE STEPS [rigid|afloat]\n");
     return 2;
   }
   try {

@@ -31,7 +31,7 @@ DIFFERENT = {f"different_{shapes}_300": (12, 4, 8) for shapes in ("boxes", "caps
 
 # Batches of worlds, by batch_cost beside the program: scene, worlds, env steps of four steps as above, and its last argument.
 BATCHES = {"batch_of_rovs": ("rov_station", 16, 2, 6), "batch_of_rigid_rovs": ("rov_station", 16, 2, 6, "rigid"),
-           "batch_of_sheets": ("glider", 16, 2, 6)}
+           "batch_of_rovs_afloat": ("rov_station", 16, 2, 6, "afloat"), "batch_of_sheets": ("glider", 16, 2, 6)}
 
 KINDS = {"different": "fluid", "equal": "beside"}
 
@@ -66,11 +66,11 @@ class Counter:
         return round(counted / (bodies * (steps - before)))
 
     def per_world_and_step(self, batch: str, kind: str) -> int:
-        scene, worlds, before, steps, *rigid = BATCHES[batch]
+        scene, worlds, before, steps, *change = BATCHES[batch]
         bodies = f"{self.shapes}/{scene}"
-        subprocess.run([self.batches, bodies, scene, kind, "1", "0", "0", *rigid], check=True, stderr=subprocess.DEVNULL)
+        subprocess.run([self.batches, bodies, scene, kind, "1", "0", "0", *change], check=True, stderr=subprocess.DEVNULL)
         self.command[-2:] = [self.batches, bodies]
-        counted = self.counted("Collected", [], (scene, kind, worlds, before, steps - before, *rigid))
+        counted = self.counted("Collected", [], (scene, kind, worlds, before, steps - before, *change))
         return round(counted / (4 * worlds * (steps - before)))
 
 

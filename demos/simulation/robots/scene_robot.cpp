@@ -83,13 +83,7 @@ MotionSample SceneRobot::sample(std::size_t link) const {
   const int number = static_cast<int>(link) - 1;
   const RigidPose pose = robot_.linkPose(number);
   const btMatrix3x3& to_W = robot_.bodyTransform(number).getBasis();
-  const btMultiBody& body = robot_.multiBody();
-  if (number < 0) {
-    angular_[0] = quatRotate(body.getWorldToBaseRot(), body.getBaseOmega());
-    linear_[0] = quatRotate(body.getWorldToBaseRot(), body.getBaseVel());
-  } else {
-    body.compTreeLinkVelocities(angular_.data(), linear_.data());
-  }
+  robot_.multiBody().compTreeLinkVelocities(angular_.data(), linear_.data());
   MotionSample sample;
   sample.position = pose * robot_.model().links[link].centre_of_mass;
   sample.orientation = Quaternion(Matrix3(pose.linear()));
