@@ -40,12 +40,19 @@ void makeRigid(Scene& scene, const std::filesystem::path& folder) {
   scene.robots.clear();
 }
 
+/// Puts the level of the water to the origin, and air above it.
+void putAfloat(Scene& scene) {
+  scene.water.emplace();
+  scene.medium = air();
+  for (BodyDef& body : scene.bodies) body.attach.medium = air();
+}
+
 void makeSteps(int count, char** arguments) {
   Scene scene = readScene(findScene(arguments[2], sceneFolders()));
   const std::filesystem::path folder = arguments[1];
   const std::string change = count > 7 ? arguments[7] : "";
   if (change == "rigid") makeRigid(scene, folder);
-  if (change == "afloat") scene.water.emplace();
+  if (change == "afloat") putAfloat(scene);
   BatchSettings settings;
   settings.fluid_bodies = folder;
   settings.together = std::string(arguments[3]) == "alone" ? 1 : 8;

@@ -309,9 +309,11 @@ void setResistance(BodyLanes& lanes, int body, const Resistance* resistance) noe
   if (!lanes.has_resistance) return;
   static const Resistance kNone;
   const Resistance& of = resistance ? *resistance : kNone;
+  for (int row = 0; row < 6; ++row) lanes.resistance_there[row][row][body] = of.matrix(row, row);
+  if (lanes.has_diagonal_inertia) return;
   for (int row = 0; row < 6; ++row)
     for (int column = 0; column < 6; ++column)
-      lanes.resistance_there[row][column][body] = of.matrix(row, column);
+      if (column != row) lanes.resistance_there[row][column][body] = of.matrix(row, column);
   setLane(lanes.centre_of_reaction, body, of.centre);
 }
 
