@@ -1,7 +1,9 @@
 #pragma once
 
 #include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
+#include <BulletDynamics/Dynamics/btRigidBody.h>
 
+#include <algorithm>
 #include <memory>
 #include <type_traits>
 #include <utility>
@@ -83,8 +85,8 @@ class FluidSolver : public Base {
     manifolds = group_.inOrderOfParts(manifolds, manifold_count);
     const GroupInput input{manifolds, manifold_count, constraints, constraint_count};
     converted_ = group_.select({bodies, body_count}, input, info.m_timeStep, has_multibody_rows);
-    is_over_ = manifold_count + constraint_count == 0 && !has_multibody_rows &&
-               !converted_.haveRigidBody();
+    is_over_ =
+        manifold_count + constraint_count == 0 && !has_multibody_rows && !hasRigidBody(converted_);
     if (is_over_) return 0;
     return Base::solveGroupCacheFriendlySetup(bodies, body_count, manifolds, manifold_count,
                                               constraints, constraint_count, info, debug_drawer);
@@ -170,6 +172,12 @@ class FluidSolver : public Base {
   }
 
  private:
+  // False: all are colliders of multibodies, whose velocities are not in the solver's bodies.
+  static bool hasRigidBody(const GroupBodies& bodies) {
+    return std::any_of(bodies.first, bodies.first + bodies.count,
+                       [](const btCollisionObject* body) { return btRigidBody::upcast(body); });
+  }
+
   // Calls use(rows of multibodies); null: Base knows none.
   template <class Use>
   void withMultiBodyRows(const Use& use) {

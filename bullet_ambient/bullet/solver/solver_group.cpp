@@ -107,12 +107,6 @@ bool movesInFluid(const AmbientBodies& bodies, const btCollisionObject* object) 
 
 }  // namespace
 
-bool GroupBodies::haveRigidBody() const noexcept {
-  return std::any_of(first, first + count, [](const btCollisionObject* object) {
-    return btRigidBody::upcast(object) != nullptr;
-  });
-}
-
 SolverGroup::SolverGroup(AmbientBodies& bodies)
     : bodies_(bodies),
       row_bodies_(std::make_unique<RowBodies>()),

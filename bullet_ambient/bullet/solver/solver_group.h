@@ -37,9 +37,6 @@ struct RowBody;
 struct GroupBodies {
   btCollisionObject** first = nullptr;
   int count = 0;
-
-  /// False: all are colliders of multibodies, whose velocities are not in the solver's bodies.
-  bool haveRigidBody() const noexcept;
 };
 
 /// Contacts and joints that Bullet hands to the solver for one group, before it makes rows of them.
