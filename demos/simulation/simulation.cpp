@@ -112,11 +112,12 @@ std::string withoutName(const FluidBody& shape, const std::invalid_argument& err
   return text.compare(0, name.size(), name) == 0 ? text.substr(name.size()) : text;
 }
 
-/// Makes Bullet's pools of contacts fit the scene, beyond which Bullet allocates. Its own have room
-/// for 4096, 7 MB.
+/// Makes Bullet's pools of contacts fit the scene, beyond which Bullet allocates: none for a body
+/// alone. Its own have room for 4096, 7 MB.
 btDefaultCollisionConstructionInfo poolsFor(const Scene& scene) {
   btDefaultCollisionConstructionInfo info;
-  const int most = 8 * static_cast<int>(std::min<std::size_t>(scene.bodies.size() + 1, 512));
+  const int others = static_cast<int>(std::min<std::size_t>(scene.bodies.size(), 513)) - 1;
+  const int most = std::max(1, 8 * others);  // Bullet makes none of size 0
   info.m_defaultMaxPersistentManifoldPoolSize = most;
   info.m_defaultMaxCollisionAlgorithmPoolSize = most;
   return info;
@@ -290,7 +291,7 @@ MotionSample Simulation::sample(const WorldBody& of) const {
   } else {
     const btTransform& pose = of.body->getWorldTransform();
     now.position = toVector3(pose.getOrigin());
-    now.orientation = toQuaternion(pose.getRotation()) * Quaternion(Matrix3(of.R_SB.transpose()));
+    now.orientation = toQuaternion(pose.getRotation()) * of.to_B;
     now.twist = {toVector3(of.body->getAngularVelocity()), toVector3(of.body->getLinearVelocity())};
   }
   now.time = time();

@@ -7,14 +7,12 @@
 namespace ambient {
 
 Thrusters::Thrusters(const Scene& scene, const std::vector<PreparedBody>& bodies)
-    : defs_(scene.thrusters),
-      arms_(defs_.size()),
-      per_thrust_(defs_.size()),
-      factors_(defs_.size()),
-      states_(defs_.size()) {
-  for (const ThrusterDef& def : defs_) {
-    commands_.push_back(def.command);
-    setCentre(def.body, bodies[def.body].centre_of_mass);
+    : defs_(scene.thrusters), arms_(defs_.size()), drives_(defs_.size()), states_(defs_.size()) {
+  for (std::size_t i = 0; i < defs_.size(); ++i) {
+    drives_[i].has_disc = defs_[i].propeller || defs_[i].radius > 0;
+    setFactors(i, 1, 1);
+    command(i, defs_[i].command);
+    setCentre(defs_[i].body, bodies[defs_[i].body].centre_of_mass);
   }
 }
 
@@ -23,7 +21,8 @@ void Thrusters::setCentre(std::size_t body, const Vector3& centre_of_mass) {
     const ThrusterDef& def = defs_[i];
     if (def.body != body) continue;
     arms_[i] = def.position - centre_of_mass;
-    per_thrust_[i] = {arms_[i].cross(def.axis) + def.torque_per_thrust * def.axis, def.axis};
+    drives_[i].per_thrust =
+        stack(arms_[i].cross(def.axis) + def.torque_per_thrust * def.axis, def.axis);
   }
 }
 
@@ -31,7 +30,14 @@ void Thrusters::command(std::size_t index, double value) {
   if (!std::isfinite(value))
     throw std::invalid_argument("the command of thruster \"" + defs_.at(index).name +
                                 "\" is not finite");
-  commands_.at(index) = value;
+  drives_.at(index).command = value;
+  setAsked(index);
+}
+
+void Thrusters::setAsked(std::size_t index) {
+  Drive& drive = drives_[index];
+  const double factor = defs_[index].propeller ? 1 : drive.thrust_factor;
+  drive.asked = factor * valueAt(defs_[index].curve, drive.command);
 }
 
 void Thrusters::setStates(const std::vector<ThrusterState>& states) {
@@ -39,22 +45,18 @@ void Thrusters::setStates(const std::vector<ThrusterState>& states) {
 }
 
 void Thrusters::setFactors(std::size_t index, double thrust, double lag) {
-  factors_.at(index) = {thrust, lag};
+  drives_.at(index).thrust_factor = thrust;
+  drives_[index].lag = lag * defs_[index].lag;
+  setAsked(index);
 }
 
 void Thrusters::follow(double time_step) {
-  for (std::size_t i = 0; i < defs_.size(); ++i) {
-    const double factor = defs_[i].propeller ? 1 : factors_[i].thrust;
-    const double asked = factor * valueAt(defs_[i].curve, commands_[i]);
-    const double lag = factors_[i].lag * defs_[i].lag;
+  for (std::size_t i = 0, count = defs_.size(); i < count; ++i) {
+    const Drive& to = drives_[i];
     double& drive = states_[i].drive;
-    drive += (asked - drive) * (time_step / (lag + time_step));
-    if (!defs_[i].propeller) states_[i].load.thrust = drive;
+    drive += (to.asked - drive) * (time_step / (to.lag + time_step));
+    if (!to.has_disc || !defs_[i].propeller) states_[i].load.thrust = drive;
   }
-}
-
-bool Thrusters::readsFluid(std::size_t index) const {
-  return defs_[index].propeller || (defs_[index].radius > 0 && states_[index].drive != 0);
 }
 
 double Thrusters::advanceIn(const Medium& medium, std::size_t index,
@@ -74,9 +76,10 @@ Wrench Thrusters::wrenchIn(const RegionSample& fluid, std::size_t index, const M
     if (!(wet > 0)) wet = 1;
     state.advance = advanceIn(medium, index, pose);
     state.density = wet * medium.density;
-    load = factors_[index].thrust * def.propeller->load(state.drive, state.advance, medium.density);
+    load = drives_[index].thrust_factor *
+           def.propeller->load(state.drive, state.advance, medium.density);
   }
-  Wrench wrench = wet * load.thrust * per_thrust_[index];
+  Wrench wrench = Wrench::fromVector(wet * load.thrust * drives_[index].per_thrust);
   wrench.torque -= (def.is_left_handed ? -wet : wet) * load.torque * def.axis;
   return wrench;
 }

@@ -40,7 +40,7 @@ class Thrusters {
   /// Sets what a thruster is asked for, from the next step on.
   /// @throws std::invalid_argument, naming the thruster, if it is not finite
   void command(std::size_t index, double value);
-  double command(std::size_t index) const { return commands_.at(index); }
+  double command(std::size_t index) const { return drives_.at(index).command; }
 
   const std::vector<ThrusterState>& states() const { return states_; }
   /// @pre finite, one for each thruster
@@ -59,25 +59,36 @@ class Thrusters {
   /// MotionSample; `fluidAt(body, place)`: RegionSample around a point in W.
   template <class PoseOf, class FluidAt, class Apply>
   void push(const PoseOf& poseOf, const FluidAt& fluidAt, const Apply& apply) {
-    for (std::size_t i = 0; i < defs_.size();) {
+    for (std::size_t i = 0, count = defs_.size(); i < count;) {
       const std::size_t body = defs_[i].body;
       const MotionSample pose = poseOf(body);
-      Wrench sum;
-      for (; i < defs_.size() && defs_[i].body == body; ++i)
-        sum += readsFluid(i) ? wrenchIn(fluidAt(body, placeOf(i, pose)), i, pose)
-                             : states_[i].load.thrust * per_thrust_[i];
-      if (sum.torque.isZero(0) && sum.force.isZero(0)) continue;
-      apply(body, Wrench{pose.orientation * sum.torque, pose.orientation * sum.force});
+      Vector6 sum = Vector6::Zero();
+      for (; i < count && defs_[i].body == body; ++i) {
+        if (readsFluid(i))
+          sum += wrenchIn(fluidAt(body, placeOf(i, pose)), i, pose).vector();
+        else
+          sum += states_[i].load.thrust * drives_[i].per_thrust;
+      }
+      if (sum.isZero(0)) continue;
+      const Wrench push = Wrench::fromVector(sum);
+      apply(body, Wrench{pose.orientation * push.torque, pose.orientation * push.force});
     }
   }
 
  private:
-  struct Factors {
-    double thrust = 1, lag = 1;
+  struct Drive {
+    double command = 0, thrust_factor = 1;
+    double asked = 0;      // of the drive, for the command
+    double lag = 0;        // [s]
+    bool has_disc = true;  // false: the drive is the thrust, wherever it is
+    Vector6 per_thrust;    // wrench about the centre of mass, axes of the shape
   };
 
+  void setAsked(std::size_t index);
   /// Whether the fluid at the disc counts: of a propeller, and where a thrust could be dry.
-  bool readsFluid(std::size_t index) const;
+  bool readsFluid(std::size_t index) const {
+    return drives_[index].has_disc && (defs_[index].propeller || states_[index].drive != 0);
+  }
   Vector3 placeOf(std::size_t index, const MotionSample& pose) const {
     return pose.position + pose.orientation * arms_[index];
   }
@@ -87,10 +98,8 @@ class Thrusters {
   double advanceIn(const Medium& medium, std::size_t index, const MotionSample& pose) const;
 
   std::vector<ThrusterDef> defs_;
-  std::vector<Vector3> arms_;       // from the centre of mass, axes of the shape [m]
-  std::vector<Wrench> per_thrust_;  // about the centre of mass, same axes
-  std::vector<Factors> factors_;
-  std::vector<double> commands_;
+  std::vector<Vector3> arms_;  // from the centre of mass, axes of the shape [m]
+  std::vector<Drive> drives_;
   std::vector<ThrusterState> states_;
 };
 

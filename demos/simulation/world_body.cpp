@@ -91,6 +91,7 @@ WorldBody makeWorldBody(const BodyDef& def, const PreparedBody& prepared) {
   if (prepared.mass > 0) principal = findPrincipalFrame(prepared.inertia);
   made.R_SB = principal.rotation;
   const Matrix3 R_BS = made.R_SB.transpose();
+  made.to_B = Quaternion(R_BS);
   made.shape = makeCollisionShape(def, prepared,
                                   toBulletPose(R_BS, Vector3(R_BS * -prepared.centre_of_mass)));
 

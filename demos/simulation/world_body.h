@@ -34,9 +34,10 @@ CollisionShape makeCollisionShape(const BodyDef& def, const PreparedBody& prepar
 /// principal axes. S: frame of the shape.
 struct WorldBody {
   std::string name;
-  MotionSample start;                  ///< motion at t = 0
-  bool is_at_start = true;             ///< false: it was put elsewhere before the first step
-  Matrix3 R_SB = Matrix3::Identity();  ///< rotation from B's axes to S's
+  MotionSample start;                        ///< motion at t = 0
+  bool is_at_start = true;                   ///< false: it was put elsewhere before the first step
+  Matrix3 R_SB = Matrix3::Identity();        ///< rotation from B's axes to S's
+  Quaternion to_B = Quaternion::Identity();  ///< of a rigid body: the inverse rotation
   CollisionShape shape;
   std::vector<btTransform> children;  ///< parts of the shape as made; empty: they have not moved
   std::unique_ptr<btRigidBody> body;  ///< null: the body is a link of a robot

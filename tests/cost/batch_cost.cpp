@@ -1,8 +1,9 @@
 // Cost of a step of a world in a batch, whose vehicles have six thrusters and sensors.
 //
-// batch_cost FOLDER SCENE together|alone WORLDS BEFORE STEPS: makes env steps of four steps each,
-// on one thread, for callgrind, which counts those after the first BEFORE. FOLDER keeps the fluid
-// bodies.
+// batch_cost FOLDER SCENE together|alone WORLDS BEFORE STEPS [rigid|afloat]: makes env steps of
+// four steps each, on one thread, for callgrind, which counts those after the first BEFORE. FOLDER
+// keeps the fluid bodies. rigid: the robot of the scene, of one link, is a rigid body. afloat: the
+// level of the water is at the origin.
 
 #include <cstdio>
 #include <cstdlib>
@@ -11,7 +12,9 @@
 #include <string>
 
 #include "demos/scene/scene_reader.h"
+#include "demos/simulation/body_preparation.h"
 #include "demos/worlds/world_batch.h"
+#include "preprocess/base/fluid_body_writer.h"
 
 #if __has_include(<valgrind/callgrind.h>)
 #include <valgrind/callgrind.h>
@@ -22,10 +25,36 @@
 namespace ambient::test {
 namespace {
 
-void makeSteps(char** arguments) {
-  const Scene scene = readScene(findScene(arguments[2], sceneFolders()));
+/// Replaces the robot, which has one link, by a rigid body of the same mass and fluid body.
+void makeRigid(Scene& scene, const std::filesystem::path& folder) {
+  SceneBodyCache cache(folder);
+  const PreparedBody link = prepareBodies(scene, cache).front();
+  cache.save();
+  const std::filesystem::path file = folder / (scene.name + "_rigid.ambient");
+  writeFluidBody(*link.fluid_body, file);
+  BodyDef& body = scene.bodies.front();
+  body.link.reset();
+  body.shape.geometry = FluidBodyFile{file};
+  body.inertia = link.inertia;
+  body.centre_of_mass = link.centre_of_mass;
+  scene.robots.clear();
+}
+
+/// Puts the level of the water to the origin, and air above it.
+void putAfloat(Scene& scene) {
+  scene.water.emplace();
+  scene.medium = air();
+  for (BodyDef& body : scene.bodies) body.attach.medium = air();
+}
+
+void makeSteps(int count, char** arguments) {
+  Scene scene = readScene(findScene(arguments[2], sceneFolders()));
+  const std::filesystem::path folder = arguments[1];
+  const std::string change = count > 7 ? arguments[7] : "";
+  if (change == "rigid") makeRigid(scene, folder);
+  if (change == "afloat") putAfloat(scene);
   BatchSettings settings;
-  settings.fluid_bodies = std::filesystem::path(arguments[1]);
+  settings.fluid_bodies = folder;
   settings.together = std::string(arguments[3]) == "alone" ? 1 : 8;
   settings.worlds = std::atoi(arguments[4]);
   settings.substeps = 4;
@@ -46,12 +75,13 @@ void makeSteps(char** arguments) {
 }  // namespace ambient::test
 
 int main(int count, char** arguments) {
-  if (count != 7) {
-    std::fprintf(stderr, "batch_cost FOLDER SCENE together|alone WORLDS BEFORE STEPS\n");
+  if (count < 7 || count > 8) {
+    std::fprintf(stderr,
+                 "batch_cost FOLDER SCENE together|alone WORLDS BEFORE STEPS [rigid|afloat]\n");
     return 2;
   }
   try {
-    ambient::test::makeSteps(arguments);
+    ambient::test::makeSteps(count, arguments);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "batch_cost: %s\n", error.what());
     return 1;

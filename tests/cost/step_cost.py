@@ -29,8 +29,9 @@ SCENES = {
     "scaled_in_each_step": (4, 4, 12)}
 DIFFERENT = {f"different_{shapes}_300": (12, 4, 8) for shapes in ("boxes", "capsules", "cylinders", "cones", "balls")}
 
-# Batches of worlds, by batch_cost beside the program: scene, worlds, and env steps of four steps as above.
-BATCHES = {"batch_of_rovs": ("rov_station", 16, 2, 6), "batch_of_sheets": ("glider", 16, 2, 6)}
+# Batches of worlds, by batch_cost beside the program: scene, worlds, env steps of four steps as above, and its last argument.
+BATCHES = {"batch_of_rovs": ("rov_station", 16, 2, 6), "batch_of_rigid_rovs": ("rov_station", 16, 2, 6, "rigid"),
+           "batch_of_rovs_afloat": ("rov_station", 16, 2, 6, "afloat"), "batch_of_sheets": ("glider", 16, 2, 6)}
 
 KINDS = {"different": "fluid", "equal": "beside"}
 
@@ -65,11 +66,11 @@ class Counter:
         return round(counted / (bodies * (steps - before)))
 
     def per_world_and_step(self, batch: str, kind: str) -> int:
-        scene, worlds, before, steps = BATCHES[batch]
+        scene, worlds, before, steps, *change = BATCHES[batch]
         bodies = f"{self.shapes}/{scene}"
-        subprocess.run([self.batches, bodies, scene, kind, "1", "0", "0"], check=True, stderr=subprocess.DEVNULL)
+        subprocess.run([self.batches, bodies, scene, kind, "1", "0", "0", *change], check=True, stderr=subprocess.DEVNULL)
         self.command[-2:] = [self.batches, bodies]
-        counted = self.counted("Collected", [], (scene, kind, worlds, before, steps - before))
+        counted = self.counted("Collected", [], (scene, kind, worlds, before, steps - before, *change))
         return round(counted / (4 * worlds * (steps - before)))
 
 

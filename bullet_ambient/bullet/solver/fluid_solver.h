@@ -1,7 +1,9 @@
 #pragma once
 
 #include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
+#include <BulletDynamics/Dynamics/btRigidBody.h>
 
+#include <algorithm>
 #include <memory>
 #include <type_traits>
 #include <utility>
@@ -75,21 +77,25 @@ class FluidSolver : public Base {
                                         btTypedConstraint** constraints, int constraint_count,
                                         const btContactSolverInfo& info,
                                         btIDebugDraw* debug_drawer) override {
-    if constexpr (kHasMultiBodies) trees_.prepare(info);
+    bool has_multibody_rows = false;
+    if constexpr (kHasMultiBodies) {
+      trees_.prepare(info);
+      has_multibody_rows = this->m_tmpNumMultiBodyConstraints > 0;
+    }
     manifolds = group_.inOrderOfParts(manifolds, manifold_count);
-    input_ = {manifolds, manifold_count, constraints, constraint_count};
+    const GroupInput input{manifolds, manifold_count, constraints, constraint_count};
+    converted_ = group_.select({bodies, body_count}, input, info.m_timeStep, has_multibody_rows);
+    is_over_ =
+        manifold_count + constraint_count == 0 && !has_multibody_rows && !hasRigidBody(converted_);
+    if (is_over_) return 0;
     return Base::solveGroupCacheFriendlySetup(bodies, body_count, manifolds, manifold_count,
                                               constraints, constraint_count, info, debug_drawer);
   }
 
-  void convertBodies(btCollisionObject** bodies, int body_count,
+  void convertBodies(btCollisionObject** /*bodies*/, int body_count,
                      const btContactSolverInfo& info) override {
-    bool all_stay = false;
-    if constexpr (kHasMultiBodies) all_stay = this->m_tmpNumMultiBodyConstraints > 0;
-    const GroupBodies converted =
-        group_.select({bodies, body_count}, input_, info.m_timeStep, all_stay);
     this->m_tmpSolverBodyPool.reserve(body_count + 1);
-    Base::convertBodies(converted.first, converted.count, info);
+    Base::convertBodies(converted_.first, converted_.count, info);
     group_.begin(this->m_tmpSolverBodyPool);
   }
 
@@ -115,6 +121,7 @@ class FluidSolver : public Base {
                                              btTypedConstraint** constraints, int constraint_count,
                                              const btContactSolverInfo& info,
                                              btIDebugDraw* debug_drawer) override {
+    if (is_over_) return 0;
     btContactSolverInfo once = info;
     useQuickRows();
     if constexpr (!kSolvesAtOnce)
@@ -158,12 +165,19 @@ class FluidSolver : public Base {
 
   btScalar solveGroupCacheFriendlyFinish(btCollisionObject** bodies, int body_count,
                                          const btContactSolverInfo& info) override {
+    if (is_over_) return 0;
     if constexpr (!kHasUniformFrictionRows) reportSecondFrictions();
     group_.finish(this->m_tmpSolverBodyPool, this->m_tmpSolverNonContactConstraintPool, info);
     return Base::solveGroupCacheFriendlyFinish(bodies, body_count, info);
   }
 
  private:
+  // False: all are colliders of multibodies, whose velocities are not in the solver's bodies.
+  static bool hasRigidBody(const GroupBodies& bodies) {
+    return std::any_of(bodies.first, bodies.first + bodies.count,
+                       [](const btCollisionObject* body) { return btRigidBody::upcast(body); });
+  }
+
   // Calls use(rows of multibodies); null: Base knows none.
   template <class Use>
   void withMultiBodyRows(const Use& use) {
@@ -377,7 +391,8 @@ class FluidSolver : public Base {
   TreeGroup trees_;
   int first_frictions_ = 0;  // number of friction rows that Bullet has made; second ones follow
   int solved_joints_ = 0;    // number of joint rows solved before the iterations
-  GroupInput input_;
+  GroupBodies converted_;    // bodies that Bullet converts
+  bool is_over_ = false;     // true: the group has no rows, and none of its bodies waits for them
 };
 
 AMBIENT_END

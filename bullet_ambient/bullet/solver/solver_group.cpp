@@ -161,11 +161,12 @@ bool SolverGroup::hasAmbientBody(const GroupBodies& bodies) const noexcept {
 // later steps must not allocate.
 void SolverGroup::reserve(int bodies) noexcept {
   const auto count = static_cast<std::size_t>(bodies);
+  free_.reserve(bodies_.task_runner ? count : kFlightsTogether);
+  if (members_.capacity() >= count) return;
   members_.reserve(count);
   // Some solvers of Bullet convert one body more, which cannot move.
   converted_.reserve(count);
   member_of_solver_body_.reserve(count + 1);
-  free_.reserve(bodies_.task_runner ? count : kFlightsTogether);
   // One batch of bodies joined to multibodies may be begun besides.
   const std::size_t batches = count / kFlightsTogether + 2;
   if (batches_.size() < batches) batches_.resize(batches);

@@ -96,6 +96,7 @@ class Leapfrog {
     const FlightTask& task = flight.task;
     const BodyModel& model = task.model;
     setModel(lanes_, i, model);
+    setResistance(lanes_, i, model.resistance.get());
     setSurroundings(lanes_, i, task);
     lanes_.precision[i] = model.loads ? kDriftPrecision * task.settings.tolerance : task.precision;
     const int most = maxSubsteps(task);
@@ -175,7 +176,7 @@ class Leapfrog {
   void setGrowth(int i, const Growth& growth) {
     progress_[i].growth = growth;
     const BodyModel& model = progress_[i].flight->task.model;
-    setResistance(lanes_, i, model.resistance.get(), growth);
+    ambient::setGrowth(lanes_, i, model.resistance ? growth : Growth{});
     lanes_.settling[i] = settlingIn(model, growth, lanes_.kick_time[i]);
   }
 
@@ -304,20 +305,21 @@ void setModel(BodyLanes& lanes, int body, const BodyModel& model) noexcept {
   setLane(lanes.centre_of_volume_B, body, model.centre_of_volume);
 }
 
-void setResistance(BodyLanes& lanes, int body, const Resistance* resistance,
-                   const Growth& growth) noexcept {
+void setResistance(BodyLanes& lanes, int body, const Resistance* resistance) noexcept {
   if (!lanes.has_resistance) return;
-  const bool is_viscous = resistance && growth.translation > 0;
-  lanes.is_viscous[body] = is_viscous ? 1 : 0;
-  if (lanes.has_diagonal_inertia) {
-    const double roots[2] = {growth.rotation, growth.translation};
-    for (int i = 0; i < 6; ++i)
-      lanes.resistance[symmetricEntry(i, i)][body] =
-          is_viscous ? resistance->matrix(i, i) * roots[i / 3] * roots[i / 3] : 0;
-    return;
-  }
-  setSymmetric(lanes.resistance, body,
-               is_viscous ? resistance->grown(growth) : Matrix6(Matrix6::Zero()), false);
+  static const Resistance kNone;
+  const Resistance& of = resistance ? *resistance : kNone;
+  for (int row = 0; row < 6; ++row) lanes.resistance_there[row][row][body] = of.matrix(row, row);
+  if (lanes.has_diagonal_inertia) return;
+  for (int row = 0; row < 6; ++row)
+    for (int column = 0; column < 6; ++column)
+      if (column != row) lanes.resistance_there[row][column][body] = of.matrix(row, column);
+  setLane(lanes.centre_of_reaction, body, of.centre);
+}
+
+void setGrowth(BodyLanes& lanes, int body, const Growth& growth) noexcept {
+  lanes.growth[0][body] = growth.rotation;
+  lanes.growth[1][body] = growth.translation;
 }
 
 void setForces(BodyLanes& lanes, int body, const FlightTask& task) noexcept {

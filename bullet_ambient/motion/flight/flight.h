@@ -146,9 +146,10 @@ void setKinds(BodyLanes& lanes, int count, const ModelOf& modelOf) noexcept {
 /// Writes the model of a body into lane `body`: with has_diagonal_inertia of the lanes, only the
 /// diagonals of K and K^-1. Lanes without a body stay 0, as in BodyLanes{}.
 void setModel(BodyLanes& lanes, int body, const BodyModel& model) noexcept;
-/// Writes the resistance C of a body (null: none) where it has grown. @pre setModel()
-void setResistance(BodyLanes& lanes, int body, const Resistance* resistance,
-                   const Growth& growth) noexcept;
+/// Writes the resistance of a body; null: none. @pre setKinds()
+void setResistance(BodyLanes& lanes, int body, const Resistance* resistance) noexcept;
+/// Writes how much it has grown; zero: it does not act.
+void setGrowth(BodyLanes& lanes, int body, const Growth& growth) noexcept;
 /// Writes the wrench on a body without surface loads.
 void setForces(BodyLanes& lanes, int body, const FlightTask& task) noexcept;
 /// Writes that wrench, and the scale of its errors.

@@ -143,6 +143,7 @@ void settleInStep(RowLanes& bodies, int at, const Pairs& x, const Spatials& wren
 /// Implements FlightKernel::predictRowVelocity for the lanes from `at` on.
 template <class Matrices>
 void predictRowVelocity(RowLanes& bodies, int at, const Mask&) {
+  growResistance<Matrices>(bodies, at);
   const Matrices inertia(bodies.inertia, at), inverse(bodies.inverse_inertia, at);
   const Orientations q = orientationOf(bodies, at);
   const Lanes duration = load(bodies.kick_time + at);
@@ -240,11 +241,13 @@ void applyGravity(FlightLanes& bodies, int at, const Mask& active) {
 
 template <class Matrices>
 void sample(FlightLanes& bodies, int at, const Mask&) {
+  growResistance<Matrices>(bodies, at);
   sampleLoad<Matrices>(bodies, at, motionOf(bodies, at), 0.5 * load(bodies.kick_time + at), true);
 }
 
 template <class Matrices>
 void kick(FlightLanes& bodies, int at, const Mask& active) {
+  growResistance<Matrices>(bodies, at);
   Pairs x = motionOf(bodies, at);
   if (bodies.has_loads)
     x = underLoad<Matrices>(bodies, at, active, x, load(bodies.kick_time + at), true);

@@ -37,8 +37,8 @@ struct alignas(64) BodyLanes {
   // Constant over the step.
   FlightLane inertia[kSymmetricEntries];          ///< K in B
   FlightLane inverse_inertia[kSymmetricEntries];  ///< K^-1
-  FlightLane is_viscous;                          ///< 1: the body has a resistance; else 0
-  FlightLane resistance[kSymmetricEntries];       ///< C of the last load, in B
+  FlightLane resistance_there[6][6];              ///< mu R about the centre of reaction
+  FlightLane centre_of_reaction[3];               ///< in B
   FlightLane settling;        ///< how quickly it settles the body [1/s]; 0 if not within the step
   bool has_diagonal_inertia;  ///< K, K^-1 and C of all bodies are diagonal
   bool has_loads;             ///< at least one body has surface loads
@@ -53,7 +53,9 @@ struct alignas(64) BodyLanes {
   FlightLane displacement_W[3];  ///< displacement since the start of the step [m]
   FlightLane twist_B[6], momentum_B[6];
   FlightLane kick_time;  ///< duration of the next kick, or of the step with rows [s]
-  FlightLane load_B[6];  ///< surface load; 0 for a body without surface loads
+  FlightLane growth[2];  ///< of the resistance at the last load, rotation first; 0: none acts
+  FlightLane resistance[kSymmetricEntries];  ///< C of that load, in B: kernels that read it set it
+  FlightLane load_B[6];                      ///< surface load; 0 for a body without surface loads
 };
 
 /// Input and output of the kernels of free flight.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include "bullet_ambient/motion/lanes/viscous_kernel.h"
 
 // Reading of BodyLanes, and steps on them, that several kernels share. For sources that are
@@ -43,7 +45,43 @@ Mask settledOf(const BodyLanes& bodies, int at, const Pairs& x, const Spatials& 
 
 /// Bodies of a register that have a resistance.
 inline Mask viscousOf(const BodyLanes& bodies, int at) {
-  return load(bodies.is_viscous + at) > Lanes{};
+  return load(bodies.growth[1] + at) > Lanes{};
+}
+
+/// Sets C of the last load as Resistance::grown() does, with its bits: mu R in the scale of the
+/// growth, brought to the centre of mass.
+template <class Matrices>
+void growResistance(BodyLanes& bodies, int at) {
+  if (!bodies.has_resistance) return;
+  const Lanes roots[2] = {load(bodies.growth[0] + at), load(bodies.growth[1] + at)};
+  const auto there = [&](int i, int j) {
+    return roots[i / 3] * load(bodies.resistance_there[i][j] + at) * roots[j / 3];
+  };
+  const auto set = [&](int i, int j, const Lanes& entry) {
+    store(bodies.resistance[symmetricEntry(i, j)] + at, entry);
+  };
+  if constexpr (std::is_same_v<Matrices, DiagonalMatrices>) {
+    for (int i = 0; i < 6; ++i) set(i, i, there(i, i));
+  } else {
+    Lanes d[3], right[6][3];  // way to the centre of mass, right columns of C there
+    for (int j = 0; j < 3; ++j) {
+      d[j] = -load(bodies.centre_of_reaction[j] + at);
+      for (int i = 0; i < 6; ++i) right[i][j] = there(i, 3 + j);
+    }
+    for (int j = 0; j < 3; ++j) {
+      const int k = (j + 1) % 3, l = (j + 2) % 3;
+      const auto turned = [&](int i) { return right[i][k] * d[l] - right[i][l] * d[k]; };
+      const Lanes below[3] = {there(3, j) + turned(3), there(4, j) + turned(4),
+                              there(5, j) + turned(5)};
+      for (int i = 0; i < 3; ++i) {
+        const int p = (i + 1) % 3, q = (i + 2) % 3;
+        set(i, 3 + j, right[i][j] + (right[3 + p][j] * d[q] - right[3 + q][j] * d[p]));
+        if (i > j) continue;
+        set(i, j, there(i, j) + (turned(i) + (below[p] * d[q] - below[q] * d[p])));
+        set(3 + i, 3 + j, right[3 + i][j]);
+      }
+    }
+  }
 }
 
 /// Calls act(Settling or DiagonalSettling) for K and C of the bodies.

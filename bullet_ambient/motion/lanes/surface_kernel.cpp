@@ -163,6 +163,7 @@ void exchangeWithSloshing(SurfaceLanes& bodies, int at, const Mask& active) {
 
 void applyLastLoad(SurfaceLanes& bodies, int at, const Mask& active) {
   FlightLanes& flight = bodies.flight;
+  growResistance<FullMatrices>(flight, at);
   const Spatials load_B = toBody(orientationOf(flight, at), load6(flight.load_W, at));
   const Pairs x = motionOf(flight, at);
   const Pairs response{FullMatrices(flight.inverse_inertia, at) * load_B, load_B};
@@ -172,6 +173,7 @@ void applyLastLoad(SurfaceLanes& bodies, int at, const Mask& active) {
 
 void predictLoad(SurfaceLanes& bodies, int at, const Mask&) {
   FlightLanes& flight = bodies.flight;
+  growResistance<FullMatrices>(flight, at);
   store6(flight.predicted_load_B, at, toBody(orientationOf(flight, at), load6(flight.load_W, at)));
   const Lanes time = halfKick(flight, at);
   const Pairs x = underResistance(flight, at, motionOf(flight, at), time);
@@ -180,6 +182,7 @@ void predictLoad(SurfaceLanes& bodies, int at, const Mask&) {
 
 void applyLoad(SurfaceLanes& bodies, int at, const Mask& active) {
   FlightLanes& flight = bodies.flight;
+  growResistance<FullMatrices>(flight, at);
   const Lanes time = halfKick(flight, at);
   const Pairs x = underResistance(flight, at, motionOf(flight, at), time);
   setTwist(flight, at, active, underLoad<FullMatrices>(flight, at, active, x, time, false).twist);

@@ -119,7 +119,8 @@ RowLoad setStart(const FlightTask& task, const RigidState& start, const Wrench& 
   setLane(lanes.orientation, lane, start.orientation);
   setLane(lanes.twist_B, lane, relative);
   setLane(lanes.load_B, lane, Wrench{});
-  setResistance(lanes, lane, nullptr, {});
+  setResistance(lanes, lane, task.model.resistance.get());
+  setGrowth(lanes, lane, {});
   lanes.settling[lane] = 0;
   RowLoad row;
   if (!task.model.loads) return row;
@@ -130,7 +131,7 @@ RowLoad setStart(const FlightTask& task, const RigidState& start, const Wrench& 
     return row;
   }
   const SurfaceLoad load = computeSurfaceLoad(task.model, relative, s);
-  setResistance(lanes, lane, task.model.resistance.get(), load.growth);
+  setGrowth(lanes, lane, task.model.resistance ? load.growth : Growth{});
   const bool is_constant = turnsWithFluid(s);
   row.settled_inertia =
       settledInertia(task.model, is_constant ? SurfaceLoad{{}, false, load.growth} : load, relative,

@@ -150,6 +150,7 @@ class SurfaceFlights {
     const FlightMemory& memory = flight.body.memory;
     p.has_load = memory.has_load && p.model().loads_below.loads;
     setLane(lanes_.flight.load_W, i, p.has_load ? memory.load_W : Wrench{});
+    setResistance(lanes_.flight, i, p.model().loads_below.resistance.get());
     setGrowth(i, p.has_load ? memory.growth : kCreeping);
     lanes_.flight.is_coarse[i] = lanes_.flight.energy_removed[i] = 0;
     p.error = p.energy_removed = 0;
@@ -334,7 +335,8 @@ class SurfaceFlights {
 
   void setGrowth(int i, const Growth& growth) {
     progress_[i].growth = growth;
-    setResistance(lanes_.flight, i, progress_[i].model().loads_below.resistance.get(), growth);
+    const bool is_met = progress_[i].model().loads_below.resistance != nullptr;
+    ambient::setGrowth(lanes_.flight, i, is_met ? growth : Growth{});
   }
 
   Wrench loadAt(int i, const Twist& x) {

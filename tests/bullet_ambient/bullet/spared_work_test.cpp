@@ -103,13 +103,18 @@ TEST(SparedWork, ABodyThatIsOnlyNearAnotherIsNotRewritten) {
   EXPECT_EQ(countStep(scene).rows, 0);
 }
 
-// Tells how many bodies the last group of Bullet's solver had.
+// Tells how many bodies the last group of Bullet's solver had, and of how many groups it made rows.
 class WatchedSolver : public FluidSolver<> {
  public:
   using FluidSolver<>::FluidSolver;
-  int bodies = -1;
+  int bodies = -1, groups = 0;
 
  protected:
+  void convertContacts(btPersistentManifold** manifolds, int manifold_count,
+                       const btContactSolverInfo& info) override {
+    ++groups;
+    FluidSolver<>::convertContacts(manifolds, manifold_count, info);
+  }
   btScalar solveGroupCacheFriendlyIterations(btCollisionObject** objects, int object_count,
                                              btPersistentManifold** manifolds, int manifold_count,
                                              btTypedConstraint** constraints, int constraint_count,
@@ -133,6 +138,7 @@ TEST(SparedWork, TheSolverDoesNotKnowABodyThatFloatsAlone) {
   btRigidBody& in_fluid = scene.add(def, meshedEllipsoid(kUnequalAxes, 1), water());
   scene.step(kStep);
   EXPECT_EQ(solver.bodies, 0);
+  EXPECT_EQ(solver.groups, 0);
   EXPECT_EQ(scene.of(in_fluid).counters().substeps, 1);
   def.start.position = {10, 0, 0};
   scene.add(def);

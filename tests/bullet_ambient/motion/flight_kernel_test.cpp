@@ -138,6 +138,29 @@ TEST_P(FlightKernels, LeaveBodiesAloneThatAreNotActive) {
   }
 }
 
+TEST_P(FlightKernels, GrowAResistanceByTheBitsOfOneAlone) {
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    FlightLanes lanes = arbitraryLanes(seed, 0.1);
+    lanes.has_resistance = true;
+    Matrix6 grown[kFlightLanes];
+    for (int i = 0; i < kFlightLanes; ++i) {
+      Arbitrary arbitrary(kFlightLanes * seed + static_cast<unsigned>(i));
+      const Resistance resistance{arbitrary.positiveDefinite(), arbitrary.vector()};
+      const ambient::Growth growth{arbitrary.between(0, 3), arbitrary.between(0, 3)};
+      setResistance(lanes, i, &resistance);
+      setGrowth(lanes, i, growth);
+      lanes.active[i] = 1;
+      grown[i] = resistance.grown(growth);
+    }
+    kernel_->sample(lanes);
+    for (int i = 0; i < kFlightLanes; ++i)
+      for (int row = 0; row < 6; ++row)
+        for (int column = row; column < 6; ++column)
+          EXPECT_EQ(lanes.resistance[symmetricEntry(row, column)][i], grown[i](row, column))
+              << seed << ", " << row << ", " << column;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(All, FlightKernels, test::kAllInstructionSets);
 
 // Body `i` of many that differ in speed, loads, integrator and current.
