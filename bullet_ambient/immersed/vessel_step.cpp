@@ -111,8 +111,9 @@ void warnOfSunkVessel(AmbientBody& ambient, Warnings& warnings) noexcept {
 
 void meetSurface(AmbientBody& ambient, const NearSurface& near,
                  const FluidRegion& region) noexcept {
-  if (near.media < 0) return;
   VesselState& vessel = *ambient.vessel;
+  vessel.waves = nullptr;
+  if (near.media < 0) return;
   const SurfaceModel& model = ambient.models->surfaces[static_cast<std::size_t>(near.media)].model;
   vessel.plane_F = seenFrom(near.plane_B, model.fluid_frame);
   vessel.waves = isLargeAgainstWaves(region, 2 * model.radius) ? &region : nullptr;

@@ -26,8 +26,8 @@ void replaceSurfaceByHold(const HoldAround& around, const AmbientBody& ambient,
                           const MotionView& now, RegionSample& sample) noexcept;
 
 /// Keeps the plane of the surface of a region for this step, and whether waves there are short
-/// against the body; decides which holds of one that
-/// first meets a surface are full. Allocates nothing. @pre it has holds
+/// against the body; decides which holds of one that first meets a surface are full. Allocates
+/// nothing. @pre it has holds
 void meetSurface(AmbientBody& ambient, const NearSurface& near, const FluidRegion& region) noexcept;
 
 /// Kinetic energy of the water in the holds that swings on its own, beside x.K x / 2 [J].

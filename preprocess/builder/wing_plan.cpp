@@ -104,6 +104,8 @@ class PlanMaker {
     return added;
   }
 
+  bool isEmpty() const { return plan_.given.empty(); }
+
   /// The wings; none if one of them is the whole body, which has one law in any case, unless its
   /// sections are aerofoils.
   WingPlan result(bool sheet) && {
@@ -139,7 +141,9 @@ void addFound(const SourceTriangles& source, const TriangleMesh& mesh, bool shee
                          [&](std::size_t t) { return isNamed(source.nodeOf(t), name); });
   if (named > 0 || sheet) return;
   const std::vector<std::uint8_t> labels = findWings(mesh);
-  if (labels.empty()) return;
+  const bool is_whole =
+      std::all_of(labels.begin(), labels.end(), [](std::uint8_t label) { return label == 1; });
+  if (labels.empty() || (is_whole && !maker.isEmpty())) return;
   for (int wing = 1; wing <= *std::max_element(labels.begin(), labels.end()); ++wing)
     maker.add({}, [&](std::size_t t) { return labels[t] == wing; });
 }

@@ -97,7 +97,7 @@ struct RowBody {
   btScalar inverse_mass = 0;       ///< inverse mass of the dry body [1/kg]
   btVector3 spin_change{0, 0, 0};  ///< k + X of eq. (28): velocity change outside the rows [rad/s]
   btVector3 velocity_change{0, 0, 0};  ///< [m/s]
-  btVector3 spin_to_hold{0, 0, 0};     ///< k' + 2X of a body that turns by less, u_n - X; else 0
+  btVector3 spin_to_hold{0, 0, 0};     ///< k' + 2X where |u_n - X| is less, else 0
   btVector3 spin_excess{0, 0, 0};      ///< k' - k of eq. (28b), added while Bullet sets up contacts
   btVector3 velocity_excess{0, 0, 0};  ///< [m/s]
   btVector3 spin_by_load{0, 0, 0};     ///< part of spin_change by surface loads; 0: no bounces

@@ -162,7 +162,8 @@ bool SolverGroup::hasAmbientBody(const GroupBodies& bodies) const noexcept {
 void SolverGroup::reserve(int bodies) noexcept {
   const auto count = static_cast<std::size_t>(bodies);
   free_.reserve(bodies_.task_runner ? count : kFlightsTogether);
-  if (members_.capacity() >= count) return;
+  if (reserved_ >= bodies) return;
+  reserved_ = bodies;
   members_.reserve(count);
   // Some solvers of Bullet convert one body more, which cannot move.
   converted_.reserve(count);

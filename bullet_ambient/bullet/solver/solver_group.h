@@ -171,7 +171,8 @@ class SolverGroup {
   double time_step_ = 0;
   bool may_need_second_friction_ = false;
   bool is_disabled_ =
-      false;  // true: the time step is not finite, and no body of the group may move
+      false;          // true: the time step is not finite, and no body of the group may move
+  int reserved_ = 0;  // bodies that there is room for
   std::vector<Member> members_;
   std::vector<btCollisionObject*> converted_;  // bodies that Bullet has to convert
   std::vector<int> member_of_solver_body_;     // index in members_; -1: not ambient

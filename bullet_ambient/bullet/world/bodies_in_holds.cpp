@@ -65,7 +65,7 @@ double leaveHolds(AmbientBodies& bodies) {
 }
 
 /// Gathers the vessels of this world and what may be in one of their holds, and places links.
-/// Returns whether there is any such body; then they are from west to east.
+/// Returns whether there is any such body; then, and only then, they are from west to east.
 bool gatherMovingBodies(const btCollisionWorld& world, AmbientBodies& bodies) {
   const double largest = leaveHolds(bodies);
   if (!(largest > 0)) return false;

@@ -44,6 +44,8 @@ struct WingFlow {
   Real speed;     ///< its root
 };
 
+constexpr double kLeastSpeedSq = 1e-200;  ///< for WingFlow::speed_sq: at rest its inverse is finite
+
 /// Attached flow on a face.
 template <class Real>
 struct AttachedFlow {

@@ -57,14 +57,13 @@ PressureOnFace pressureOn(const FaceTable& faces, std::size_t face, const Twist&
     const double arm = shape.pitchingArm(n, faces.centroid(face));
     const WingFactors<double>& numbers = factors->in_double;
     const double(&h)[3] = numbers.span;
-    constexpr double kLeast = 1e-200;  // at rest its inverse is finite
     const double facing = shape.facing.dot(u);
     const double stalling = factors->stallingShare(x.angular, x.linear) * facing;
     const WingFlow<PlainArithmetic<double>> flow{facing,
                                                  stalling,
                                                  Vector3(h[0], h[1], h[2]).dot(u),
                                                  normal_speed - rate * arm,
-                                                 whole_sq + kLeast,
+                                                 whole_sq + kLeastSpeedSq,
                                                  std::sqrt(whole_sq)};
     const FacePressure<double> pressure = law(flow, numbers);
     pitch = pressure.lift * arm;

@@ -137,7 +137,7 @@ class FormLoads final : public ViscousLoads {
     if (!wings_) return load;
     for (std::size_t i = 0; i < wings_->on_faces.size(); ++i) {
       const SurfaceLoads& wing = *wings_->on_faces[i];
-      const Twist seen = wings_->lift.seenBy(i, x);
+      const Twist seen = wings_->lift.seenBy(i, x, wet);
       const Wrench on_wing = wet ? wing.wetLoad(seen, *wet) : wing.load(seen);
       load += on_wing + wings_->lift.bySection(i, seen, density_, wet, on_wing);
     }

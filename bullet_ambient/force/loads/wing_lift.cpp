@@ -33,7 +33,8 @@ Profile::Profile(const Wing& wing, const ShapeFactors& shape)
 }
 
 double Profile::attachedShare(double across, double stalling, double speed_sq) const noexcept {
-  const WingFlow<PlainArithmetic<double>> flow{across, stalling * across, 0, 0, speed_sq, 0};
+  const WingFlow<PlainArithmetic<double>> flow{across, stalling * across,        0,
+                                               0,      speed_sq + kLeastSpeedSq, 0};
   return attachedFlow(across, flow, attached_).share;
 }
 
@@ -109,17 +110,18 @@ void WingLift::addWake(const FluidBody& body, std::size_t from, std::size_t to) 
   wakes_.push_back({from, to, std::copysign(1.0, behind) * chord, share});
 }
 
-Twist WingLift::seenBy(std::size_t wing, const Twist& x) const noexcept {
+Twist WingLift::seenBy(std::size_t wing, const Twist& x, const WetPart* wet) const noexcept {
   Twist seen = x;
   for (const Wake& wake : wakes_) {
     if (wake.to != wing) continue;
     const One& one = wings_[wake.from];
     const Vector3 u = x.at(one.shape.shape.centre);
-    const double ahead = std::max(-wake.behind.dot(u), 0.0);
-    if (!(ahead > 0)) continue;
+    const double ahead = -wake.behind.dot(u), speed_sq = u.squaredNorm();
+    if (!(ahead > 0) || !(speed_sq > 0)) continue;
+    double share = wake.share * ahead * ahead / speed_sq;
+    if (wet) share *= (one.halves[0].wetShare(*wet) + one.halves[1].wetShare(*wet)) / 2;
     const double stalling = one.shape.stallingShare(x.angular, x.linear);
-    seen.linear -=
-        wake.share * ahead * ahead / u.squaredNorm() * one.profile.liftingVelocity(u, stalling);
+    seen.linear -= share * one.profile.liftingVelocity(u, stalling);
   }
   return seen;
 }
@@ -142,7 +144,7 @@ Wrench WingLift::load(const Twist& x, double density, const MunkFactors& munk,
       aboutOrigin(rest_.load(x.angular, x.at(rest_centre_), wet_density, munk.rest), rest_centre_);
   for (std::size_t i = 0; i < wings_.size(); ++i) {
     const One& wing = wings_[i];
-    const Twist seen = seenBy(i, x);
+    const Twist seen = seenBy(i, x, wet);
     for (const WingHalf& half : wing.halves) {
       const double share = wet ? half.wetShare(*wet) : 1;
       const Wrench load =
@@ -153,7 +155,7 @@ Wrench WingLift::load(const Twist& x, double density, const MunkFactors& munk,
   return sum;
 }
 
-// Cut by a surface, halves are not wet as their faces are: the faces may take less power then.
+// Halves that a surface cuts are not wet as their faces are: these may take less power then.
 Wrench WingLift::bySection(std::size_t number, const Twist& x, double density, const WetPart* wet,
                            const Wrench& on_faces) const noexcept {
   const One& wing = wings_[number];

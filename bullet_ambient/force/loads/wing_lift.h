@@ -61,11 +61,12 @@ class WingLift {
   /// in the fluid; null: all of it is.
   Wrench load(const Twist& x, double density, const MunkFactors& munk,
               const WetPart* wet) const noexcept;
-  /// What the section of a wing adds to the load on its faces, of which it takes at most the power.
+  /// Returns what the section of a wing adds to the load on its faces, and at most the power that
+  /// this takes.
   Wrench bySection(std::size_t wing, const Twist& x, double density, const WetPart* wet,
                    const Wrench& on_faces) const noexcept;
   /// Twist relative to the flow as a wing sees it behind others, docs/theory.md eq. (161c).
-  Twist seenBy(std::size_t wing, const Twist& x) const noexcept;
+  Twist seenBy(std::size_t wing, const Twist& x, const WetPart* wet) const noexcept;
   /// True: a wing is in the wake of another one, with which the power of all may be above 0.
   bool hasWakes() const { return !wakes_.empty(); }
 

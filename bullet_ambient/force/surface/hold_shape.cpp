@@ -82,7 +82,7 @@ HoldFill fillHold(const HoldShape& shape, const Vector3& normal, double volume,
       return fill;
     }
     if (fill.clips == 1) std::tie(low, high) = computeExtent(shape.hull(), normal);
-    (error > 0 ? high : low) = std::clamp(next, low, high);
+    if (low < next && next < high) (error > 0 ? high : low) = next;
     next = area > 0 ? next - error / area : low;
     if (!(low < next && next < high)) next = (low + high) / 2;
   }

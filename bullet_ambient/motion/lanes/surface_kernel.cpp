@@ -154,8 +154,9 @@ void exchangeWithSloshing(SurfaceLanes& bodies, int at, const Mask& active) {
     x = exchangeSlosh<Lanes>(mode, inverse, halfKick(bodies.flight, at), x);
     store(lanes.way + at, mode.way);
     store(lanes.velocity + at, mode.velocity);
-    energy = energy +
-             0.5 * mode.mass * (mode.velocity * mode.velocity + mode.square * mode.way * mode.way);
+    const Lanes own =
+        0.5 * mode.mass * (mode.velocity * mode.velocity + mode.square * mode.way * mode.way);
+    energy = mode.mass > Lanes{} ? energy + own : energy;
   }
   store(bodies.slosh_energy + at, energy);
   setTwist(bodies.flight, at, active, x);

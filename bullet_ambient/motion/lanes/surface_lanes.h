@@ -129,7 +129,7 @@ inline void forEachNumber(SloshOf<To>& to, const SloshOf<From>& from, const Act&
 /// Water in the holds of bodies, for exchangeSloshing() and shiftWater().
 struct alignas(64) WaterLanes {
   SloshOf<FlightLane> slosh[2];  ///< modes of one hold of each body
-  // What has moved in the flow, docs/theory.md eq. (142), (154).
+  // Change by water that has moved in the flow, docs/theory.md eq. (142), (154).
   FlightLane change[kSymmetricEntries];  ///< of K by it
   FlightLane momentum[6];                ///< that its sloshing gives the body, in B
   FlightLane energy2;                    ///< twice the energy that this gives [J]

@@ -25,8 +25,8 @@ inline SpatialsOf<Real> exchangeSlosh(SloshOf<Real>& mode, const SymmetricOf<Rea
       (mode.velocity - dot(mode.motion, x) - half * inverse_mass * stiffness * mode.way) /
       (one + half * inverse_mass * (loss + half * stiffness));
   const Real impulse = duration * (stiffness * (mode.way + half * rate) + loss * rate);
-  mode.way = mode.way + duration * rate;
-  mode.velocity = mode.velocity - impulse / mass;
+  mode.way = is_there ? mode.way + duration * rate : mode.way;
+  mode.velocity = is_there ? mode.velocity - impulse / mass : mode.velocity;
   return select(is_there, x + impulse * answer, x);
 }
 

@@ -181,9 +181,13 @@ class SurfaceFlights {
     for (std::size_t hold = 0; setSlosh(hold); ++hold) {
       kernel_.exchangeSloshing(lanes_);
       for (int i = 0; i < count_; ++i)
-        if (progress_[i].hasWater())
+        if (hasHold(i, hold))
           moveSlosh(*lanes_.water, i, progress_[i].slosh, progress_[i].sloshing() + hold);
     }
+  }
+  bool hasHold(int i, std::size_t hold) const {
+    const Progress& p = progress_[i];
+    return p.hasWater() && hold < p.model().holds->shapes.size();
   }
   /// Sets the lanes of sloshing. False: no body has water and so many holds.
   bool setSlosh(std::size_t hold) {
@@ -192,7 +196,7 @@ class SurfaceFlights {
       Progress& p = progress_[i];
       if (!p.hasWater()) continue;
       for (SloshOf<FlightLane>& lanes : lanes_.water->slosh) lanes.mass[i] = 0;
-      if (!isActive(i) || hold >= p.model().holds->shapes.size()) continue;
+      if (!isActive(i) || !hasHold(i, hold)) continue;
       is_any = true;
       if (hold == 0) lanes_.slosh_energy[i] = 0;
       ambient::setSlosh(*lanes_.water, i, sloshingAt(i), hold, p.flight->task.water.damping,

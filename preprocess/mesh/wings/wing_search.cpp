@@ -445,7 +445,7 @@ class WingSearch {
     return wings_.size() == 1 && static_cast<double>(own) > kNearly * count();
   }
 
-  /// True if one wing, not joined, is most of the body.
+  /// True if one wing, not joined and no aerofoil, is most of the body.
   bool isWhole(const std::vector<std::uint8_t>& labels, int count) const {
     constexpr double kMost = 0.6;
     if (count > 1) return false;
@@ -455,7 +455,9 @@ class WingSearch {
       all += area;
       own += labels[t] * area;
     }
-    return own > kMost * all && !measureWings(mesh_, labels, false).front().wing.is_joined;
+    if (!(own > kMost * all)) return false;
+    const Wing wing = measureWings(mesh_, labels, false).front().wing;
+    return !wing.is_joined && wing.nose == 0;
   }
 
   const TriangleMesh& mesh_;

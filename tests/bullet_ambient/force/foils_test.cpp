@@ -93,6 +93,8 @@ TEST(Foils, KeepTheSuctionOfRoundNoses) {
   for (const Vector3& none :
        {coefficientsOf(thin, alongChord(i)), coefficientsOf(thick, alongChord(kPi - i))})
     EXPECT_NEAR(none.x(), 0, 1e-12);
+  for (const double speed : {0.0, 1e-170, 1e-150})
+    EXPECT_TRUE(Foils({thick}).load(alongChord(i, speed), 1, nullptr).force.allFinite()) << speed;
   // They stall later.
   EXPECT_GT(coefficientsOf(thick, alongChord(0.28)).z(),
             1.1 * coefficientsOf(thin, alongChord(0.28)).z());

@@ -217,6 +217,17 @@ TEST(Wings, BehindOthersMeetTheirDownwash) {
   const double of_tail = 0.6 * slope(2 / 0.6) * up * 1.2 * 2 / 2;
   EXPECT_NEAR(lost, -e * of_tail, 0.03 * e * of_tail);
   EXPECT_NEAR(force(loads, -1, -up), force(free, -1, -up), 1e-9);
+  // At rest, nearly so, and behind a wing that is out of the water, there is none.
+  for (const double speed : {0.0, 1e-170})
+    EXPECT_EQ(force(loads, speed, -0.01 * speed), force(free, speed, -0.01 * speed)) << speed;
+  const WetPart aft{{{1, 0, 0}, -2, 1.2, 9.81}, 0.2};
+  const auto wetForce = [&](const FluidBody& body) {
+    return makeWaterlineLoads(std::make_shared<FluidBody>(body), {1.2, 0, {}, {}},
+                              flowOf(LoadPrecision::kDouble))
+        ->wetLoad({Vector3::Zero(), {1, 0, -up}}, aft)
+        .force.z();
+  };
+  EXPECT_NEAR(wetForce(both), wetForce(apart), 1e-9);
 }
 
 TEST(Wings, NeverFeedEnergy) {
