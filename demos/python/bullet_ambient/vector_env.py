@@ -64,7 +64,7 @@ class VectorEnv(_Base):  # type: ignore[misc]
 
     Parameters
     ----------
-    batch : WorldBatch, or the scene of one, which the other arguments make
+    batch : WorldBatch, or the scene of one, which `worlds` and the other arguments make
     autoreset : "next_step": the call after the end of an episode resets, ignores the action, and gives reward 0; "same_step":
         the call that ends an episode resets, with the last observations in infos["final_obs"]; "disabled": reset() alone does
     copy : False: observations are overwritten by the next call
@@ -100,6 +100,8 @@ class VectorEnv(_Base):  # type: ignore[misc]
             raise ValueError(f"render_mode is {render_mode!r}; must be None or one of {_RENDERED}")
         if autoreset not in _MODES:
             raise ValueError(f"autoreset is {autoreset!r}; must be one of {sorted(_MODES)}")
+        if isinstance(batch, WorldBatch) and (settings or worlds not in (1, batch.worlds)):
+            raise ValueError(f"a WorldBatch has its worlds and settings already; not taken: {', '.join(settings) or 'worlds'}")
         self.batch = batch if isinstance(batch, WorldBatch) else WorldBatch(batch, worlds, **settings)
         self.num_envs, self.closed, self.spec, self.render_mode = self.batch.worlds, False, None, render_mode
         self.metadata = {"autoreset_mode": _Mode(_MODES[autoreset]), "render_modes": _RENDERED}

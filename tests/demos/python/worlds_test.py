@@ -124,6 +124,11 @@ class VectorEnvTest(unittest.TestCase):
         for mask in (np.zeros(WORLDS, bool), np.ones(WORLDS), [True] * WORLDS, np.ones(3, bool)):
             with self.assertRaisesRegex(ValueError, "reset_mask"):
                 env.reset(options={"reset_mask": mask})
+        batch = ba.WorldBatch(SCENE, 3, **MORE)
+        self.assertEqual(Drift(batch).num_envs, 3)
+        for wrong in ({"worlds": 4}, {"substeps": 5}):
+            with self.assertRaisesRegex(ValueError, f"a WorldBatch has .*{next(iter(wrong))}"):
+                Drift(batch, **wrong)
         with self.assertRaisesRegex(ValueError, "autoreset"):
             Drift(SCENE, WORLDS, autoreset="never", **MORE)
         with self.assertRaisesRegex(ValueError, "waves"):
