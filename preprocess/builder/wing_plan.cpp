@@ -202,7 +202,8 @@ WingPlan planWings(const std::string& wanted, const TriangleMesh& mesh,
 
 std::string wingsText(const std::string& wanted) {
   if (wanted == "none") return "";
-  return ", wings and sections " + (wanted == "auto" ? wanted : hashText(fnv1a64(readBytes(wanted))));
+  return ", wings and sections " +
+         (wanted == "auto" ? wanted : hashText(fnv1a64(readBytes(wanted))));
 }
 
 void setWings(const WingPlan& plan, const TriangleMesh& mesh, std::vector<std::uint8_t> labels,
