@@ -144,6 +144,15 @@ py::list wingsOf(const FluidBody& body) {
   return wings;
 }
 
+void bindParts(py::class_<FluidBody, FluidBodyPtr>& type) {
+  type.def_property_readonly(
+          "holds", holdsOf,
+          "Rooms that stay dry: name, volume [m^3], centre (3,) in F [m], number of openings.")
+      .def_property_readonly("wings", wingsOf,
+                             "Parts that lift where they are, dicts as of `ambient_preprocess "
+                             "inspect`; lengths in m, axes and centres (3,) in F.");
+}
+
 void bindProperties(py::class_<FluidBody, FluidBodyPtr>& type) {
   const auto get = [&type](const char* name, auto function, const char* doc) {
     type.def_property_readonly(name, function, doc);
@@ -193,12 +202,6 @@ void bindProperties(py::class_<FluidBody, FluidBodyPtr>& type) {
   get(
       "waterline_table", [](const FluidBody& b) { return b.waterline.subdivisions; },
       "Number of divisions of the table of added mass at the surface of water; 0: no table.");
-  get("holds", holdsOf,
-      "Rooms that stay dry: name, volume [m^3], centre (3,) in F [m], number of openings.");
-  get("wings", wingsOf,
-      "Parts that lift where they are, dicts as of `ambient_preprocess inspect`; lengths in m, "
-      "axes "
-      "and centres (3,) in F.");
   get(
       "settings", [](const FluidBody& b) { return b.provenance.settings; },
       "Settings of its build, in words.");
@@ -320,6 +323,7 @@ Frame F: axes of the mesh, origin at the centre of volume unless chosen otherwis
                         "Loads on one body in one medium; made by FluidBody.loads_in().")
       .def("__call__", &loadsFor, py::arg("twists"), "Returns the wrenches of FluidBody.loads().");
   bindProperties(type);
+  bindParts(type);
   bindMakers(type);
   bindLoads(type);
   bindExport(type);

@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 using Chosen = std::vector<int>;  // numbers of samples
 
 constexpr int kSamples = 3000;
-constexpr double kReach = 2.2;        // spacings between neighbours
+constexpr double kApart = 2.2;        // spacings between neighbours
 constexpr double kBend = 0.81915204;  // cos 35 degrees: neighbours of one wing face alike
 constexpr double kMostRatio = 4;      // of their thicknesses
 constexpr double kLeastArea = 0.01;   // of a wing over that of the body
@@ -78,7 +78,7 @@ class WingSearch {
   /// Thin samples that hang together by their mean surface.
   std::vector<Chosen> pieces() const {
     DisjointSets sets(samples_.all.size());
-    const double reach = kReach * samples_.spacing;
+    const double reach = kApart * samples_.spacing;
     for (int a = 0; a < count(); ++a) {
       if (!sample(a).is_thin) continue;
       for (int b = a + 1; b < count(); ++b) {
@@ -115,7 +115,7 @@ class WingSearch {
     for (const int i : piece) thicknesses.push_back(sample(i).thickness);
     const auto half = thicknesses.begin() + static_cast<std::ptrdiff_t>(thicknesses.size() / 2);
     std::nth_element(thicknesses.begin(), half, thicknesses.end());
-    const double median = *half, reach = kReach * samples_.spacing + 0.25 * median;
+    const double median = *half, reach = kApart * samples_.spacing + 0.25 * median;
     const Chosen thin = piece;
     for (int i = 0; i < count(); ++i) {
       if (sample(i).is_thin || sample(i).thickness > 1.3 * median) continue;
@@ -326,8 +326,8 @@ class WingSearch {
     for (std::size_t w = 0; w < wings_.size(); ++w) {
       Eigen::AlignedBox3d box;
       for (const int i : wings_[w].samples) box.extend(sample(i).place);
-      box.extend(Vector3d(box.min().array() - kReach * samples_.spacing));
-      box.extend(Vector3d(box.max().array() + kReach * samples_.spacing));
+      box.extend(Vector3d(box.min().array() - kApart * samples_.spacing));
+      box.extend(Vector3d(box.max().array() + kApart * samples_.spacing));
       for (std::size_t t = 0; t < labels.size(); ++t) {
         const Vector3d place = mesh_.barycentre(static_cast<Eigen::Index>(t));
         if (labels[t] == 0 && box.contains(place) && isOnEdge(w, static_cast<Eigen::Index>(t)))

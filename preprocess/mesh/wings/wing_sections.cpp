@@ -120,7 +120,7 @@ void setSection(const TriangleMesh& mesh, const std::vector<Eigen::Index>& trian
   if (!(wing.thickness > kThinnest * wing.chord)) return;
   double noses = 0, chords = 0, angles = 0;
   for (int i = 0; i < kSections; ++i) {
-    const double place = (i - (kSections - 1) / 2) / (kSections + 1.0);
+    const double place = (i + 1) / (kSections + 1.0) - 0.5;
     const Section section = sectionAt(mesh, triangles, wing, place);
     const double nose = noseOf(section);
     if (nose == 0) continue;
