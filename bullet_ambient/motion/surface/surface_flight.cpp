@@ -159,8 +159,9 @@ class SurfaceFlights {
     if (!lanes_.water) lanes_.water = &water_.emplace();
     VesselSloshing& sloshing = *flight.task.water.sloshing;
     sloshing.moved = sloshing.now;
-    joinVessel(sloshingAt(i), p.start.twist.vector(), p.sloshing());
-    lanes_.slosh_energy[i] = energyOfSloshing(sloshingAt(i), p.sloshing()).sum();
+    const SloshingAt at = waterAt(i).sloshing();
+    joinVessel(at, p.start.twist.vector(), p.sloshing());
+    lanes_.slosh_energy[i] = energyOfSloshing(at, p.sloshing()).sum();
   }
 
   /// The water in the holds of a body that has some, where it is now.
@@ -168,12 +169,6 @@ class SurfaceFlights {
     const Progress& p = progress_[i];
     return {p.model(), *p.place, orientationOf(lanes_.flight.orientation, i).toRotationMatrix(),
             vectorOf(lanes_.flight.displacement_W, i)};
-  }
-
-  SloshingAt sloshingAt(int i) const {
-    const Progress& p = progress_[i];
-    return {p.model().excess_density, p.place->inside_F->modes, p.model().holds->shapes.size(),
-            orientationOf(lanes_.flight.orientation, i).toRotationMatrix()};
   }
 
   /// Lets the water in the holds slosh for half of a kick, one hold of each body after the other.
@@ -199,7 +194,7 @@ class SurfaceFlights {
       if (!isActive(i) || !hasHold(i, hold)) continue;
       is_any = true;
       if (hold == 0) lanes_.slosh_energy[i] = 0;
-      ambient::setSlosh(*lanes_.water, i, sloshingAt(i), hold, p.flight->task.water.damping,
+      ambient::setSlosh(*lanes_.water, i, waterAt(i).sloshing(), hold, p.flight->task.water.damping,
                         p.sloshing()[hold], p.slosh);
     }
     return is_any;
