@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -61,14 +62,15 @@ struct LinkShape {
   std::vector<std::unique_ptr<btCollisionShape>> parts;
   std::unique_ptr<btCompoundShape> in_body;  ///< shape of the link's collider, in B
   std::unique_ptr<btCompoundShape>
-      in_link;  ///< the same shape in the link's frame, for fluid bodies
+      in_link;                        ///< the same shape in the link's frame, for fluid bodies
+  std::vector<std::string> warnings;  ///< of hulls that are much larger than their meshes
 
   bool isEmpty() const { return parts.empty(); }
 };
 
 /// Makes the collision shapes of a link: spheres, boxes, ellipsoids, cylinders and capsules as they
-/// are; a mesh becomes its convex hull. The margin is one per cent of the least size. Cost: that of
-/// reading the mesh files.
+/// are; a mesh becomes its convex hull, one of several objects a hull of each, as by Bullet's own
+/// importer. The margin is one per cent of the least size. Cost: that of reading the mesh files.
 /// @throws std::runtime_error in one line that names the file.
 LinkShape makeLinkShape(const LinkModel& link, const RigidPose& link_in_body);
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 
@@ -127,6 +128,8 @@ Robot::Robot(RobotModel model, const RobotSettings& settings)
     frames_.push_back(findMassFrame(link));
     shapes_.push_back(makeLinkShape(link, frames_.back().link_in_body));
   }
+  for (LinkShape& shape : shapes_)
+    std::move(shape.warnings.begin(), shape.warnings.end(), std::back_inserter(model_.warnings));
   makeBody(settings);
   makeColliders();
   setPose(settings.pose);

@@ -86,7 +86,7 @@ struct RobotModel {
   std::string name;
   std::string source;  ///< the file; begins every message
   std::vector<LinkModel> links;
-  std::vector<std::string> warnings;  ///< what a user should know, one line each
+  std::vector<std::string> warnings;  ///< of a Robot: what a user should know, one line each
 
   /// Index of a link, or of the one that it was merged into. @throws std::runtime_error in one line
   /// with the known names.

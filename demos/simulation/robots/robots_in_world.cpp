@@ -49,6 +49,7 @@ std::shared_ptr<const FluidBody> fluidBodyOf(const LinkModel& link, const std::s
   if (link.fluid && !link.fluid->fluid_body.empty())
     return std::make_shared<const FluidBody>(readPrepared(link.fluid->fluid_body.string()));
   const LinkShape shape = makeLinkShape(link, RigidPose::Identity());
+  fluid_bodies.warn(shape.warnings);
   return fluid_bodies.get(*shape.in_link, name);
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 #include <sstream>
 
 #include "preprocess/mesh/import/scene_triangles.h"
@@ -40,6 +41,16 @@ void weld(ImportedMesh& imported, const std::string& name) {
   imported.warnings.push_back(text.str());
 }
 
+// Reads a file that has triangles.
+SceneTriangles readTriangles(const std::filesystem::path& file) {
+  const std::string name = file.string();
+  requireRegularFile(file, "mesh");
+  if (std::filesystem::file_size(file) == 0) raiseInputError(name, "the file is empty");
+  SceneTriangles scene = readSceneTriangles(file);
+  if (scene.mesh.triangleCount() == 0) raiseInputError(name, "there are no triangles");
+  return scene;
+}
+
 }  // namespace
 
 ImportedMesh importMesh(const std::filesystem::path& file, double scale) {
@@ -47,11 +58,8 @@ ImportedMesh importMesh(const std::filesystem::path& file, double scale) {
   if (!std::isfinite(scale) || scale <= 0) {
     raiseInputError(name, "scale = ", scale, " is not positive and finite");
   }
-  requireRegularFile(file, "mesh");
-  if (std::filesystem::file_size(file) == 0) raiseInputError(name, "the file is empty");
-  SceneTriangles scene = readSceneTriangles(file);
+  SceneTriangles scene = readTriangles(file);
   ImportedMesh imported{std::move(scene.mesh), {}};
-  if (imported.mesh.triangleCount() == 0) raiseInputError(name, "there are no triangles");
   if (!scene.warning.empty()) imported.warnings.push_back(name + ": " + scene.warning);
   if (scene.points_and_lines > 0) {
     imported.warnings.push_back(name + ": " + std::to_string(scene.points_and_lines) +
@@ -63,6 +71,25 @@ ImportedMesh importMesh(const std::filesystem::path& file, double scale) {
   if (imported.mesh.triangleCount() == 0)
     raiseInputError(name, "all triangles are points or lines");
   return imported;
+}
+
+std::vector<TriangleMesh> importObjects(const std::filesystem::path& file) {
+  const SceneTriangles scene = readTriangles(file);
+  const std::string ending = file.extension().string();
+  const bool has_objects = ending == ".obj" || ending == ".OBJ";
+  std::map<std::string, std::size_t> places;  // a name has several nodes if its materials change
+  std::vector<std::vector<Eigen::Vector3i>> triangles;
+  for (Eigen::Index t = 0; t < scene.mesh.triangleCount(); ++t) {
+    const int node = has_objects ? scene.nodes[static_cast<std::size_t>(t)] : -1;
+    const std::string name = node < 0 ? "" : scene.names[static_cast<std::size_t>(node)];
+    const auto [place, is_new] = places.try_emplace(name, triangles.size());
+    if (is_new) triangles.emplace_back();
+    triangles[place->second].push_back(scene.mesh.triangles.col(t));
+  }
+  std::vector<TriangleMesh> objects;
+  for (const auto& of_object : triangles)
+    objects.push_back(withUsedVertices(scene.mesh.vertices, of_object));
+  return objects;
 }
 
 }  // namespace ambient

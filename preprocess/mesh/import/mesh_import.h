@@ -28,4 +28,9 @@ struct ImportedMesh {
 /// no triangles, or if the scale is not positive and finite.
 ImportedMesh importMesh(const std::filesystem::path& file, double scale = 1);
 
+/// Reads the objects of an OBJ file, which begin with its lines `o` and `g`, in their order, each
+/// with the vertices that it uses: parts of a convex decomposition, say. Any other file is one.
+/// @throws as importMesh()
+std::vector<TriangleMesh> importObjects(const std::filesystem::path& file);
+
 }  // namespace ambient

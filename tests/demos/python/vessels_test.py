@@ -33,12 +33,26 @@ def tray_obj():
     return "".join(f"v {x} {y} {z}\n" for x, y, z in corners) + "".join("f " + " ".join(map(str, face)) + "\n" for face in faces)
 
 
-def tray_urdf():
-    boxes = "".join(
-        f'<collision><origin xyz="{x} {y} {z}"/><geometry><box size="{a} {b} {c}"/></geometry></collision>' for (a, b, c), (x, y, z) in zip(SIZES, PLACES)
-    )
+def pieces_obj():
+    """The tray as a convex decomposition: an object for each of its boxes."""
+    text = ""
+    for number, (size, place) in enumerate(zip(SIZES, PLACES)):
+        text += f"o piece_{number}\n"
+        for corner in range(8):
+            text += "v " + " ".join(str(p + (0.5 if corner >> k & 1 else -0.5) * s) for k, (s, p) in enumerate(zip(size, place))) + "\n"
+        for face in ((1, 3, 4, 2), (5, 6, 8, 7), (1, 2, 6, 5), (3, 7, 8, 4), (1, 5, 7, 3), (2, 4, 8, 6)):
+            text += "f " + " ".join(str(8 * number + corner) for corner in face) + "\n"
+    return text
+
+
+BOXES = "".join(
+    f'<collision><origin xyz="{x} {y} {z}"/><geometry><box size="{a} {b} {c}"/></geometry></collision>' for (a, b, c), (x, y, z) in zip(SIZES, PLACES)
+)
+
+
+def tray_urdf(collisions=BOXES):
     inertial = '<inertial><origin xyz="0 0 0.1"/><mass value="60"/><inertia ixx="4.1" iyy="8.3" izz="10.4" ixy="0" ixz="0" iyz="0"/></inertial>'
-    return f'<robot name="tray"><link name="tray">{inertial}{boxes}</link></robot>'
+    return f'<robot name="tray"><link name="tray">{inertial}{collisions}</link></robot>'
 
 
 def world_of(step, folder=".", air=None, **of):
@@ -55,12 +69,15 @@ class DoorsTest(unittest.TestCase):
     def test_a_tray_is_a_vessel_by_every_way_in(self):
         with tempfile.TemporaryDirectory() as folder:
             (Path(folder) / "tray.obj").write_text(tray_obj())
+            (Path(folder) / "pieces.obj").write_text(pieces_obj())
             (Path(folder) / "tray.urdf").write_text(tray_urdf())
+            (Path(folder) / "pieces.urdf").write_text(tray_urdf('<collision><geometry><mesh filename="pieces.obj"/></geometry></collision>'))
             body = {"name": "tray", "mass": 60, "position": [0, 0, 0.1], "centre_of_mass": [0, 0, 0.1]}
             doors = {
                 "JSON": {"bodies": [{**body, "shape": TRAY}]},
                 "mesh file": {"bodies": [{**body, "shape": {"type": "mesh", "file": "tray.obj"}}]},
                 "URDF": {"robots": [{"name": "robot", "urdf": "tray.urdf", "position": [0, 0, 0.05]}]},
+                "hulls of URDF": {"robots": [{"name": "robot", "urdf": "pieces.urdf", "position": [0, 0, 0.05]}]},
             }
             for name, scene in doors.items():
                 for step in (1 / 30, 1 / 240):

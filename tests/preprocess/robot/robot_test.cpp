@@ -1,14 +1,19 @@
 #include "preprocess/robot/robot.h"
 
+#include <BulletCollision/CollisionShapes/btConvexHullShape.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 
 #include "preprocess/collision_shape/fluid_body_cache.h"
+#include "preprocess/mesh/mass_properties.h"
+#include "preprocess/mesh/shapes/convex_hull.h"
 #include "tests/preprocess/robot/fluid_robot_world.h"
 #include "tests/preprocess/robot/urdf_text_of.h"
 #include "tests/reference/ellipsoid_added_mass.h"
 #include "tests/support/refusal_of.h"
+#include "tests/support/temporary_folder.h"
 
 namespace ambient {
 namespace {
@@ -212,6 +217,72 @@ TEST(Robot, RefusesBadSettings) {
   const RobotModel missing = parseRobot(massiveLink(
       "a", "<collision><geometry><mesh filename=\"missing.obj\"/></geometry></collision>"));
   EXPECT_THROW(Robot(missing, {}), std::runtime_error);
+}
+
+constexpr const char* kTwoPieces = R"(o floor
+v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+v 0 0 0.1
+v 1 0 0.1
+v 1 1 0.1
+v 0 1 0.1
+f 4 3 2 1
+f 5 6 7 8
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f 4 1 5 8
+o wall
+v 0 0 1
+v 0.1 0 1
+v 0.1 1 1
+v 0 1 1
+v 0 0 0.1
+v 0.1 0 0.1
+v 0.1 1 0.1
+v 0 1 0.1
+f 9 10 11 12
+f 16 15 14 13
+f 9 13 14 10
+f 10 14 15 11
+f 11 15 16 12
+f 12 16 13 9
+)";
+
+// An L of a floor and a wall: 0.19 m^3, its convex hull 0.1 + 0.9 (0.1 + 1) / 2 = 0.595 m^3.
+TEST(Robot, MeshesOfSeveralObjectsAreAHullOfEach) {
+  const TemporaryFolder folder;
+  const std::string text = kTwoPieces;
+  const auto hullsOf = [&](const std::string& obj) {
+    std::ofstream(folder / "l.obj") << obj;
+    const std::string mesh = "<mesh filename=\"" + (folder / "l.obj").string() + "\"/>";
+    const RobotModel model =
+        parseRobot(massiveLink("a", "<collision><geometry>" + mesh + "</geometry></collision>"));
+    const Robot robot(model, {});
+    double volume = 0;
+    const btCompoundShape& shape = *robot.shape(-1).in_link;
+    for (int i = 0; i < shape.getNumChildShapes(); ++i) {
+      const auto& hull = static_cast<const btConvexHullShape&>(*shape.getChildShape(i));
+      Eigen::Matrix3Xd points(3, hull.getNumPoints());
+      for (int k = 0; k < hull.getNumPoints(); ++k)
+        points.col(k) = toVector3(hull.getScaledPoint(k));
+      volume += sumOfVolumes({makeConvexHull(points, "hull")});
+    }
+    return std::make_pair(volume, robot.model().warnings);
+  };
+  const auto [of_two, said_of_two] = hullsOf(text);
+  constexpr double kRounding = 1e-4;  // of btConvexHullComputer, over half of the extent
+  EXPECT_NEAR(of_two, 0.19, kRounding);
+  EXPECT_TRUE(said_of_two.empty());
+  std::string as_one = text;
+  for (const char* line : {"o floor\n", "o wall\n"})
+    as_one.erase(as_one.find(line), std::string(line).size());
+  const auto [of_one, said_of_one] = hullsOf(as_one);
+  EXPECT_NEAR(of_one, 0.595, kRounding);
+  ASSERT_EQ(said_of_one.size(), 1U);
+  EXPECT_NE(said_of_one[0].find("has 3.1 times its volume"), std::string::npos) << said_of_one[0];
 }
 
 // Two arms of one base that overlap by 0.05 m, without a joint between the arms.
