@@ -5,8 +5,10 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "bullet_ambient/spatial/spatial_vectors.h"
@@ -89,6 +91,25 @@ void writeOrOsError(const Write& write) {
   } catch (const std::runtime_error& error) {
     PyErr_SetString(PyExc_OSError, error.what());
     throw pybind11::error_already_set();
+  }
+}
+
+/// Converts a number, bool or text that a program has given. @throws TypeError that begins with
+/// `name`, for values of another type and for whole numbers that are too large
+template <class Value>
+Value valueFrom(const pybind11::handle& value, const std::string& name) {
+  try {
+    return value.cast<Value>();
+  } catch (const pybind11::cast_error&) {
+    std::string wanted = "a text";
+    if constexpr (std::is_same_v<Value, bool>)
+      wanted = "True or False";
+    else if constexpr (std::is_integral_v<Value>)
+      wanted = "a whole number of at most " + std::to_string(std::numeric_limits<Value>::max());
+    else if constexpr (std::is_floating_point_v<Value>)
+      wanted = "a number";
+    throw pybind11::type_error(name + " is " + std::string(pybind11::repr(value)) + "; must be " +
+                               wanted);
   }
 }
 

@@ -68,17 +68,19 @@ PolarQuestion polarQuestion(const FluidBody& body, const py::kwargs& given) {
     question.medium = mediumFrom(medium);
   question.flow = flowFrom(get("flow", py::none()));
   PolarFlight& flight = question.flight;
-  const auto forward = axisNamed(get("forward", py::str("x")).cast<std::string>());
-  const auto up = axisNamed(get("up", py::str("z")).cast<std::string>());
+  const auto forward = axisNamed(valueFrom<std::string>(get("forward", py::str("x")), "forward"));
+  const auto up = axisNamed(valueFrom<std::string>(get("up", py::str("z")), "up"));
   if (forward.dot(up) != 0) throw py::value_error("up is along forward");
   flight.axes = flightAxes(forward, up);
   flight.density = question.medium.density;
-  flight.speed = get("speed", py::float_(1.0)).cast<double>();
+  const auto number = [&](const char* key, double absent) {
+    return valueFrom<double>(get(key, py::float_(absent)), key);
+  };
+  flight.speed = number("speed", 1);
   flight.reference = usualReference(body, flight.axes);
   flight.added_mass = body.added_mass.bottomRightCorner<3, 3>();
-  flight.reference.area = get("reference_area", py::float_(flight.reference.area)).cast<double>();
-  flight.reference.length =
-      get("reference_length", py::float_(flight.reference.length)).cast<double>();
+  flight.reference.area = number("reference_area", flight.reference.area);
+  flight.reference.length = number("reference_length", flight.reference.length);
   if (!(flight.density > 0) || !(flight.speed > 0) || !(flight.reference.area > 0) ||
       !(flight.reference.length > 0))
     throw py::value_error("density, speed, reference_area and reference_length must be above 0");

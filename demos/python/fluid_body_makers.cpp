@@ -240,11 +240,11 @@ SourceSettings settingsFrom(const std::string& name, const py::kwargs& given) {
     if (word == "origin")
       settings.origin = vectorFrom(py::cast<InputArray>(value), word);
     else if (word == "panels")
-      settings.flow.max_panels = value.cast<int>();
+      settings.flow.max_panels = valueFrom<int>(value, word);
     else if (word == "threads")
-      settings.flow.threads = value.cast<int>();
+      settings.flow.threads = valueFrom<int>(value, word);
     else if (word == "waterline_table")
-      settings.waterline_subdivisions = value.cast<int>();
+      settings.waterline_subdivisions = valueFrom<int>(value, word);
     else if (word == "holds")
       settings.holds.is_wanted = holdsWanted(value);
     else if (word == "wings")
@@ -256,7 +256,7 @@ SourceSettings settingsFrom(const std::string& name, const py::kwargs& given) {
     else if (word == "up")
       settings.holds.up = directionFrom(py::cast<InputArray>(value), word);
     else if (word == "strict")
-      settings.strict = value.cast<bool>();
+      settings.strict = valueFrom<bool>(value, word);
     else if (word == "cache")
       settings.cache = pathFrom(py::reinterpret_borrow<py::object>(value));
     else

@@ -39,6 +39,11 @@ void refuse(const char* who, const std::optional<NumberFault>& fault) {
   throw std::invalid_argument(sentence.str());
 }
 
+template <class Value>
+Value member(const py::object& settings, const char* name) {
+  return valueFrom<Value>(settings.attr(name), name);
+}
+
 Vector3 vectorAt(const py::object& settings, const char* name) {
   const auto numbers = settings.attr(name).cast<std::array<double, 3>>();
   return {numbers[0], numbers[1], numbers[2]};
@@ -48,9 +53,8 @@ Vector3 vectorAt(const py::object& settings, const char* name) {
 
 Medium mediumFrom(const py::object& settings) {
   requireClass(settings, "Medium");
-  const Medium medium{settings.attr("density").cast<double>(),
-                      settings.attr("viscosity").cast<double>(), vectorAt(settings, "velocity"),
-                      vectorAt(settings, "acceleration")};
+  const Medium medium{member<double>(settings, "density"), member<double>(settings, "viscosity"),
+                      vectorAt(settings, "velocity"), vectorAt(settings, "acceleration")};
   refuse("Medium: ", faultOf(medium));
   return medium;
 }
@@ -59,15 +63,15 @@ FlowSettings flowFrom(const py::object& settings) {
   FlowSettings flow;
   if (settings.is_none()) return flow;
   requireClass(settings, "FlowSettings");
-  const auto word = settings.attr("law").cast<std::string>();
+  const auto word = member<std::string>(settings, "law");
   const auto law = valueOf(kPressureLawNames, word);
   if (!law) throw std::invalid_argument("law is \"" + word + "\"; must be form or published");
   flow.law = *law;
-  flow.separation_angle = settings.attr("separation_angle").cast<double>();
-  flow.roughness = settings.attr("roughness").cast<double>();
-  flow.skin_friction = settings.attr("skin_friction").cast<bool>();
-  flow.maximum_load_error = settings.attr("maximum_load_error").cast<double>();
-  flow.stall_lag = settings.attr("stall_lag").cast<double>();
+  flow.separation_angle = member<double>(settings, "separation_angle");
+  flow.roughness = member<double>(settings, "roughness");
+  flow.skin_friction = member<bool>(settings, "skin_friction");
+  flow.maximum_load_error = member<double>(settings, "maximum_load_error");
+  flow.stall_lag = member<double>(settings, "stall_lag");
   refuse("FlowSettings: ", faultOf(flow));
   return flow;
 }

@@ -60,13 +60,13 @@ void copyMotion(const SweepRun& run, Motion& to) {
 /// each run that ended; without `texts` the last two are empty.
 py::tuple runScenes(const std::vector<Scene>& scenes, const py::function& take,
                     const py::kwargs& more) {
-  const bool with_texts = more["texts"].cast<bool>();
-  std::unique_ptr<Motion> motion = makeMotion(scenes, more["motion"].cast<bool>());
+  const bool with_texts = valueFrom<bool>(more["texts"], "texts");
+  std::unique_ptr<Motion> motion = makeMotion(scenes, valueFrom<bool>(more["motion"], "motion"));
   PythonWatch watch(more["progress"]);
   SweepSettings settings;
-  settings.threads = more["threads"].cast<int>();
+  settings.threads = valueFrom<int>(more["threads"], "threads");
   settings.fluid_bodies = folderFrom(more["cache"]);
-  if (more["report"].cast<bool>()) settings.report = printReport;
+  if (valueFrom<bool>(more["report"], "report")) settings.report = printReport;
   settings.take = [&](const SweepRun& run) {
     const std::string summary = makeSummary(run.scene, run.bodies, run.record);
     std::string trajectory, geometry;

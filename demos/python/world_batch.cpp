@@ -51,7 +51,7 @@ class PythonBatch {
 
 template <class Value>
 Value take(const py::dict& from, const char* key, const Value& absent) {
-  return from.contains(key) ? from[key].cast<Value>() : absent;
+  return from.contains(key) ? valueFrom<Value>(from[key], key) : absent;
 }
 
 Vector3 vectorIn(const py::dict& from, const char* key) {
@@ -61,7 +61,7 @@ Vector3 vectorIn(const py::dict& from, const char* key) {
 template <class Def>
 Def fieldFrom(const py::dict& from) {
   Def def;
-  def.kind = from["kind"].cast<std::string>();
+  def.kind = valueFrom<std::string>(from["kind"], "kind");
   def.body = take(from, "body", def.body);
   if constexpr (!std::is_same_v<Def, VariationDef>) def.rows = take(from, "rows", def.rows);
   return def;
@@ -74,11 +74,11 @@ std::vector<double> boundFrom(const py::dict& from, const char* key) {
 
 BatchSettings settingsFrom(const py::dict& from) {
   BatchSettings settings;
-  settings.worlds = from["worlds"].cast<int>();
-  settings.substeps = from["substeps"].cast<int>();
-  settings.threads = from["threads"].cast<int>();
-  settings.seed = from["seed"].cast<std::uint64_t>();
-  settings.most_steps = from["most_steps"].cast<long long>();
+  settings.worlds = valueFrom<int>(from["worlds"], "worlds");
+  settings.substeps = valueFrom<int>(from["substeps"], "substeps");
+  settings.threads = valueFrom<int>(from["threads"], "threads");
+  settings.seed = valueFrom<std::uint64_t>(from["seed"], "seed");
+  settings.most_steps = valueFrom<long long>(from["most_steps"], "most_steps");
   settings.fluid_bodies = folderFrom(from["cache"]);
   for (const py::handle entry : from["actions"]) {
     const auto of = entry.cast<py::dict>();
@@ -103,7 +103,8 @@ BatchSettings settingsFrom(const py::dict& from) {
   }
   if (from.contains("gust")) {
     const auto gust = from["gust"].cast<py::dict>();
-    settings.gust = GaussMarkovGusts{vectorIn(gust, "intensity"), gust["time"].cast<double>()};
+    settings.gust =
+        GaussMarkovGusts{vectorIn(gust, "intensity"), valueFrom<double>(gust["time"], "time")};
   }
   return settings;
 }

@@ -36,6 +36,16 @@ void requireFinite(const std::string& key, double value, bool is_fine, const cha
   if (!std::isfinite(value) || !is_fine) raiseInputError(key, "is ", value, "; must be ", limit);
 }
 
+/// Refuses what has a number for each thruster, foil or joint of a scene without any.
+void requireNumbers(const std::string& key, const std::string& kind, int size) {
+  if (size > 0) return;
+  const bool is_of_thrusters = kind.rfind("thrust", 0) == 0 || kind == "turns";
+  const char* things = is_of_thrusters              ? "thrusters"
+                       : kind.rfind("foil", 0) == 0 ? "foils"
+                                                    : "joints";
+  raiseInputError(key, "is \"", kind, "\", and the scene has no ", things);
+}
+
 /// Whether it varies one body; else all of the world.
 bool isOfBody(VariationKind kind) {
   return kind <= VariationKind::kCentreOfMass ||
@@ -60,6 +70,7 @@ std::vector<double> boundsOf(const std::string& key, std::vector<double> bounds,
 BatchPlan::BatchPlan(const Scene& from, const BatchSettings& with) : scene(from), settings(with) {
   requireFinite("worlds", settings.worlds, settings.worlds >= 1, ">= 1");
   requireFinite("substeps", settings.substeps, settings.substeps >= 1, ">= 1");
+  requireFinite("threads", settings.threads, settings.threads >= 0, ">= 0");
   requireFinite("together", settings.together, settings.together >= 1, ">= 1");
   requireFinite("most_steps", static_cast<double>(settings.most_steps), settings.most_steps >= 0,
                 ">= 0");
@@ -121,8 +132,6 @@ int BatchPlan::sizeOf(VariationKind kind) const {
 }
 
 std::vector<int> BatchPlan::rowsOf(const std::string& key, std::vector<int> rows, int size) {
-  if (size == 0)
-    raiseInputError(key, "has no numbers: the scene has no thrusters, foils or joints");
   most_numbers = std::max(most_numbers, size);
   if (rows.empty()) {
     rows.resize(static_cast<std::size_t>(size));
@@ -162,6 +171,7 @@ void BatchPlan::addAction(const ActionDef& def) {
   const std::string key = "actions[" + std::to_string(actions.size()) + "]";
   const ActionKind kind = kindOf(key, kActionNames, def.kind);
   requireFinite(key + ".scale", def.scale, true, "finite");
+  requireNumbers(key, def.kind, sizeOf(kind));
   std::vector<int> rows = rowsOf(key, def.rows, sizeOf(kind));
   const int size = static_cast<int>(rows.size());
   const std::size_t body = bodyOf(key, def.body);
@@ -176,7 +186,7 @@ void BatchPlan::addVariation(const VariationDef& def) {
   const std::string key = "variation \"" + def.kind + "\"";
   const VariationKind kind = kindOf(key, kVariationNames, def.kind);
   const int size = sizeOf(kind);
-  if (size == 0) raiseInputError(key, "has no numbers: the scene has no thrusters or joints");
+  requireNumbers(key, def.kind, size);
   if (kind == VariationKind::kGust && !settings.gust)
     raiseInputError(key, "is a factor on gusts, and there are none");
   const std::size_t body = bodyOf(key, def.body);
@@ -213,6 +223,7 @@ void BatchPlan::addObservation(const ObservationDef& def) {
   requireFinite(key + ".place", def.place.norm(), true, "finite");
   if (kind->size == kPerParameter && parameter_size == 0)
     raiseInputError(key, "has no numbers: nothing varies");
+  requireNumbers(key, def.kind, sizeOf(kind->size));
   std::vector<int> rows = rowsOf(key, def.rows, sizeOf(kind->size));
   const int size = static_cast<int>(rows.size());
   const std::size_t body = bodyOf(key, def.body);

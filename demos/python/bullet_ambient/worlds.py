@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import operator
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, SupportsIndex, Union
 
@@ -78,6 +78,14 @@ def _variation(name: str, bounds: Sequence[Any]) -> dict[str, Any]:
     return {"kind": kind, "body": body, "lowest": low, "highest": high, "is_logarithmic": is_logarithmic}
 
 
+def _fields(name: str, given: Sequence[str | dict[str, Any]], describe: Callable[[str], dict[str, Any]]) -> list[dict[str, Any]]:
+    fields = [describe(of) if isinstance(of, str) else of for of in ([given] if isinstance(given, str) else given)]
+    for index, of in enumerate(fields):
+        if not isinstance(of, dict):
+            raise TypeError(f"{name}[{index}] is {of!r}; must be a word or what {describe.__name__}() returns")
+    return fields
+
+
 def _columns(what: str, name: str, known: dict[str, slice]) -> slice:
     if name not in known:
         raise KeyError(f"{name} is not {what} here; there are {sorted(known)}")
@@ -130,8 +138,10 @@ class WorldBatch(_core._WorldBatch):
     ) -> None:
         settings: dict[str, Any] = {"worlds": worlds, "substeps": substeps, "most_steps": most_steps, "seed": _seed(seed)}
         settings.update(threads=threads, cache=cache)
-        settings["actions"] = [act(of) if isinstance(of, str) else of for of in actions]
-        settings["observations"] = [observe(of) if isinstance(of, str) else of for of in observations]
+        settings["actions"] = _fields("actions", actions, act)
+        settings["observations"] = _fields("observations", observations, observe)
+        if not isinstance(vary or {}, Mapping):
+            raise TypeError(f"vary is {vary!r}; must be a dict of keys and bounds")
         settings["variations"] = [_variation(name, bounds) for name, bounds in (vary or {}).items()]
         if gust is not None:
             if not isinstance(gust, Gust):
@@ -171,4 +181,8 @@ class WorldBatch(_core._WorldBatch):
         """
         if isinstance(seed, (int, np.integer)):
             seed = range(int(seed), int(seed) + self.worlds)
+        if mask is not None:
+            mask = np.asarray(mask)
+            if mask.dtype != np.bool_:
+                raise TypeError(f"mask has numbers of the type {mask.dtype}; must be bool")
         self._reset(mask, None if seed is None else [_seed(of) for of in seed], draws)

@@ -292,7 +292,9 @@ TEST(WorldBatch, RefusesInOneLine) {
             std::string::npos);
   BatchSettings settings;
   settings.actions = {{"thrusters"}};
-  EXPECT_NE(refusal(settings).find("has no numbers"), std::string::npos);
+  EXPECT_EQ(refusal(settings), "actions[0]: is \"thrusters\", and the scene has no thrusters");
+  settings.actions = {{"motor_velocity"}};
+  EXPECT_EQ(refusal(settings), "actions[0]: is \"motor_velocity\", and the scene has no joints");
   settings = {};
   settings.variations = {{"mass", "", {0}, {1}}};
   EXPECT_NE(refusal(settings).find("is 0; must be > 0"), std::string::npos);
