@@ -5,7 +5,7 @@
 Lists add up. `bullet_ambient.pybullet.Fluid` takes the same. Docs: wind.md.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any, Optional
 
 import numpy as np
@@ -32,7 +32,7 @@ def wind_profile(velocity: _Vector, *, height: float = 10, roughness: float = 0.
 
 def current_profile(depths: Sequence[float], velocities: Sequence[_Vector], *, surface: float = 0) -> _Flow:
     """Returns a current that is linear between depths [m] below the surface [m], N of each with velocities (N, 3) [m/s]."""
-    levels = [[float(depth), *_three(velocity)] for depth, velocity in zip(depths, velocities, strict=True)]
+    levels = [[float(depth), *_three(velocity)] for depth, velocity in _pairs(depths=depths, velocities=velocities)]
     return {"current_profile": {"levels": levels, "surface": surface}}
 
 
@@ -83,7 +83,7 @@ def turbulence(*, length: float = 100, intensity: float = 1, smallest: float = 0
 
 def layers(heights: Sequence[float], densities: Sequence[float]) -> dict[str, Any]:
     """Returns densities [kg/m^3] at N heights [m], from the lowest up; linear in between, two of one height are a step."""
-    return {"levels": [[float(height), float(density)] for height, density in zip(heights, densities, strict=True)]}
+    return {"levels": [[float(height), float(density)] for height, density in _pairs(heights=heights, densities=densities)]}
 
 
 def air_layers(lowest: float, highest: float) -> dict[str, Any]:
@@ -107,6 +107,14 @@ def flow_velocity(flow: Sequence[_Flow], points: npt.ArrayLike, time: float = 0,
     Raises ValueError for flows that a scene would refuse.
     """
     return _core._flow_velocity(_core._json_text(list(flow), "flow"), points, float(time), up)
+
+
+def _pairs(**lists: Sequence[Any]) -> Iterator[tuple[Any, Any]]:
+    """Pairs of two lists, by their names for the message."""
+    (first, one), (second, other) = lists.items()
+    if len(one) != len(other):
+        raise ValueError(f"{first} are {len(one)} and {second} {len(other)}; must be as many")
+    return zip(one, other)
 
 
 def _three(vector: _Vector) -> list[float]:

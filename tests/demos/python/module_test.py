@@ -404,6 +404,8 @@ class WorldTest(Temporary):
         self.assertAlmostEqual(ba.standard_atmosphere(0).density, 1.225, delta=1e-4)
         self.assertRaisesRegex(ValueError, "must be from -5000 to 86000", ba.standard_atmosphere, 1e5)
         self.assertEqual(ba.air_layers(0, 500), {"standard_atmosphere": [0, 500]})
+        with self.assertRaisesRegex(ValueError, "^heights are 2 and densities 1; must be as many$"):
+            ba.layers([0, 1], [1000])
 
     def test_regions_change_while_it_runs(self):
         world = ba.World(ba.Scene({**STILL, "gravity": [0, 0, -9.81], "water": {"level": -5}}))
