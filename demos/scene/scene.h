@@ -132,6 +132,7 @@ struct ThrusterDef {
   double torque_per_thrust = 0;        ///< torque about the axis over the thrust [m]
   std::optional<Propeller> propeller;  ///< none: the drive is the thrust
   bool is_left_handed = false;         ///< turns backwards about the axis where it pushes along it
+  bool washes_bodies = false;  ///< its wash is a flow that all bodies feel, not its foils alone
 };
 
 /// A wing, fin or rudder by its numbers, on a body. Frame: that of the body's shape or link.

@@ -114,6 +114,7 @@ void readPropeller(const nlohmann::json& from, const std::string& place, Thruste
     raiseInputError(place + "torque_per_thrust", "is given beside a propeller that has a torque");
   thruster.radius = thruster.propeller->diameter() / 2;
   thruster.is_left_handed = propeller.value("hand", "right") == "left";
+  thruster.washes_bodies = propeller.value("washes_bodies", false);
 }
 
 }  // namespace

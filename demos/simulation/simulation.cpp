@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "bullet_ambient/bullet/core/conversions.h"
+#include "bullet_ambient/force/medium/profiles.h"
 #include "bullet_ambient/saved_state.h"
 #include "demos/rivals/rival_laws.h"
 #include "demos/scene/scene.h"
@@ -145,7 +146,18 @@ Simulation::Simulation(const Scene& scene, const std::vector<PreparedBody>& prep
   bullet_.world->setGravity(toBullet(scene.gravity));
   thrusters_ = Thrusters(scene, prepared);
   foils_ = SceneFoils(scene, prepared);
-  fillWithFluids(scene, flow);
+  flow_ = flow;
+  if (thrusters_.hasJets()) {
+    flow_ = flow_ + FlowField([this](const Vector3& point, double) {
+              return FlowSample{thrusters_.washAt(point, false), Vector3::Zero()};
+            });
+    flow_above_ = [this](const Vector3& point, double) {
+      const Vector3 below = thrusters_.washAt(point, false);  // is in both fluids by flow_
+      return FlowSample{thrusters_.washAt(point, true) - below, Vector3::Zero()};
+    };
+  }
+  fluids_ = regionsOf(scene);
+  for (const FluidRegion& region : fluids_) regions_.push_back(fluid_.addRegion(region));
   addRobots(scene, prepared);
   for (const JointDef& joint : scene.joints) add(joint);
 }
@@ -236,6 +248,7 @@ void Simulation::push() {
   const auto toBody = [this](std::size_t body, const Wrench& wrench) {
     apply(bodies_[body], wrench);
   };
+  if (thrusters_.hasJets()) thrusters_.renewJets(poseOf, fluidAt);
   thrusters_.push(poseOf, fluidAt, toBody);
   foils_.pushByWash(thrusters_, poseOf, fluidAt, toBody);
 }
@@ -256,7 +269,7 @@ std::optional<std::string> Simulation::fault() const {
 }
 
 void Simulation::setRegions(const Scene& scene) {
-  std::vector<FluidRegion> regions = makeRegions(scene);
+  std::vector<FluidRegion> regions = regionsOf(scene);
   if (regions.size() != regions_.size())
     raiseInputError(scene.file.string(), "it has ", regions.size(),
                     " waters and regions, the world ", regions_.size(), "; must be as many");

@@ -189,7 +189,8 @@ class Simulation {
   /// @throws std::runtime_error if no rigid body has this name.
   btRigidBody& find(const std::string& name) const;
   btMultiBody& multiBodyOf(const WorldBody& link) const;
-  void fillWithFluids(const Scene& scene, const FlowField& flow);
+  /// Fluids of the scene, with all that flows besides.
+  std::vector<FluidRegion> regionsOf(const Scene& scene) const;
   /// Region that counts at a point; null: none.
   const FluidRegion* regionAt(const Vector3& point) const;
   /// Fluids at a point: of its region; without one the medium of a body, or a vacuum.
@@ -211,6 +212,8 @@ class Simulation {
   btDbvtBroadphase broadphase_;
   BulletWorld bullet_;
   Fluid fluid_;
+  FlowField flow_ = nullptr;        ///< beside the fluids of the scene, everywhere; null: none
+  FlowField flow_above_ = nullptr;  ///< besides in fluids above a surface
   std::vector<RegionId> regions_;
   std::vector<FluidRegion> fluids_;  ///< as regions_
   std::vector<WorldBody> bodies_;

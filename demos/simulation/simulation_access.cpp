@@ -48,22 +48,24 @@ void scale(btScalar& mass, btVector3& inertia, double by_mass, double by_moments
 
 }  // namespace
 
-void Simulation::fillWithFluids(const Scene& scene, const FlowField& flow) {
-  fluids_ = makeRegions(scene);
-  if (flow) {
-    for (FluidRegion& region : fluids_) region.flow = region.flow + flow;
-    for (const BodyDef& body : scene.bodies)
-      if (body.mass > 0 && !isSameFluid(body.attach.medium, scene.medium))
-        raiseInputError(file_, "body \"", body.name,
-                        "\" has a medium of its own, which a current of each world cannot reach; "
-                        "must be that of the scene");
-    FluidRegion everywhere;
-    everywhere.below = scene.medium;
-    everywhere.flow = flow;
-    everywhere.priority = kLast;
-    fluids_.insert(fluids_.begin(), std::move(everywhere));
+std::vector<FluidRegion> Simulation::regionsOf(const Scene& scene) const {
+  std::vector<FluidRegion> regions = makeRegions(scene);
+  if (!flow_) return regions;
+  for (FluidRegion& region : regions) {
+    region.flow = region.flow + flow_;
+    if (flow_above_) region.flow_above = region.flow_above + flow_above_;
   }
-  for (const FluidRegion& region : fluids_) regions_.push_back(fluid_.addRegion(region));
+  for (const BodyDef& body : scene.bodies)
+    if (body.mass > 0 && !isSameFluid(body.attach.medium, scene.medium))
+      raiseInputError(file_, "body \"", body.name,
+                      "\" has a medium of its own, which a current of each world or the wash of a "
+                      "propeller cannot reach; must be that of the scene");
+  FluidRegion everywhere;
+  everywhere.below = scene.medium;
+  everywhere.flow = flow_;
+  everywhere.priority = kLast;
+  regions.insert(regions.begin(), std::move(everywhere));
+  return regions;
 }
 
 const FluidRegion* Simulation::regionAt(const Vector3& point) const {

@@ -8,6 +8,8 @@ namespace ambient {
 
 Thrusters::Thrusters(const Scene& scene, const std::vector<PreparedBody>& bodies)
     : defs_(scene.thrusters), arms_(defs_.size()), drives_(defs_.size()), states_(defs_.size()) {
+  const auto washes = [](const ThrusterDef& def) { return def.washes_bodies; };
+  jets_.reserve(static_cast<std::size_t>(std::count_if(defs_.begin(), defs_.end(), washes)));
   for (std::size_t i = 0; i < defs_.size(); ++i) {
     drives_[i].has_disc = defs_[i].propeller || defs_[i].radius > 0;
     setFactors(i, 1, 1);
@@ -65,10 +67,29 @@ double Thrusters::advanceIn(const Medium& medium, std::size_t index,
   return velocity.dot(pose.orientation * defs_[index].axis);
 }
 
+double Thrusters::wetShareOf(std::size_t index, const RegionSample& fluid) const {
+  return std::clamp(0.5 + fluid.height / (2 * defs_[index].radius), 0.0, 1.0);
+}
+
+Vector3 Thrusters::washAt(const Vector3& point, bool is_above) const {
+  Vector3 sum = Vector3::Zero();
+  for (const Jet& jet : jets_) {
+    if (jet.is_above != is_above) continue;
+    const ThrusterState& state = states_[jet.thruster];
+    const Vector3 way = point - jet.place;
+    const double distance = way.dot(jet.away);
+    const Wash wash =
+        washOf(state.load.induced, state.advance, defs_[jet.thruster].radius, distance);
+    if (!(wash.radius > 0)) continue;
+    sum += wash.velocity * wash.shareAt((way - distance * jet.away).norm()) * jet.away;
+  }
+  return sum;
+}
+
 // A disc in two fluids has the share in the lower one; above it, all of the upper.
 Wrench Thrusters::wrenchIn(const RegionSample& fluid, std::size_t index, const MotionSample& pose) {
   const ThrusterDef& def = defs_[index];
-  double wet = std::clamp(0.5 + fluid.height / (2 * def.radius), 0.0, 1.0);
+  double wet = wetShareOf(index, fluid);
   ThrusterState& state = states_[index];
   PropellerLoad& load = state.load;
   if (def.propeller) {

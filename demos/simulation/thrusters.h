@@ -55,6 +55,25 @@ class Thrusters {
   /// Lets the drives follow the commands for a step h, by implicit Euler: T += (F - T) h / (lag +
   /// h), F the drive of the command.
   void follow(double time_step);
+  /// Whether a propeller washes bodies.
+  bool hasJets() const { return jets_.capacity() > 0; }
+  /// Velocity that the jets of propellers that wash bodies add to a fluid at a point in W, the
+  /// upper one or the one below the surface.
+  Vector3 washAt(const Vector3& point, bool is_above) const;
+  /// Puts the jets where the discs are, with the loads of the last step. Arguments as push().
+  template <class PoseOf, class FluidAt>
+  void renewJets(const PoseOf& poseOf, const FluidAt& fluidAt) {
+    jets_.clear();
+    for (std::size_t i = 0, count = defs_.size(); i < count; ++i) {
+      const double induced = states_[i].load.induced;
+      if (!defs_[i].washes_bodies || induced == 0) continue;
+      const MotionSample pose = poseOf(defs_[i].body);
+      const Vector3 place = placeOf(i, pose), axis = pose.orientation * defs_[i].axis;
+      const bool is_above = !(wetShareOf(i, fluidAt(defs_[i].body, place)) > 0);
+      jets_.push_back({i, place, induced < 0 ? axis : Vector3(-axis), is_above});
+    }
+  }
+
   /// Gives wrenches about the centre of mass, world axes, to apply(body, wrench). `poseOf(body)`:
   /// MotionSample; `fluidAt(body, place)`: RegionSample around a point in W.
   template <class PoseOf, class FluidAt, class Apply>
@@ -84,7 +103,15 @@ class Thrusters {
     Vector6 per_thrust;    // wrench about the centre of mass, axes of the shape
   };
 
+  struct Jet {
+    std::size_t thruster = 0;
+    Vector3 place, away;  // of the disc in W, and the way that the jet goes
+    bool is_above = false;
+  };
+
   void setAsked(std::size_t index);
+  /// Share of a disc below the surface.
+  double wetShareOf(std::size_t index, const RegionSample& fluid) const;
   /// Whether the fluid at the disc counts: of a propeller, and where a thrust could be dry.
   bool readsFluid(std::size_t index) const {
     return drives_[index].has_disc && (defs_[index].propeller || states_[index].drive != 0);
@@ -101,6 +128,7 @@ class Thrusters {
   std::vector<Vector3> arms_;  // from the centre of mass, axes of the shape [m]
   std::vector<Drive> drives_;
   std::vector<ThrusterState> states_;
+  std::vector<Jet> jets_;
 };
 
 }  // namespace ambient

@@ -143,12 +143,20 @@ double Wash::shareOf(const Vector3& centre, const Vector3& half) const noexcept 
   return std::max(0.0, to - from) / (2 * length_sq);
 }
 
+double Wash::shareAt(double beside) const noexcept {
+  constexpr double kEdge = 0.2;  // half of its width, over the radius
+  return std::clamp(((1 + kEdge) * radius - beside) / (2 * kEdge * radius), 0.0, 1.0);
+}
+
 Wash washOf(double induced, double advance, double radius, double distance) noexcept {
   const double own = std::abs(induced), along = induced < 0 ? -advance : advance;
   if (!(distance > 0 && own > 0 && along + own > 0)) return {};
   const double cosine = distance / std::sqrt(distance * distance + radius * radius);
   const double velocity = own * (1 + cosine);
-  return {velocity, radius * std::sqrt((along + own) / (along + velocity))};
+  const Wash core{velocity, radius * std::sqrt((along + own) / (along + velocity))};
+  constexpr double kCoreLength = 12.4;  // over its radius
+  const double spread = std::max(1.0, distance / (kCoreLength * core.radius));
+  return {core.velocity / spread, core.radius * spread};
 }
 
 Propeller::Propeller(double diameter, std::vector<PropellerPoint> points,

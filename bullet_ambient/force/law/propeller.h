@@ -101,10 +101,13 @@ struct Wash {
   /// Returns the share of a line that is in the jet. `centre`: of the line from the axis; `half`:
   /// from there to its end [m].
   double shareOf(const Vector3& centre, const Vector3& half) const noexcept;
+  /// Returns the share of its velocity that a point has beside the axis [m], docs/theory.md eq.
+  /// (171a): an edge, where a line has none.
+  double shareAt(double beside) const noexcept;
 };
 
-/// Returns the jet of a disc at a distance behind it, docs/theory.md eq. (170): against the axis
-/// if `induced` is positive, else along it.
+/// Returns the jet of a disc at a distance behind it, docs/theory.md eq. (170), (170a): against the
+/// axis if `induced` is positive, else along it.
 /// @param induced v_i [m/s]
 /// @param advance V of the disc [m/s]
 /// @param radius of the disc [m]

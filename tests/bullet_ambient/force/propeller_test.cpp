@@ -163,8 +163,12 @@ TEST(Propeller, HasAWashThatContracts) {
   const Wash at = washOf(load.induced, 0, 0.2, 1e-9), far = washOf(load.induced, 0, 0.2, 1e6);
   EXPECT_NEAR(at.velocity, load.induced, 1e-6);
   EXPECT_NEAR(at.radius, 0.2, 1e-6);
-  EXPECT_NEAR(far.velocity, 2 * load.induced, 1e-9);
-  EXPECT_NEAR(far.radius, 0.2 / std::sqrt(2), 1e-9);
+  // Far behind it spreads and keeps its momentum, 12.4 radii of its core from the disc on.
+  const double core = 0.2 / std::sqrt(2), spread = 1e6 / (12.4 * core);
+  EXPECT_NEAR(far.velocity, 2 * load.induced / spread, 1e-9 * far.velocity);
+  EXPECT_NEAR(far.radius, core * spread, 1e-9 * far.radius);
+  const Wash near = washOf(load.induced, 0, 0.2, 12 * core);
+  EXPECT_NEAR(near.velocity, load.induced * (1 + 12 / std::sqrt(146)), 1e-12);
   EXPECT_NEAR(kSeaDensity * kPi * far.radius * far.radius * far.velocity * far.velocity, 50, 1e-7);
   const Wash moving = washOf(load.induced, 3, 0.2, 0.3);
   EXPECT_NEAR(kPi * moving.radius * moving.radius * (3 + moving.velocity),
@@ -174,6 +178,15 @@ TEST(Propeller, HasAWashThatContracts) {
   EXPECT_NEAR(washOf(-load.induced, -3, 0.2, 0.3).velocity, moving.velocity, 1e-12);
   EXPECT_EQ(washOf(load.induced, 0, 0.2, -0.1).radius, 0);
   EXPECT_EQ(washOf(load.induced, -2 * load.induced, 0.2, 0.3).radius, 0);
+}
+
+TEST(Propeller, HasAJetWithAnEdge) {
+  const Wash wash{1, 0.5};
+  EXPECT_EQ(wash.shareAt(0), 1);
+  EXPECT_NEAR(wash.shareAt(0.4), 1, 1e-15);
+  EXPECT_NEAR(wash.shareAt(0.5), 0.5, 1e-15);
+  EXPECT_NEAR(wash.shareAt(0.55), 0.25, 1e-15);
+  EXPECT_EQ(wash.shareAt(0.61), 0);
 }
 
 TEST(Propeller, WashesTheShareOfALineInItsJet) {

@@ -209,6 +209,87 @@ TEST(Thrusters, WithNumbersAreInSavedStates) {
   EXPECT_ANY_THROW(other.restoreState(damaged));
 }
 
+// The wash of propellers on bodies.
+
+/// A ship of 1e9 kg at rest in water, whose disc of 0.3 m pushes with 100 N; in its jet, 0.3 m
+/// behind, a ball as heavy as water, and another one beside it. `washes`: whether bodies feel it.
+json shipAndBalls(bool washes) {
+  json text = ballScene();
+  text["time_step"] = 0.005;
+  text["gravity"] = {0, 0, 0};
+  text["medium"] = {{"density", 1000}, {"viscosity", 1e-3}};
+  const double ball = 1000 * kPi / 6 * 0.008 * 0.008 * 0.008;
+  const auto placed = [](const char* name, const json& shape, double mass, const json& at) {
+    return json{{"name", name}, {"shape", shape}, {"mass", mass}, {"position", at}};
+  };
+  const json sphere{{"type", "sphere"}, {"radius", 0.004}};
+  text["bodies"] = {placed("ship", {{"type", "box"}, {"size", {2, 1, 1}}}, 1e9, {1.2, 0, 0}),
+                    placed("in", sphere, ball, {-0.3, 0, 0}),
+                    placed("beside", sphere, ball, {-0.3, 0.3, 0})};
+  text["thrusters"] = json::array({{{"on", "ship"},
+                                    {"position", {-1.2, 0, 0}},
+                                    {"curve", {{0, 0}, {1, 100}}},
+                                    {"command", 1},
+                                    {"propeller", {{"diameter", 0.3}}}}});
+  text["thrusters"][0]["propeller"]["washes_bodies"] = washes;
+  return text;
+}
+
+TEST(Wash, CarriesBodiesInTheJet) {
+  const Scene scene = sceneFrom(shipAndBalls(true));
+  Simulation simulation(scene, prepareSharing(scene));
+  const double induced = std::sqrt(100 / (2 * 1000 * kPi / 4 * 0.09));
+  for (int n = 0; n < 110; ++n) simulation.step();
+  const MotionSample in = simulation.sample(1);
+  EXPECT_LT(in.position.x(), -0.8);
+  EXPECT_GT(in.position.x(), -12.4 * 0.15 / std::sqrt(2));  // where the jet begins to slow down
+  EXPECT_NEAR(in.position.y(), 0, 1e-9);
+  // With k = C_D A/(3 V), C_D of some 0.4, it has the share 1 - 1/(1 + k u t) = 0.96 of it by then.
+  const double share = -in.twist.linear.x() / washOf(induced, 0, 0.15, -in.position.x()).velocity;
+  EXPECT_GT(share, 0.93);
+  EXPECT_LT(share, 1);
+  EXPECT_EQ(simulation.sample(2).position, Vector3(-0.3, 0.3, 0));
+}
+
+TEST(Wash, IsFeltByBodiesOnlyIfItIsAskedFor) {
+  const Scene scene = sceneFrom(shipAndBalls(false));
+  Simulation simulation(scene, prepareSharing(scene));
+  for (int n = 0; n < 50; ++n) simulation.step();
+  EXPECT_EQ(simulation.sample(1).position, Vector3(-0.3, 0, 0));
+}
+
+TEST(Wash, MeetsTheDiscOfAnotherPropeller) {
+  json text = shipAndBalls(true);
+  text["bodies"][1] = text["bodies"][0];
+  text["bodies"][1]["name"] = "second";
+  text["bodies"][1]["position"] = {-0.4, 0, 0};
+  text["bodies"][1]["shape"]["size"] = {0.2, 0.2, 0.2};
+  text["thrusters"][1] = text["thrusters"][0];
+  text["thrusters"][1]["on"] = "second";
+  text["thrusters"][1]["position"] = {-0.1, 0, 0};
+  const Scene scene = sceneFrom(text);
+  Simulation simulation(scene, prepareSharing(scene));
+  for (int n = 0; n < 3; ++n) simulation.step();
+  const ThrusterState &first = simulation.thrusters().states()[0],
+                      &behind = simulation.thrusters().states()[1];
+  EXPECT_NEAR(behind.advance, washOf(first.load.induced, 0, 0.15, 0.5).velocity, 1e-6);
+  EXPECT_LT(behind.load.induced, first.load.induced / 2);
+}
+
+TEST(Wash, GoesOnFromASavedState) {
+  const Scene scene = sceneFrom(shipAndBalls(true));
+  const auto prepared = prepareSharing(scene);
+  Simulation one(scene, prepared), other(scene, prepared);
+  for (int n = 0; n < 20; ++n) one.step();
+  other.restoreState(one.saveState());
+  for (int n = 0; n < 20; ++n) {
+    one.step();
+    other.step();
+    EXPECT_EQ(one.sample(1).position, other.sample(1).position);
+    EXPECT_EQ(one.sample(1).twist.vector(), other.sample(1).twist.vector());
+  }
+}
+
 // Foils of scenes, and the wash of propellers on them.
 
 /// The boat of data/scenes/rudder_and_screw, with other commands.
