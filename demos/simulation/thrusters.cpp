@@ -61,10 +61,10 @@ void Thrusters::follow(double time_step) {
   }
 }
 
-double Thrusters::advanceIn(const Medium& medium, std::size_t index,
-                            const MotionSample& pose) const {
+Vector3 Thrusters::velocityIn(const Medium& medium, std::size_t index,
+                              const MotionSample& pose) const {
   const Vector3 velocity = pose.twist.at(pose.orientation * arms_[index]) - medium.velocity;
-  return velocity.dot(pose.orientation * defs_[index].axis);
+  return pose.orientation.conjugate() * velocity;
 }
 
 double Thrusters::wetShareOf(std::size_t index, const RegionSample& fluid) const {
@@ -92,15 +92,21 @@ Wrench Thrusters::wrenchIn(const RegionSample& fluid, std::size_t index, const M
   double wet = wetShareOf(index, fluid);
   ThrusterState& state = states_[index];
   PropellerLoad& load = state.load;
+  Vector3 drag = Vector3::Zero();
   if (def.propeller) {
     const Medium& medium = wet > 0 ? fluid.below : fluid.above;
     if (!(wet > 0)) wet = 1;
-    state.advance = advanceIn(medium, index, pose);
+    const Vector3 velocity = velocityIn(medium, index, pose);
+    state.advance = velocity.dot(def.axis);
     state.density = wet * medium.density;
     load = drives_[index].thrust_factor *
            def.propeller->load(state.drive, state.advance, medium.density);
+    const Vector3 across = velocity - state.advance * def.axis;
+    drag = -def.propeller->dragAcross(load, state.drive, state.advance, across.norm()) * across;
   }
   Wrench wrench = Wrench::fromVector(wet * load.thrust * drives_[index].per_thrust);
+  wrench.force += wet * drag;
+  wrench.torque += wet * arms_[index].cross(drag);
   wrench.torque -= (def.is_left_handed ? -wet : wet) * load.torque * def.axis;
   return wrench;
 }

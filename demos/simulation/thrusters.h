@@ -121,8 +121,8 @@ class Thrusters {
   }
   /// Wrench about the centre of mass, axes of the body. Keeps the load.
   Wrench wrenchIn(const RegionSample& fluid, std::size_t index, const MotionSample& pose);
-  /// Velocity of a disc along its axis, relative to a fluid.
-  double advanceIn(const Medium& medium, std::size_t index, const MotionSample& pose) const;
+  /// Velocity of a disc relative to a fluid, axes of the body.
+  Vector3 velocityIn(const Medium& medium, std::size_t index, const MotionSample& pose) const;
 
   std::vector<ThrusterDef> defs_;
   std::vector<Vector3> arms_;  // from the centre of mass, axes of the shape [m]

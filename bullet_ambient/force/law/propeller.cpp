@@ -257,4 +257,13 @@ PropellerLoad Propeller::load(double drive, double advance, double density) cons
   return {sign * thrust, sign * torque, turning * torque, sign * induced};
 }
 
+double Propeller::dragAcross(const PropellerLoad& load, double turns, double advance,
+                             double across) const noexcept {
+  if (isIdealDisc()) return 0;
+  const double profile = load.power - load.thrust * (advance + load.induced);
+  const double tip = kPi * diameter_ * turns;
+  const double speed_sq = tip * tip + advance * advance + across * across;
+  return profile > 0 && speed_sq > 0 ? 2 * profile / speed_sq : 0;
+}
+
 }  // namespace ambient

@@ -69,6 +69,14 @@ class Propeller {
   /// @param advance V: velocity of the disc along its axis, relative to the fluid there [m/s]
   /// @param density [kg/m^3]
   PropellerLoad load(double drive, double advance, double density) const noexcept;
+  /// Returns the drag of the disc in its plane over the velocity there, docs/theory.md eq. (165a)
+  /// [N s/m]; 0 of an ideal disc.
+  /// @param load of load(), or that times a factor
+  /// @param turns n [1/s]
+  /// @param advance V [m/s]
+  /// @param across speed of the disc across its axis, relative to the fluid there [m/s]
+  double dragAcross(const PropellerLoad& load, double turns, double advance,
+                    double across) const noexcept;
 
  private:
   /// T/(rho D^2) and Q/(rho D^3) [m^2/s^2].

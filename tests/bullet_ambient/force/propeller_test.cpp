@@ -180,6 +180,31 @@ TEST(Propeller, HasAWashThatContracts) {
   EXPECT_EQ(washOf(load.induced, -2 * load.induced, 0.2, 0.3).radius, 0);
 }
 
+// Two blades of chord c with the drag c_d of their sections alone: H = rho c c_d sum over the
+// angles of the integral of (w r + V sin a)^2 sin a, against which Q is that of V = 0.
+TEST(Propeller, HasTheDragOfItsBladesAcrossItsAxis) {
+  constexpr double kChord = 0.02, kDrag = 0.02, kRadius = 0.2, kTurns = 30, kAcross = 3;
+  const double turning = 2 * kPi * kTurns;
+  constexpr int kSteps = 400;
+  double force = 0;
+  for (int i = 0; i < kSteps; ++i)
+    for (int j = 0; j < kSteps; ++j) {
+      const double sine = std::sin(2 * kPi * (i + 0.5) / kSteps);
+      const double along = turning * kRadius * (j + 0.5) / kSteps + kAcross * sine;
+      force += kSeaDensity * kChord * kDrag * along * std::abs(along) * sine * kRadius /
+               (kSteps * kSteps);
+    }
+  const double torque = kSeaDensity * kChord * kDrag * turning * turning * std::pow(kRadius, 4) / 4;
+  const double k_Q = torque / (kSeaDensity * kTurns * kTurns * std::pow(2 * kRadius, 5));
+  const Propeller blades = Propeller::byTable(2 * kRadius, {{0, 0, k_Q}, {1, 0, k_Q}});
+  const PropellerLoad load = blades.load(kTurns, 0, kSeaDensity);
+  const double drag = blades.dragAcross(load, kTurns, 0, kAcross);
+  EXPECT_NEAR(drag * kAcross / force, 1, 0.01);
+  EXPECT_EQ(blades.dragAcross(load, -kTurns, 0, kAcross), drag);
+  EXPECT_EQ(blades.dragAcross({}, 0, 0, 0), 0);
+  EXPECT_EQ(Propeller::idealDisc(0.4).dragAcross({50, 0, 100, 1}, 30, 0, 1), 0);
+}
+
 TEST(Propeller, HasAJetWithAnEdge) {
   const Wash wash{1, 0.5};
   EXPECT_EQ(wash.shareAt(0), 1);

@@ -209,8 +209,6 @@ TEST(Thrusters, WithNumbersAreInSavedStates) {
   EXPECT_ANY_THROW(other.restoreState(damaged));
 }
 
-// The wash of propellers on bodies.
-
 /// A ship of 1e9 kg at rest in water, whose disc of 0.3 m pushes with 100 N; in its jet, 0.3 m
 /// behind, a ball as heavy as water, and another one beside it. `washes`: whether bodies feel it.
 json shipAndBalls(bool washes) {
@@ -234,6 +232,28 @@ json shipAndBalls(bool washes) {
   text["thrusters"][0]["propeller"]["washes_bodies"] = washes;
   return text;
 }
+
+TEST(Thrusters, HaveTheDragOfTheirBladesAcrossTheAxis) {
+  json text = shipAndBalls(false);
+  text["model"] = "vacuum";
+  text["water"] = {{"level", 9}, {"density", 1000}};
+  text["bodies"] = json::array({text["bodies"][0]});
+  text["bodies"][0]["mass"] = 500;
+  text["bodies"][0]["linear_velocity"] = {0, 2, 0};
+  text["gravity"] = {0, 0, -9.81};
+  text["thrusters"][0]["curve"] = {{0, 0}, {1, 10}};
+  text["thrusters"][0]["propeller"] = {{"diameter", 0.3},
+                                       {"kt_kq", {{0, 0.4, 0.06}, {1, 0, 0.02}}}};
+  const Scene scene = sceneFrom(text);
+  Simulation simulation(scene, prepareSharing(scene));
+  simulation.step();
+  const Propeller& screw = *scene.thrusters[0].propeller;
+  const double drag = screw.dragAcross(screw.load(10, 0, 1000), 10, 0, 2);
+  EXPECT_GT(drag, 1);
+  EXPECT_NEAR(500 * (simulation.sample(0).twist.linear.y() - 2) / scene.time_step, -2 * drag, 1e-9);
+}
+
+// The wash of propellers on bodies.
 
 TEST(Wash, CarriesBodiesInTheJet) {
   const Scene scene = sceneFrom(shipAndBalls(true));
