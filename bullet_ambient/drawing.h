@@ -33,6 +33,9 @@ struct FluidDrawing {
   /// Edges of the holds and openings of vessels, grey, and where the water in them meets the
   /// walls, blue.
   bool holds = false;
+  /// Rectangles of the parts that lift, each in a colour of its own, with a line to a round nose;
+  /// of foils at their angles, with a line to the leading edge.
+  bool wings = false;
   /// Forces of the last substep at the centre of mass of bodies that Immersed::readWrench() has
   /// asked for: of waves violet, wind grey, added mass green-blue.
   bool read_forces = false;
@@ -50,7 +53,7 @@ struct FluidDrawing {
   bool drawsFaces() const { return separation || slip_velocity || pressure || friction; }
   bool drawsAnything() const {
     return drawsFaces() || buoyancy || total_wrench || centre_of_volume || water_surface || holds ||
-           read_forces;
+           wings || read_forces;
   }
 };
 
@@ -61,7 +64,14 @@ inline const btVector3 kAttached(0, 1, 0), kSeparated(1, 0, 0),
     kBuoyancy(0, 1, 1), kForce(1, 1, 1), kTorque(1, 0, 1), kWater(0, btScalar(0.3), btScalar(0.8)),
     kWaves(btScalar(0.5), 0, 1), kWind(btScalar(0.7), btScalar(0.7), btScalar(0.7)),
     kHolds(btScalar(0.45), btScalar(0.5), btScalar(0.55)),
-    kAddedMass(0, btScalar(0.7), btScalar(0.5));
+    kAddedMass(0, btScalar(0.7), btScalar(0.5)), kFoils(1, btScalar(0.9), btScalar(0.6));
+/// Of the parts of a body in turn; the first one again after the last.
+inline const btVector3 kWings[] = {{btScalar(0.9), btScalar(0.2), btScalar(0.2)},
+                                   {btScalar(0.2), btScalar(0.7), btScalar(0.2)},
+                                   {btScalar(0.3), btScalar(0.4), 1},
+                                   {btScalar(0.9), btScalar(0.7), 0},
+                                   {btScalar(0.7), btScalar(0.3), btScalar(0.9)},
+                                   {0, btScalar(0.7), btScalar(0.8)}};
 }  // namespace fluid_colours
 
 /// Draws one body for its present motion. The total wrench is that of pressure, friction (after the

@@ -125,11 +125,12 @@ constexpr char kLinesText[] =
     R"(Returns the lines of Bullet's debug drawing: points (L, 2, 3) [m] and colours (L, 3), float32.
 
 drawing : what is drawn of the fluid besides the bodies, after the first step: "separation", "slip_velocity", "pressure",
-    "friction", "buoyancy", "total_wrench", "centre_of_volume", "water_surface", "holds")";
+    "friction", "buoyancy", "total_wrench", "centre_of_volume", "water_surface", "holds",
+    "wings")";
 
 /// Draws a world, see kLinesText. @throws ValueError, one line, if there is no such drawing
 inline pybind11::tuple linesOf(Simulation& simulation, const std::vector<std::string>& drawing) {
-  constexpr std::array<std::pair<bool FluidDrawing::*, const char*>, 9> kDrawings{
+  constexpr std::array<std::pair<bool FluidDrawing::*, const char*>, 10> kDrawings{
       {{&FluidDrawing::separation, "separation"},
        {&FluidDrawing::slip_velocity, "slip_velocity"},
        {&FluidDrawing::pressure, "pressure"},
@@ -138,7 +139,8 @@ inline pybind11::tuple linesOf(Simulation& simulation, const std::vector<std::st
        {&FluidDrawing::total_wrench, "total_wrench"},
        {&FluidDrawing::centre_of_volume, "centre_of_volume"},
        {&FluidDrawing::water_surface, "water_surface"},
-       {&FluidDrawing::holds, "holds"}}};
+       {&FluidDrawing::holds, "holds"},
+       {&FluidDrawing::wings, "wings"}}};
   FluidDrawing what;
   for (const std::string& word : drawing) {
     const auto found = valueOf(kDrawings, word);

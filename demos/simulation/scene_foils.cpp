@@ -87,7 +87,7 @@ Wrench SceneFoils::washOn(const Placed& placed, const Thrusters& thrusters, std:
   const Vector3 way = foil.position - disc.position;
   const double distance = way.dot(away);
   const Wash wash = washOf(state.load.induced, state.advance, disc.radius, distance);
-  const Vector3 half = foil.span / 2 * placed.foils->spanOf(placed.index);
+  const Vector3 half = foil.span / 2 * placed.foils->axesOf(placed.index).col(1);
   double share = wash.shareOf(way - distance * away, half - half.dot(away) * away);
   if (!(wash.radius > 0) || !(share > 0)) return {};
   double wet = std::clamp(0.5 + fluid.height / foil.span, 0.0, 1.0);

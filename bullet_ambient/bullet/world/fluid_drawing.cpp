@@ -1,10 +1,13 @@
 #include <LinearMath/btIDebugDraw.h>
 
+#include <iterator>
+
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/bullet/core/conversions.h"
 #include "bullet_ambient/drawing.h"
 #include "bullet_ambient/force/law/form_law.h"
 #include "bullet_ambient/force/loads/face_loads.h"
+#include "bullet_ambient/force/loads/foils.h"
 #include "bullet_ambient/force/loads/load_tables.h"
 #include "bullet_ambient/force/medium/fluid_region.h"
 #include "bullet_ambient/force/surface/hydrostatics.h"
@@ -114,13 +117,45 @@ void drawHolds(const AmbientBody& ambient, const MotionView& now, const Arrows& 
                       fluid_colours::kWater);
 }
 
+// Draws a rectangle by its middle and the vectors from there to the middles of two sides, and a
+// line to the leading edge.
+void drawPlate(const Vector3& middle, const Vector3& half_span, const Vector3& half_chord,
+               const Vector3& nose, const btVector3& colour, const Arrows& arrows) {
+  for (const double side : {-1.0, 1.0}) {
+    arrows.draw(middle - half_span + side * half_chord, 2 * half_span, colour);
+    arrows.draw(middle - half_chord + side * half_span, 2 * half_chord, colour);
+  }
+  if (!nose.isZero(0)) arrows.draw(middle, nose, colour);
+}
+
+void drawWings(const AttachDef& def, const Arrows& arrows) {
+  const Matrix3& to_B = def.fluid_frame.rotation;
+  const auto inBody = [&](const Vector3& place_F) -> Vector3 {
+    return to_B * place_F + def.fluid_frame.translation;
+  };
+  std::size_t number = 0;
+  for (const Wing& wing : def.fluid_body->wings) {
+    const Vector3 half_span = to_B * (wing.span / 2 * wing.span_axis);
+    const Vector3 half_chord = to_B * (wing.chord / 2 * wing.span_axis.cross(wing.facing));
+    drawPlate(inBody(wing.centre), half_span, half_chord, wing.nose * half_chord,
+              fluid_colours::kWings[number++ % std::size(fluid_colours::kWings)], arrows);
+  }
+  for (std::size_t i = 0; def.flow.foils && i < def.flow.foils->size(); ++i) {
+    const Foil& foil = def.flow.foils->foil(i);
+    const Matrix3 axes = to_B * def.flow.foils->axesOf(i);
+    const Vector3 half_chord = foil.chord / 2 * axes.col(0);
+    drawPlate(inBody(foil.position), foil.span / 2 * axes.col(1), half_chord, half_chord,
+              fluid_colours::kFoils, arrows);
+  }
+}
+
 }  // namespace
 
 FluidDrawing FluidDrawing::all() {
   FluidDrawing all;
   all.separation = all.slip_velocity = all.pressure = all.friction = true;
   all.buoyancy = all.total_wrench = all.centre_of_volume = all.water_surface = all.holds =
-      all.read_forces = true;
+      all.wings = all.read_forces = true;
   return all;
 }
 
@@ -165,6 +200,7 @@ void drawFluid(const AmbientBody& ambient, const MotionView& now, const FluidDra
   relative.linear -= to_body * s.ambient_velocity;
   if (what.drawsFaces()) drawFaces(ambient, relative, what, arrows);
   if (what.holds) drawHolds(ambient, now, arrows, drawer);
+  if (what.wings) drawWings(*ambient.def, arrows);
 
   const Vector3& centre = model.centre_of_volume;
   const Wrench lift =

@@ -47,8 +47,8 @@ class Foils {
   /// @throws std::invalid_argument if the angle is not finite
   void turn(std::size_t index, double angle);
   double angle(std::size_t index) const { return placed_.at(index).angle; }
-  /// Direction of its span, unit.
-  Vector3 spanOf(std::size_t index) const { return placed_.at(index).pose.rotation.col(1); }
+  /// Columns: its chord towards the leading edge, its span, its upper side.
+  const Matrix3& axesOf(std::size_t index) const { return placed_.at(index).pose.rotation; }
 
   /// Returns the wrench about F's origin of one foil for a twist relative to the fluid; density
   /// [kg/m^3]. `wet`: of the part in the fluid; null: all of it is. Power <= 0.

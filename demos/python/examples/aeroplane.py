@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """An aeroplane of one mesh: its polar, where it is neutral, and how it glides: docs/wings.md.
 
-    aeroplane.py [--out FILE.obj]
+    aeroplane.py [--out FILE.obj] [--picture FILE.png]
 """
 
 import argparse
@@ -107,9 +107,30 @@ def glide(file, centre, step=1 / 240, seconds=40):
     return np.hypot(way[0], way[1]) / -way[2], np.linalg.norm(way) / (seconds / 2)
 
 
+def draw(body_file, picture):
+    """The parts that lift, in colours, over the hull."""
+    import matplotlib.pyplot as plt
+    from mpl_toolkits.mplot3d.art3d import Line3DCollection
+
+    body = {"name": "aeroplane", "mass": MASS, "shape": {"type": "fluid_body", "file": str(body_file)}, "inertia": [0.02, 0.03, 0.05, 0, 0, 0]}
+    with ba.World(ba.Scene({"duration": 1, "time_step": 1 / 240, "gravity": [0, 0, 0], "bodies": [body]})) as world:
+        world.step()
+        bare = len(world.lines([])[0])
+        points, colours = (array[bare:] for array in world.lines(["wings"]))
+    corners, faces = hull()
+    axes = plt.figure(figsize=(7, 4.6)).add_subplot(projection="3d")
+    axes.plot_trisurf(*corners.T, triangles=faces, color="0.85", edgecolor="0.7", linewidth=0.2)
+    axes.add_collection3d(Line3DCollection(points, colors=colours, linewidths=2))
+    axes.set(xlabel="x [m]", ylabel="y [m]", xlim=(-0.65, 0.55), ylim=(-0.6, 0.6), zlim=(-0.1, 0.3), zticks=[0, 0.2])
+    axes.set_box_aspect((1.2, 1.2, 0.4))
+    axes.view_init(28, -130)
+    plt.savefig(picture, dpi=100, bbox_inches="tight")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--out", help="where to write the mesh")
+    parser.add_argument("--picture", help="where to draw its parts")
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         mesh = arguments.out or Path(folder) / "aeroplane.obj"
@@ -120,6 +141,8 @@ def main():
             slope, neutral, ratio, centre = numbers(body)
             print(f"wings {wings}: {len(body.wings)} parts; lift {slope:.2f} per rad, neutral {neutral:.2f} chords behind c/4, L/D {ratio:.1f}")
         body.write(Path(folder) / "aeroplane.ambient")
+        if arguments.picture:
+            draw(Path(folder) / "aeroplane.ambient", arguments.picture)
         ratio, speed = glide(Path(folder) / "aeroplane.ambient", centre)
         print(f"it glides 1 : {ratio:.1f} at {speed:.1f} m/s")
 

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 
+#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/drawing.h"
+#include "bullet_ambient/foil.h"
 #include "bullet_ambient/force/law/form_law.h"
 #include "bullet_ambient/force/medium/waves.h"
 #include "bullet_ambient/reading.h"
@@ -216,6 +218,62 @@ TEST_F(Drawing, PressureOfTheFormLawIsDrawnInTheLeeAsWell) {
   const Vector3 expected = fromFluidFrame(loads().pressure.force);
   EXPECT_LT((recorder.sumOf(fluid_colours::kPressure) - expected).norm(),
             tolerance * expected.norm());
+}
+
+// A foil with a turn of a right angle about its span: its chord points along -z.
+TEST_F(Drawing, FoilsAreDrawnAtTheirAngles) {
+  Foil foil;
+  foil.position = Vector3(0.1, 0.2, 0.3);
+  foil.span = 0.4;
+  foil.chord = 0.2;
+  auto foils = std::make_shared<Foils>(std::vector<Foil>{foil});
+  foils->turn(0, kPi / 2);
+  AttachDef def = *ambient().def;
+  def.flow.law = PressureLaw::kForm;
+  def.flow.foils = foils;
+  scene.of(*body).remove();
+  scene.fluid.add(*body, def);
+  FluidDrawing what;
+  what.wings = true;
+  draw(what);
+  const auto drawn = recorder.linesOf(fluid_colours::kFoils);
+  ASSERT_EQ(drawn.size(), 5u);
+  EXPECT_EQ(lines(), 5u);
+  const RigidState state = readState(*body);
+  const FrameOffset& frame = ambient().def->fluid_frame;
+  const auto inWorld = [&](const Vector3& point_F) -> Vector3 {
+    return state.position + state.orientation * (frame.rotation * point_F + frame.translation);
+  };
+  double length = 0;
+  for (const Line& line : drawn) length += static_cast<double>((line.to - line.from).length());
+  EXPECT_NEAR(length, 2 * 0.4 + 2 * 0.2 + 0.1, 10 * tolerance);
+  EXPECT_LT((toVector3(drawn[4].from) - inWorld(foil.position)).norm(), 10 * tolerance);
+  EXPECT_LT((toVector3(drawn[4].to) - inWorld({0.1, 0.2, 0.2})).norm(), 10 * tolerance);
+}
+
+// A plate with a nose towards h x z, here y x z = x, and one without.
+TEST_F(Drawing, WingsAreDrawnInColoursOfTheirOwn) {
+  AttachDef def = *ambient().def;
+  auto shape = std::make_shared<FluidBody>(*def.fluid_body);
+  Wing wing;
+  wing.span = 0.4;
+  wing.chord = 0.2;
+  wing.thickness = 0.01;
+  wing.nose = 1;
+  shape->wings = {wing, wing};
+  shape->wings[1].nose = 0;
+  def.fluid_body = shape;
+  scene.of(*body).remove();
+  scene.fluid.add(*body, def);
+  FluidDrawing what;
+  what.wings = true;
+  draw(what);
+  EXPECT_EQ(lines(), 9u);
+  const auto first = recorder.linesOf(fluid_colours::kWings[0]);
+  ASSERT_EQ(first.size(), 5u);
+  EXPECT_EQ(recorder.linesOf(fluid_colours::kWings[1]).size(), 4u);
+  const Vector3 nose = fromFluidFrame({0.1, 0, 0});
+  EXPECT_LT((toVector3(first[4].to - first[4].from) - nose).norm(), 10 * tolerance);
 }
 
 TEST_F(Drawing, BuoyancyActsAtTheCentreOfVolume) {
