@@ -4,7 +4,6 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/bullet/links/tree_step.h"
-#include "bullet_ambient/bullet/members/flight_coupling.h"
 #include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/motion/flight/flight.h"
 
@@ -93,6 +92,15 @@ void flyAsBodies(AmbientTree* const* trees, AmbientBodies* const* of, int count,
     bodies[i]->outcome.motion = before[i];  // in the place where the tree knows its memory
     if (bodies[i]->surface()) *bodies[i]->floating = baseOf(*trees[i]).start;
   }
+}
+
+void FlightQueue::fly() noexcept {
+  if (const int count = std::exchange(trees_.count, 0))
+    flySingleLinks(trees_.flyers, trees_.of, count, time_step_);
+  const int count = std::exchange(bodies_.count, 0);
+  if (count == 0) return;
+  flyBodies(bodies_.flyers, count, time_step_);
+  for (int i = 0; i < count; ++i) reportFlight(*bodies_.flyers[i].ambient, bodies_.of[i]->warnings);
 }
 
 namespace {

@@ -2,8 +2,11 @@
 
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 
+#include <functional>
+
 #include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
+#include "bullet_ambient/bullet/members/flight_coupling.h"
 
 AMBIENT_BEGIN
 
@@ -201,6 +204,60 @@ void finishTree(AmbientTree& tree, const TreeTask& task) noexcept;
 /// substep and the one that Bullet has moved it by, so that impulses which others have applied
 /// meanwhile survive.
 void completeTree(AmbientTree& tree, const TreeTask& task) noexcept;
+
+/// Bodies and trees of several worlds that nothing touches, which fly side by side, and the steps
+/// of these worlds, each within the one before:
+///
+///   rows of world 0, rows of world 1, ..., flights of all, Bullet moves world n - 1, ..., world 0
+///
+/// All on one thread. Allocates nothing.
+class FlightQueue {
+ public:
+  /// `step(i)` makes a step of world i, whose solver calls goOn(); null: there are no worlds.
+  explicit FlightQueue(int worlds = 0, const std::function<void(int)>* step = nullptr)
+      : worlds_(worlds), step_(step) {}
+
+  /// Adds one that flies in this substep of `time_step` [s], and its fluid; flies all that wait if
+  /// they fill the lanes or if their time step is another one. A tree: prepareTree() was false.
+  void add(AmbientBody& body, AmbientBodies& of, double time_step) noexcept {
+    add(bodies_, FreeBody{&body}, of, time_step);
+  }
+  void add(AmbientTree& tree, AmbientBodies& of, double time_step) noexcept {
+    add(trees_, &tree, of, time_step);
+  }
+  /// Flies all that wait.
+  void fly() noexcept;
+
+  /// Call when the rows of a world are solved: makes the steps of the worlds that have not begun,
+  /// and flies all that wait.
+  void goOn() noexcept {
+    while (begun_ < worlds_) (*step_)(begun_++);
+    fly();
+  }
+
+ private:
+  template <class Flyer>  // FreeBody or AmbientTree*
+  struct Waiting {
+    Flyer flyers[kFlightsTogether] = {};
+    AmbientBodies* of[kFlightsTogether] = {};
+    int count = 0;
+  };
+  template <class Flyer>
+  void add(Waiting<Flyer>& waiting, const Flyer& flyer, AmbientBodies& of,
+           double time_step) noexcept {
+    if (time_step != time_step_) fly();
+    time_step_ = time_step;
+    waiting.flyers[waiting.count] = flyer;
+    waiting.of[waiting.count++] = &of;
+    if (waiting.count == kFlightsTogether) fly();
+  }
+
+  Waiting<FreeBody> bodies_;
+  Waiting<AmbientTree*> trees_;
+  double time_step_ = 0;
+  int worlds_, begun_ = 0;
+  const std::function<void(int)>* step_;
+};
 
 // Functions for links whose wrenches are read. Cost without such links: one test per link.
 

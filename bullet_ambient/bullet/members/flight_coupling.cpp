@@ -336,6 +336,22 @@ void beginFlights(AmbientBody* const* bodies, const StartStates& starts, int cou
   }
 }
 
+void flyBodies(const FreeBody* bodies, int count, double time_step) noexcept {
+  AmbientBody* flying[kFlightsTogether] = {};
+  Twist changes_W[kFlightsTogether];
+  for (int i = 0; i < count; ++i) flying[i] = bodies[i].ambient;
+  StartStates starts;
+  readStartStates(flying, count, starts);
+  beginFlights(flying, starts, count, time_step, changes_W);
+  for (int i = 0; i < count; ++i) {
+    if (bodies[i].solver_body) {
+      setExternalImpulse(*bodies[i].solver_body, changes_W[i]);
+    } else {
+      addVelocity(*bodies[i].ambient->body, changes_W[i]);
+    }
+  }
+}
+
 void endFlight(AmbientBody& ambient, double time_step) noexcept {
   btRigidBody& body = *ambient.body;
   const LastFlight& flight = std::as_const(ambient.outcome).flight();

@@ -1,8 +1,5 @@
-#include "bullet_ambient/bullet/rows/quick_rows.h"
-
-#include "bullet_ambient/base/instruction_set.h"
 #include "bullet_ambient/bullet/core/four_numbers.h"
-#include "bullet_ambient/bullet/rows/row_rewriting.h"
+#include "bullet_ambient/bullet/rows/constraint_rows.h"
 
 AMBIENT_BEGIN
 namespace {
@@ -64,7 +61,7 @@ AMBIENT_INLINE btScalar solveContacts(const RowPass& pass, btScalar largest) {
 AMBIENT_INLINE btScalar solveFrictions(const RowPass& pass, const btConstraintArray& contacts,
                                        btScalar largest) {
   for (int i = 0; i < pass.rows.size(); ++i) {
-    auto& row = const_cast<btSolverConstraint&>(pass.rows[pass.order[i]]);
+    btSolverConstraint& row = pass.rows[pass.order[i]];
     const btScalar pressed = contacts[row.m_frictionIndex].m_appliedImpulse;
     if (!(pressed > 0)) continue;
     row.m_lowerLimit = -(row.m_friction * pressed);
@@ -74,41 +71,12 @@ AMBIENT_INLINE btScalar solveFrictions(const RowPass& pass, const btConstraintAr
   return largest;
 }
 
-// Defines a struct with the functions of QuickRows, compiled for the instruction set `target`.
-// NOLINTBEGIN(bugprone-macro-parentheses): an attribute takes none
-#define AMBIENT_QUICK_ROWS(name, target)                                                  \
-  struct name {                                                                           \
-    target static btScalar generic(btSolverBody& a, btSolverBody& b,                      \
-                                   const btSolverConstraint& row) {                       \
-      return solve<true>(a, b, row);                                                      \
-    }                                                                                     \
-    target static btScalar lowerLimit(btSolverBody& a, btSolverBody& b,                   \
-                                      const btSolverConstraint& row) {                    \
-      return solve<false>(a, b, row);                                                     \
-    }                                                                                     \
-    target static btScalar joints(const RowPass& pass, int iteration, btScalar largest) { \
-      return solveJoints(pass, iteration, largest);                                       \
-    }                                                                                     \
-    target static btScalar contacts(const RowPass& pass, btScalar largest) {              \
-      return solveContacts(pass, largest);                                                \
-    }                                                                                     \
-    target static btScalar frictions(const RowPass& pass, const btConstraintArray& of,    \
-                                     btScalar largest) {                                  \
-      return solveFrictions(pass, of, largest);                                           \
-    }                                                                                     \
-    static constexpr QuickRows kAll{generic, lowerLimit, contacts, frictions, joints};    \
-  };
-// NOLINTEND(bugprone-macro-parentheses)
-
-AMBIENT_QUICK_ROWS(Baseline, )
-AMBIENT_QUICK_ROWS(Avx, AMBIENT_AVX)
-
-constexpr Kernels<const QuickRows*> kQuickRows{&Baseline::kAll, &Avx::kAll, &Avx::kAll};
-
 }  // namespace
 
 const QuickRows& quickRows() noexcept {
-  static const QuickRows& fastest = *kQuickRows.fastest();
+  static const QuickRows fastest{fastestCopy<&solve<true>>(), fastestCopy<&solve<false>>(),
+                                 fastestCopy<&solveContacts>(), fastestCopy<&solveFrictions>(),
+                                 fastestCopy<&solveJoints>()};
   return fastest;
 }
 

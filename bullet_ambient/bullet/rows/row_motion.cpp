@@ -1,5 +1,3 @@
-#include "bullet_ambient/bullet/rows/row_motion.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +6,7 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/bullet/members/flight_coupling.h"
+#include "bullet_ambient/bullet/rows/constraint_rows.h"
 #include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/motion/flight/flight.h"
 #include "bullet_ambient/motion/rows/row_velocity.h"
