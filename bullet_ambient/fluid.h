@@ -141,6 +141,8 @@ class Immersed {
   };
   Access lock() const noexcept;
   Access require(const char* function) const;
+  /// Access for a function that changes what is asked for the fluid.
+  Access requireChangeable(const char* function) const;
 
   std::weak_ptr<AmbientBodies> bodies_;
   std::weak_ptr<AmbientBody*> handle_;

@@ -31,29 +31,24 @@
 AMBIENT_BEGIN
 namespace {
 
-// Tells what may move a body in this substep. Written into its companion id while bodies are
-// selected: Bullet overwrites the id when it converts the body.
-struct Marks {
-  bool is_near = false;      // has a joint, or a pair with another body in the broadphase
-  bool has_rows = false;     // has a joint or contact
-  bool is_anchored = false;  // has a joint, or a contact with a body that cannot move
-};
+// Companion ids that tell what may move a body in this substep, while bodies are selected: Bullet
+// overwrites the id when it converts the body. Bullet's own are from -2 on; -2: cannot move.
+constexpr int kNotConverted = -1;
+constexpr int kNear = -3;      // has a joint, or a pair with another body in the broadphase
+constexpr int kRows = -4;      // has a joint or contact
+constexpr int kAnchored = -5;  // has a joint, or a contact with a body that cannot move
 
-// Companion ids. Bullet's own are from -2 on; -2: cannot move.
-constexpr int kNotConverted = -1, kNear = -3, kRows = -4, kAnchored = -5;
-
-Marks marksOf(const btCollisionObject& body) {
+// Returns one of these.
+int markOf(const btCollisionObject& body) {
   const int id = body.getCompanionId();
-  return {id <= kNear && id >= kAnchored, id <= kRows && id >= kAnchored, id == kAnchored};
+  return id <= kNear && id >= kAnchored ? id : kNotConverted;
 }
 
 // Leaves bodies that cannot move alone: solvers of other groups may read them at the same time.
 void mark(const btCollisionObject& body, int id) {
   if (body.isStaticOrKinematicObject() || !btRigidBody::upcast(&body)) return;
-  const bool is_marked = marksOf(body).is_near;
-  const int known = body.getCompanionId();
   // Bullet writes to bodies of manifolds, too.
-  const_cast<btCollisionObject&>(body).setCompanionId(is_marked && known < id ? known : id);
+  const_cast<btCollisionObject&>(body).setCompanionId(std::min(markOf(body), id));
 }
 
 // Marks the bodies in contact manifolds and joints.
@@ -180,13 +175,13 @@ void SolverGroup::findMembers(const GroupBodies& bodies, bool all_stay) noexcept
       continue;
     }
     stopIfNotFinite(*ambient, bodies_.warnings);
-    const Marks marks = marksOf(object);
+    const int mark = markOf(object);
     const bool is_locked = !axisFactors(*ambient->body).areFree();
     if (ambient->sensor)
       beginBodyReading(*ambient, readState(*ambient->body), readSurroundings(*ambient), is_locked);
-    if (all_stay || is_locked || marks.is_near) {
+    if (all_stay || is_locked || mark <= kNear) {
       converted_.push_back(&object);
-      members_.push_back({ambient, is_locked, marks.has_rows, marks.is_anchored});
+      members_.push_back({ambient, is_locked, mark <= kRows, mark == kAnchored});
     } else {
       object.setCompanionId(kNotConverted);
       if (FlightQueue* queue = bodies_.flight_queue)

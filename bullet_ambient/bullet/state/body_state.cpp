@@ -1,5 +1,3 @@
-#include "bullet_ambient/bullet/state/body_state.h"
-
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 #include <BulletDynamics/Featherstone/btMultiBodyConstraint.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
@@ -16,8 +14,7 @@
 #include "bullet_ambient/bullet/links/tree_step.h"
 #include "bullet_ambient/bullet/members/attach.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
-#include "bullet_ambient/bullet/state/bullet_visitors.h"
-#include "bullet_ambient/bullet/state/world_state_fields.h"
+#include "bullet_ambient/bullet/state/bullet_state.h"
 #include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/immersed/region_following.h"
 
@@ -90,11 +87,6 @@ class RowsOf : public btMultiBodyConstraint {
 
 std::size_t velocityCount(const btMultiBody& body) {
   return 6 + static_cast<std::size_t>(body.getNumDofs());
-}
-
-template <class Body>  // const or not
-auto* colliderOf(Body& body, int link) {
-  return link < 0 ? body.getBaseCollider() : body.getLinkCollider(link);
 }
 
 template <class Visit>
@@ -256,22 +248,17 @@ AmbientState saveAmbient(const AmbientBody& ambient, const InverseMass& mass) {
   const auto* last = std::get_if<LastFlight>(&ambient.outcome.motion);
   LastFlight flight = last ? *last : LastFlight{};
   flight.memory.load_W = ambient.outcome.lastLoad();
-  AmbientState state{*ambient.def,
-                     ambient.medium,
-                     ambient.location,
-                     ambient.flow,
-                     flight.memory,
-                     ambient.floating ? ambient.floating->waves : WaveMemory{},
-                     lastPlane(ambient),
-                     ambient.wake ? *ambient.wake : Wake{},
-                     false,
-                     false,
-                     {},
-                     {},
-                     {},
-                     {},
-                     flight.left_W,
-                     ambient.counters};
+  AmbientState state;
+  state.def = *ambient.def;
+  state.medium = ambient.medium;
+  state.location = ambient.location;
+  state.flow = ambient.flow;
+  state.memory = flight.memory;
+  if (ambient.floating) state.waves = ambient.floating->waves;
+  state.plane_B = lastPlane(ambient);
+  if (ambient.wake) state.wake = *ambient.wake;
+  state.left_W = flight.left_W;
+  state.counters = ambient.counters;
   if (ambient.vessel) {
     state.has_met_water = ambient.vessel->is_known;
     state.has_sunk = ambient.vessel->has_sunk;

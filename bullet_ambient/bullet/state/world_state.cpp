@@ -11,9 +11,7 @@
 
 #include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
-#include "bullet_ambient/bullet/state/body_state.h"
-#include "bullet_ambient/bullet/state/bullet_visitors.h"
-#include "bullet_ambient/bullet/state/contact_state.h"
+#include "bullet_ambient/bullet/state/bullet_state.h"
 #include "bullet_ambient/bullet/state/world_state_structs.h"
 #include "bullet_ambient/saved_state.h"
 

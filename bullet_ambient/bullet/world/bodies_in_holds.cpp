@@ -1,5 +1,3 @@
-#include "bullet_ambient/bullet/world/bodies_in_holds.h"
-
 #include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
 
 #include <algorithm>
@@ -13,6 +11,7 @@
 #include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/bullet/links/tree_step.h"
 #include "bullet_ambient/bullet/members/attach.h"
+#include "bullet_ambient/bullet/world/fluid_action.h"
 
 AMBIENT_BEGIN
 namespace {

@@ -10,7 +10,6 @@
 #include "bullet_ambient/bullet/links/tree_step.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/bullet/members/attach.h"
-#include "bullet_ambient/bullet/world/bodies_in_holds.h"
 #include "bullet_ambient/bullet/world/fluid_action.h"
 #include "bullet_ambient/immersed/region_following.h"
 #include "bullet_ambient/saved_state.h"

@@ -14,7 +14,6 @@
 #include "bullet_ambient/bullet/members/flight_coupling.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
 #include "bullet_ambient/bullet/rows/constraint_rows.h"
-#include "bullet_ambient/bullet/world/bodies_in_holds.h"
 #include "bullet_ambient/drawing.h"
 #include "bullet_ambient/immersed/fluid_regions.h"
 #include "bullet_ambient/immersed/wrench_sensor.h"

@@ -79,10 +79,6 @@ bool hasShape(const btCollisionObject& object) {
   return object.getCollisionShape() && !isEmpty(*object.getCollisionShape());
 }
 
-const btMultiBodyLinkCollider* colliderOf(const btMultiBody& body, int link) {
-  return link < 0 ? body.getBaseCollider() : body.getLinkCollider(link);
-}
-
 // Counts bodies that were just attached, for one report of all.
 struct Tally {
   std::set<const FluidBody*> shapes;
