@@ -392,7 +392,7 @@ void TreeGroup::begin() noexcept {
   detachReplacedTrees();
   if (bodies_.trees.empty()) return;
   is_begun_ = true;
-  forEachTree(*bodies_.trees.world(), bodies_.trees, [this](AmbientTree& tree) {
+  forEachTree(bodies_.trees, [this](AmbientTree& tree) {
     TreeStep& step = tree.step;
     if (isSolved(tree)) bodies_.warnings.warnOnce(Warning::kNoAction);
     step.outcome = Outcome::kNotSolved;
@@ -424,11 +424,11 @@ void TreeGroup::prepare(const btContactSolverInfo& info) noexcept {
   is_begun_ = false;
   bodies_.solved.fetch_add(1, std::memory_order_relaxed);
   markTurningRows();
-  const TreeTask task = taskOf(bodies_, info.m_timeStep);
+  const auto duration = static_cast<double>(info.m_timeStep);
   FlightQueue own;
   FlightQueue& queue = bodies_.flight_queue ? *bodies_.flight_queue : own;
-  forEachTree(*bodies_.trees.world(), bodies_.trees, [&](AmbientTree& tree) {
-    if (!prepareTree(tree, task)) queue.add(tree, bodies_, task.duration);
+  forEachTree(bodies_.trees, [&](AmbientTree& tree) {
+    if (!prepareTree(tree, bodies_, duration)) queue.add(tree, bodies_, duration);
   });
   own.fly();
 }
@@ -437,9 +437,9 @@ void TreeGroup::finish(const btContactSolverInfo& info) noexcept {
   if (bodies_.trees.empty()) return;
   if (is_begun_) bodies_.warnings.warnOnce(Warning::kNoMultiBodySolver);
   is_begun_ = false;
-  const TreeTask task = taskOf(bodies_, info.m_timeStep);
-  forEachTree(*bodies_.trees.world(), bodies_.trees,
-              [&task](AmbientTree& tree) { finishTree(tree, task); });
+  forEachTree(bodies_.trees, [&](AmbientTree& tree) {
+    finishTree(tree, bodies_, static_cast<double>(info.m_timeStep));
+  });
 }
 
 AMBIENT_END

@@ -22,12 +22,6 @@ AMBIENT_BEGIN
 
 namespace {
 
-// Calls visit(AmbientTree&) for the trees of a world.
-template <class Visit>
-void forEachTreeIn(const btCollisionWorld& world, const AmbientBodies& bodies, const Visit& visit) {
-  if (isOf(world, bodies.trees)) forEachTree(*bodies.trees.world(), bodies.trees, visit);
-}
-
 // Calls visit(AmbientBody&) for the bodies and links that a world has. Asks the world, not the
 // fluid: a body there may have been destroyed.
 template <class Visit>
@@ -35,7 +29,7 @@ void forEachIn(const btCollisionWorld& world, const AmbientBodies& bodies, const
   const btCollisionObjectArray& objects = world.getCollisionObjectArray();
   for (int i = 0; i < objects.size(); ++i)
     if (AmbientBody* ambient = bodies.find(objects[i])) visit(*ambient);
-  forEachTreeIn(world, bodies, [&visit](const AmbientTree& tree) {
+  forEachTreeIn(world, bodies.trees, [&visit](const AmbientTree& tree) {
     for (const auto& link : tree.links) visit(link->ambient);
   });
 }
@@ -110,10 +104,9 @@ class Completion {
 };
 
 // Completes the trees that the solver has worked on, after Bullet has moved them.
-void completeTrees(const btCollisionWorld& world, AmbientBodies& bodies, btScalar time_step) {
-  if (!isOf(world, bodies.trees)) return;
-  const TreeTask task = taskOf(bodies, time_step);
-  forEachTreeIn(world, bodies, [&task](AmbientTree& tree) { completeTree(tree, task); });
+void completeTrees(const btCollisionWorld& world, AmbientBodies& bodies, double time_step) {
+  if (bodies.trees.world() != &world) return;
+  forEachTree(bodies.trees, [&](AmbientTree& tree) { completeTree(tree, bodies, time_step); });
   for (const auto& tree : bodies.trees.all()) tree->step.outcome = Outcome::kNotSolved;
 }
 
@@ -144,7 +137,7 @@ void wakeReloaded(const btCollisionWorld& world, const AmbientBodies& bodies) {
         isModelStale(*ambient, inverseMassOf(*ambient->body)))
       objects[i]->activate();
   }
-  forEachTreeIn(world, bodies, [](const AmbientTree& tree) {
+  forEachTreeIn(world, bodies.trees, [](const AmbientTree& tree) {
     if (!isAsleep(*tree.multi_body)) return;
     for (const auto& link : tree.links)
       if (!(link->mass == inverseMassOf(*tree.multi_body, link->link)))
@@ -179,7 +172,7 @@ void FluidAction::updateAction(btCollisionWorld* world, btScalar time_step) {
     completion.add(kind, *ambient);
   }
   completion.completeRows();
-  completeTrees(*world, bodies_, time_step);
+  completeTrees(*world, bodies_, static_cast<double>(time_step));
   if (std::isfinite(time_step)) {
     bodies_.regions.time += static_cast<double>(time_step);
   } else if (bodies_.size() > 0 || !bodies_.trees.empty() || !bodies_.regions.empty()) {
@@ -221,7 +214,7 @@ void FluidAction::debugDraw(btIDebugDraw* drawer) {
       drawFluid(*ambient, motionOf(*ambient->body), drawing_, *drawer);
     }
   }
-  forEachTreeIn(*world_, bodies_, [&](AmbientTree& tree) {
+  forEachTreeIn(*world_, bodies_.trees, [&](AmbientTree& tree) {
     computeLinkPosesNow(tree);
     for (const auto& link : tree.links)
       if (link->ambient.isInFluid() && link->mass.mass > 0)
