@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bullet_ambient/bullet/core/precision_check.h"
@@ -132,13 +133,7 @@ class WorldAttachment {
   void update(btCollisionWorld& world) noexcept;
 
  private:
-  // An object of the world.
-  struct Seen {
-    const btCollisionObject* object = nullptr;
-    int instance = -1;
-  };
-
-  bool hasMetAll(const btCollisionWorld& world) const noexcept;
+  bool hasSeenAll(const btCollisionWorld& world) const noexcept;
   // Returns the objects that were not seen before; null in place of all others.
   std::vector<btCollisionObject*> seeAll(const btCollisionWorld& world);
   // A new object that is to be added.
@@ -166,7 +161,8 @@ class WorldAttachment {
   FluidBodySource& source_;
   Medium medium_;
   AttachSettings settings_;
-  std::vector<Seen> seen_;                               // in the order of the world
+  // Objects that were seen, in the order of the world, and their instance numbers.
+  std::vector<std::pair<const btCollisionObject*, int>> seen_;
   btMultiBodyDynamicsWorld* multibody_world_ = nullptr;  // of attachNew() while it runs
 };
 

@@ -168,88 +168,73 @@ bool settleTurn(btQuaternion& now, btQuaternion exact) {
   return true;
 }
 
-// A tree that Bullet has moved.
-class MovedTree {
- public:
-  MovedTree(AmbientTree& tree, double h)
-      : step_(tree.step),
-        links_(tree.tree.links),
-        body_(*tree.multi_body),
-        h_(static_cast<btScalar>(h)) {}
+// Functions below return true if they have changed a number. `h`: for which Bullet has moved the
+// tree [s].
 
-  // Each function returns true if it has changed a number.
+// Returns three coordinates, from `first` on, of the velocity that Bullet has moved a tree by.
+btVector3 velocityAlong(const TreeStep& step, int first) {
+  return toBullet(Vector3(step.moved.segment<3>(first)));
+}
 
-  bool settleBase() {
-    const btVector3 spin = velocityAlong(0);
-    if (links_.front().keeps_position || spin.isZero()) return false;
-    btQuaternion to_base = body_.getWorldToBaseRot();
-    if (!settleTurn(to_base, step_.to_base * turnInStep(spin, h_).inverse())) return false;
-    body_.setWorldToBaseRot(to_base);
-    return true;
+bool settleBase(AmbientTree& tree, btScalar h) {
+  const btVector3 spin = velocityAlong(tree.step, 0);
+  if (tree.tree.links.front().keeps_position || spin.isZero()) return false;
+  btQuaternion to_base = tree.multi_body->getWorldToBaseRot();
+  if (!settleTurn(to_base, tree.step.to_base * turnInStep(spin, h).inverse())) return false;
+  tree.multi_body->setWorldToBaseRot(to_base);
+  return true;
+}
+
+bool settleSpherical(const JointPosition& from, const btVector3& spin, btScalar h,
+                     btMultibodyLink& link) {
+  if (spin.isZero()) return false;
+  btScalar* p = link.m_jointPos;
+  btQuaternion now(p[0], p[1], p[2], p[3]);
+  const btQuaternion start = toBullet(Quaternion(from[3], from[0], from[1], from[2]));
+  if (!settleTurn(now, turnInStep(quatRotate(start, spin), h) * start)) return false;
+  for (int i = 0; i < 4; ++i) p[i] = now[i];
+  link.updateCacheMultiDof();
+  return true;
+}
+
+// Bullet has turned the way by the angle at the end of the step.
+void settlePlanar(const JointPosition& from, const btVector3& velocity, btScalar h,
+                  btMultibodyLink& link) {
+  constexpr btScalar kRounding = 16 * std::numeric_limits<btScalar>::epsilon();
+  const btVector3 turned =
+      quatRotate(turnAbout(link.getAxisTop(0), link.m_jointPos[0]),
+                 velocity[1] * link.getAxisBottom(1) + velocity[2] * link.getAxisBottom(2));
+  for (int i : {1, 2}) {
+    const auto start = static_cast<btScalar>(from[static_cast<std::size_t>(i)]);
+    const btScalar turn = link.getAxisBottom(i).dot(turned) * h, exact = start + turn;
+    const btScalar rounding = kRounding * (std::abs(start) + std::abs(turn));
+    if (std::abs(link.m_jointPos[i] - exact) <= rounding) link.m_jointPos[i] = exact;
   }
+}
 
-  bool settleJoints() {
-    bool has_changed = false;
-    int first = 6;
-    for (int i = 0; i < body_.getNumLinks(); ++i) {
-      const Link& link = links_[static_cast<std::size_t>(i) + 1];
-      btMultibodyLink& bullet = body_.getLink(i);
-      const JointPosition& from = step_.pose.joints[static_cast<std::size_t>(i) + 1];
-      if (link.joint.kind == JointKind::kSpherical && !link.keeps_position)
-        has_changed |= settleSpherical(from, velocityAlong(first), bullet);
-      if (link.joint.kind == JointKind::kPlanar && !link.keeps_position)
-        settlePlanar(from, velocityAlong(first), bullet);
-      has_changed |= settleLink(bullet);
-      first += axisCount(link.joint.kind);
-    }
-    return has_changed;
+bool settleJoints(AmbientTree& tree, btScalar h) {
+  bool has_changed = false;
+  int first = 6;
+  for (int i = 0; i < tree.multi_body->getNumLinks(); ++i) {
+    const Link& link = tree.tree.links[static_cast<std::size_t>(i) + 1];
+    btMultibodyLink& bullet = tree.multi_body->getLink(i);
+    const JointPosition& from = tree.step.pose.joints[static_cast<std::size_t>(i) + 1];
+    if (link.joint.kind == JointKind::kSpherical && !link.keeps_position)
+      has_changed |= settleSpherical(from, velocityAlong(tree.step, first), h, bullet);
+    if (link.joint.kind == JointKind::kPlanar && !link.keeps_position)
+      settlePlanar(from, velocityAlong(tree.step, first), h, bullet);
+    has_changed |= settleLink(bullet);
+    first += axisCount(link.joint.kind);
   }
-
- private:
-  // Returns three coordinates, from `first` on, of the velocity that Bullet has moved the tree by.
-  btVector3 velocityAlong(int first) const {
-    return toBullet(Vector3(step_.moved.segment<3>(first)));
-  }
-
-  bool settleSpherical(const JointPosition& from, const btVector3& spin,
-                       btMultibodyLink& link) const {
-    if (spin.isZero()) return false;
-    btScalar* p = link.m_jointPos;
-    btQuaternion now(p[0], p[1], p[2], p[3]);
-    const btQuaternion start = toBullet(Quaternion(from[3], from[0], from[1], from[2]));
-    if (!settleTurn(now, turnInStep(quatRotate(start, spin), h_) * start)) return false;
-    for (int i = 0; i < 4; ++i) p[i] = now[i];
-    link.updateCacheMultiDof();
-    return true;
-  }
-
-  // Bullet has turned the way by the angle at the end of the step.
-  void settlePlanar(const JointPosition& from, const btVector3& velocity,
-                    btMultibodyLink& link) const {
-    constexpr btScalar kRounding = 16 * std::numeric_limits<btScalar>::epsilon();
-    const btVector3 turned =
-        quatRotate(turnAbout(link.getAxisTop(0), link.m_jointPos[0]),
-                   velocity[1] * link.getAxisBottom(1) + velocity[2] * link.getAxisBottom(2));
-    for (int i : {1, 2}) {
-      const auto start = static_cast<btScalar>(from[static_cast<std::size_t>(i)]);
-      const btScalar turn = link.getAxisBottom(i).dot(turned) * h_, exact = start + turn;
-      const btScalar rounding = kRounding * (std::abs(start) + std::abs(turn));
-      if (std::abs(link.m_jointPos[i] - exact) <= rounding) link.m_jointPos[i] = exact;
-    }
-  }
-
-  const TreeStep& step_;
-  const std::vector<Link>& links_;
-  btMultiBody& body_;
-  const btScalar h_;
-};
+  return has_changed;
+}
 
 }  // namespace
 
-void settleTree(AmbientTree& tree, double h) noexcept {
-  MovedTree moved(tree, h);
-  const bool has_turned = moved.settleBase();
-  if (moved.settleJoints() || has_turned)
+void settleTree(AmbientTree& tree, double duration) noexcept {
+  const auto h = static_cast<btScalar>(duration);
+  const bool has_turned = settleBase(tree, h);
+  if (settleJoints(tree, h) || has_turned)
     tree.multi_body->updateCollisionObjectWorldTransforms(tree.to_local, tree.origins);
 }
 

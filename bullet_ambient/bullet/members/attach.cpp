@@ -173,37 +173,31 @@ namespace {
 void warnOfDoubts(const AmbientBody& ambient, Warnings& warnings) {
   constexpr double kRounding = 1e-3;
   const FluidBody& shape = *ambient.def->fluid_body;
-  const std::string who = "bullet_ambient: " + nameOf(*ambient.def) + ' ';
+  const FlowSettings& flow = ambient.def->flow;
+  const auto warn = [&](Warning warning, const std::string& what) {
+    const std::string text = "bullet_ambient: " + nameOf(*ambient.def) + ' ' + what;
+    warnings.warnOnce(warning, text.c_str());
+  };
   const Vector3 moments = ambient.models->inverse_mass.moments();
   const double largest = moments.maxCoeff(), others = moments.sum() - largest;
-  if (largest > (1 + kRounding) * others) {
-    const std::string text = who + "has a principal moment of inertia of " +
-                             std::to_string(largest) + " kg m^2, but no rigid body has one above " +
-                             std::to_string(others) + " kg m^2, the sum of the other two";
-    warnings.warnOnce(Warning::kInertia, text.c_str());
-  }
-  const FlowSettings& flow = ambient.def->flow;
-  if (flow.law == PressureLaw::kForm && !flow.own_law &&
-      flow.separation_angle != FlowSettings{}.separation_angle) {
-    const std::string text = who +
-                             "has a separation angle, which the form law does not read: where the "
-                             "flow leaves a body follows from its shape and its roughness";
-    warnings.warnOnce(Warning::kAngle, text.c_str());
-  }
-  if (ambient.isInFluid() && flow.law == PressureLaw::kForm && !flow.own_law &&
-      ambient.medium.viscosity > 0 && ambient.model().loads && !(shape.sphere_radius > 0) &&
-      !shape.viscous.isKnown()) {
-    const std::string text = who +
-                             "moves as without viscosity: its fluid body has no resistance, which "
-                             "prepare() of preprocess/build.h and ambient_preprocess upgrade make";
-    warnings.warnOnce(Warning::kNoResistance, text.c_str());
-  }
+  if (largest > (1 + kRounding) * others)
+    warn(Warning::kInertia, "has a principal moment of inertia of " + std::to_string(largest) +
+                                " kg m^2, but no rigid body has one above " +
+                                std::to_string(others) + " kg m^2, the sum of the other two");
+  const bool has_form_law = flow.law == PressureLaw::kForm && !flow.own_law;
+  if (has_form_law && flow.separation_angle != FlowSettings{}.separation_angle)
+    warn(Warning::kAngle,
+         "has a separation angle, which the form law does not read: where the "
+         "flow leaves a body follows from its shape and its roughness");
+  if (ambient.isInFluid() && has_form_law && ambient.medium.viscosity > 0 &&
+      ambient.model().loads && !(shape.sphere_radius > 0) && !shape.viscous.isKnown())
+    warn(Warning::kNoResistance,
+         "moves as without viscosity: its fluid body has no resistance, which "
+         "prepare() of preprocess/build.h and ambient_preprocess upgrade make");
   if (ambient.isInFluid() && !ambient.model().loads && !(shape.volume > 0) &&
-      shape.added_mass.isZero(0)) {
-    const std::string text =
-        who + "feels no fluid: without faces, volume and added mass its shape is empty";
-    warnings.warnOnce(Warning::kEmpty, text.c_str());
-  }
+      shape.added_mass.isZero(0))
+    warn(Warning::kEmpty,
+         "feels no fluid: without faces, volume and added mass its shape is empty");
 }
 
 // Refuses a definition without a shape.

@@ -352,6 +352,14 @@ inline Twist changeByRows(btSolverBody& b) {
           toVector3(b.internalGetDeltaLinearVelocity())};
 }
 
+/// Returns the velocity that Bullet will write back, world axes.
+inline Twist solvedVelocity(btSolverBody& b) {
+  return {toVector3(b.m_angularVelocity + b.internalGetDeltaAngularVelocity() +
+                    b.m_externalTorqueImpulse),
+          toVector3(b.m_linearVelocity + b.internalGetDeltaLinearVelocity() +
+                    b.m_externalForceImpulse)};
+}
+
 /// Up to kFlightsTogether ambient bodies of a group that rows may move, from the preparation of
 /// their rows to the end of the iterations. The bits of a body do not depend on the others.
 struct RowBatch {

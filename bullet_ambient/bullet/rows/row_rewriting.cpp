@@ -77,7 +77,7 @@ struct PartProducts {
   Four angular, linear;
 };
 
-// Returns products of J and e at one side, with e of row_rewriting.h. The linear part has the
+// Returns products of J and e at one side, with e of constraint_rows.h. The linear part has the
 // opposite sign: e_l = -velocity_excess.
 AMBIENT_INLINE PartProducts unseenProducts(RowKind kind, const RigidSide& side) {
   if (!side.ambient) return {anyZero(), anyZero()};

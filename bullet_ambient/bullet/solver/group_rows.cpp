@@ -315,11 +315,7 @@ void fromBasis(const WorldBasis& T, btVector3& angular, btVector3& linear) {
 
 // True if the velocity and the position correction that Bullet will write back are finite.
 bool isFinite(btSolverBody& b) {
-  const btVector3 linear =
-      b.m_linearVelocity + b.internalGetDeltaLinearVelocity() + b.m_externalForceImpulse;
-  const btVector3 angular =
-      b.m_angularVelocity + b.internalGetDeltaAngularVelocity() + b.m_externalTorqueImpulse;
-  return toVector3(linear).allFinite() && toVector3(angular).allFinite() &&
+  return solvedVelocity(b).vector().allFinite() &&
          toVector3(b.internalGetPushVelocity()).allFinite() &&
          toVector3(b.internalGetTurnVelocity()).allFinite();
 }

@@ -15,11 +15,16 @@
 AMBIENT_BEGIN
 namespace {
 
-// transfer(stream, field) is written once for all directions: the stream writes bytes, reads them,
-// or checks numbers.
+using Hashes = std::map<const FluidBody*, std::uint64_t>;
 
-// Appends numbers and texts to bytes, little-endian.
-class ByteWriter {
+std::uint64_t hashOf(const FluidBody& fluid_body, Hashes& hashes) {
+  const auto [entry, is_new] = hashes.try_emplace(&fluid_body, 0);
+  if (is_new) entry->second = contentHash(fluid_body);
+  return entry->second;
+}
+
+// Appends numbers, texts and names of fluid bodies to bytes, little-endian.
+class StateWriter {
  public:
   static constexpr bool kReads = false;
 
@@ -28,42 +33,56 @@ class ByteWriter {
     static_assert(std::is_arithmetic_v<Number>);
     std::uint64_t bits = 0;
     std::memcpy(&bits, &value, sizeof value);
-    for (std::size_t i = 0; i < sizeof value; ++i) {
+    for (std::size_t i = 0; i < sizeof value; ++i)
       bytes_.push_back(static_cast<char>(bits >> (8 * i)));
-    }
   }
-  void text(const std::string& value) {
-    number(static_cast<std::uint32_t>(value.size()));
-    bytes_ += value;
+  // A fluid body is found by its name; a hash of its content stands beside it.
+  void fluidBody(const std::shared_ptr<const FluidBody>& body) {
+    AMBIENT_ASSERT(body);
+    const std::uint64_t hash = hashOf(*body, hashes_);
+    if (named_.try_emplace(body->name, hash).first->second != hash) {
+      throw std::runtime_error("encodeState: two different fluid bodies have the name '" +
+                               body->name + "', by which they are found again; rename one");
+    }
+    number(static_cast<std::uint32_t>(body->name.size()));
+    bytes_ += body->name;
+    number(hash);
   }
   const std::string& bytes() const { return bytes_; }
 
  private:
   std::string bytes_;
+  Hashes hashes_;
+  std::map<std::string, std::uint64_t> named_;
 };
 
-// Reads the bytes of a ByteWriter. All functions throw std::runtime_error, beginning with
+// Reads the bytes of a StateWriter. All functions throw std::runtime_error, beginning with
 // `source`, if the bytes end too early.
-class ByteReader {
+class StateReader {
  public:
   static constexpr bool kReads = true;
 
-  ByteReader(std::string_view bytes, std::string source)
-      : bytes_(bytes), source_(std::move(source)) {}
+  StateReader(std::string_view bytes, std::string source, const FluidBodyLookup& lookup)
+      : bytes_(bytes), source_(std::move(source)), lookup_(lookup) {}
 
   template <class Number>
   void number(Number& value) {
     const std::string_view raw = take(sizeof value);
     std::uint64_t bits = 0;
-    for (std::size_t i = 0; i < sizeof value; ++i) {
+    for (std::size_t i = 0; i < sizeof value; ++i)
       bits |= static_cast<std::uint64_t>(static_cast<unsigned char>(raw[i])) << (8 * i);
-    }
     std::memcpy(&value, &bits, sizeof value);
   }
-  void text(std::string& value) {
+  void fluidBody(std::shared_ptr<const FluidBody>& body) {
     std::uint32_t size = 0;
+    std::uint64_t hash = 0;
     number(size);
-    value = take(size);
+    const std::string name(take(size));
+    number(hash);
+    body = lookup_ ? lookup_(name) : nullptr;
+    if (!body) fail("needs the fluid body '" + name + "', which is not known here");
+    if (hashOf(*body, hashes_) != hash)
+      fail("was saved with another content of the fluid body '" + name + "'");
   }
   std::string_view take(std::size_t size) {
     if (size > bytes_.size()) fail("is cut short");
@@ -71,7 +90,7 @@ class ByteReader {
     bytes_.remove_prefix(size);
     return taken;
   }
-  std::size_t left() const { return bytes_.size(); }
+  std::string_view left() const { return bytes_; }
   [[noreturn]] void fail(const std::string& what) const {
     throw std::runtime_error(plainLine(source_ + ": the saved state " + what));
   }
@@ -79,7 +98,12 @@ class ByteReader {
  private:
   std::string_view bytes_;
   std::string source_;
+  const FluidBodyLookup& lookup_;
+  Hashes hashes_;
 };
+
+// transfer(stream, field) is written once for all directions: the stream writes bytes, reads them,
+// or checks numbers.
 
 // Transfers a number.
 template <class Stream, class Number>
@@ -151,107 +175,44 @@ void transfer(Stream& stream, std::vector<btScalar>& numbers) {
   transferList(stream, numbers, [&stream](btScalar& number) { stream.number(number); });
 }
 
-// Transfers whether an optional field has a value; a reader creates the value. Returns true if
-// there is one.
-template <class Stream, class Value>
-bool transferPresence(Stream& stream, std::optional<Value>& field) {
-  bool is_there = field.has_value();
-  transfer(stream, is_there);
-  if constexpr (Stream::kReads) {
-    if (is_there) field.emplace();
-  }
-  return is_there;
-}
+// Visitor that passes fields as bytes to a StateWriter, or from a StateReader.
+template <class Stream>
+struct Transfer : FieldVisitor, Stream {
+  using Stream::Stream, Stream::fluidBody;
 
-// Transfers an enumerator as one byte; a reader refuses one that `names` does not have.
-template <class Stream, class Enum, class Names>
-void transferChoice(Stream& stream, Enum& value, const Names& names) {
-  auto byte = static_cast<std::uint8_t>(value);
-  stream.number(byte);
-  if constexpr (Stream::kReads) {
-    value = static_cast<Enum>(byte);
-    if (!wordOf(names, value)) stream.fail("has a choice that does not exist");
+  template <class Field, class... Access>
+  void operator()(Field& field, const Rule&, const Access&...) {
+    transfer<Stream>(*this, field);
   }
-}
+  // As one byte; a reader refuses an enumerator that `names` does not have.
+  template <class Enum, class Names>
+  void choice(Enum& value, const Names& names) {
+    auto byte = static_cast<std::uint8_t>(value);
+    this->number(byte);
+    if constexpr (Stream::kReads) {
+      value = static_cast<Enum>(byte);
+      if (!wordOf(names, value)) this->fail("has a choice that does not exist");
+    }
+  }
+  template <class State>
+  void optional(std::optional<State>& state) {
+    bool is_there = state.has_value();
+    transfer<Stream>(*this, is_there);
+    if (!is_there) return;
+    if constexpr (Stream::kReads) state.emplace();
+    fields(*this, *state);
+  }
+  template <class State, class Name>
+  void list(std::vector<State>& states, const Name&) {
+    transferList<Stream>(*this, states, [this](State& state) { fields(*this, state); });
+  }
+};
 
 // Header: magic, version, bytes per number of Bullet, FNV-1a of the payload, payload.
 constexpr std::string_view kMagic = "AMBSTATE";
 
-using Hashes = std::map<const FluidBody*, std::uint64_t>;
-
-std::uint64_t hashOf(const FluidBody& fluid_body, Hashes& hashes) {
-  const auto [entry, is_new] = hashes.try_emplace(&fluid_body, 0);
-  if (is_new) entry->second = contentHash(fluid_body);
-  return entry->second;
-}
-
-// Finds fluid bodies by their names; a hash of their content stands beside the name.
-class StateWriter : public ByteWriter {
- public:
-  void fluidBody(const std::shared_ptr<const FluidBody>& body) {
-    AMBIENT_ASSERT(body);
-    const std::uint64_t hash = hashOf(*body, hashes_);
-    if (named_.try_emplace(body->name, hash).first->second != hash) {
-      throw std::runtime_error("encodeState: two different fluid bodies have the name '" +
-                               body->name + "', by which they are found again; rename one");
-    }
-    text(body->name);
-    number(hash);
-  }
-
- private:
-  Hashes hashes_;
-  std::map<std::string, std::uint64_t> named_;
-};
-
-class StateReader : public ByteReader {
- public:
-  StateReader(std::string_view bytes, const std::string& source, const FluidBodyLookup& lookup)
-      : ByteReader(bytes, source), lookup_(lookup) {}
-
-  void fluidBody(std::shared_ptr<const FluidBody>& body) {
-    std::string name;
-    std::uint64_t hash = 0;
-    text(name);
-    number(hash);
-    body = lookup_ ? lookup_(name) : nullptr;
-    if (!body) fail("needs the fluid body '" + name + "', which is not known here");
-    if (hashOf(*body, hashes_) != hash)
-      fail("was saved with another content of the fluid body '" + name + "'");
-  }
-
- private:
-  const FluidBodyLookup& lookup_;
-  Hashes hashes_;
-};
-
-// Passes fields as bytes to a stream, or from it.
-template <class Stream>
-struct Transfer : FieldVisitor {
-  explicit Transfer(Stream& to_or_from) : stream(to_or_from) {}
-
-  template <class Field, class... Access>
-  void operator()(Field& field, const Rule&, const Access&...) {
-    transfer(stream, field);
-  }
-  template <class Enum, class Names>
-  void choice(Enum& field, const Names& names) {
-    transferChoice(stream, field, names);
-  }
-  void fluidBody(std::shared_ptr<const FluidBody>& field) { stream.fluidBody(field); }
-  template <class State>
-  void optional(std::optional<State>& state) {
-    if (transferPresence(stream, state)) fields(*this, *state);
-  }
-  template <class State, class Name>
-  void list(std::vector<State>& states, const Name&) {
-    transferList(stream, states, [this](State& state) { fields(*this, state); });
-  }
-  Stream& stream;
-};
-
-void checkHeader(ByteReader& reader) {
-  if (reader.left() < kMagic.size() || reader.take(kMagic.size()) != kMagic) {
+void checkHeader(StateReader& reader) {
+  if (reader.left().size() < kMagic.size() || reader.take(kMagic.size()) != kMagic) {
     reader.fail("is not one: it does not begin with " + std::string(kMagic));
   }
   std::uint32_t version = 0, number_size = 0;
@@ -267,17 +228,15 @@ void checkHeader(ByteReader& reader) {
                 " bytes, here they have " + std::to_string(sizeof(btScalar)));
   }
   reader.number(checksum);
-  ByteReader copy = reader;
-  if (fnv1a64(copy.take(copy.left())) != checksum) reader.fail("is cut short or damaged");
+  if (fnv1a64(reader.left()) != checksum) reader.fail("is cut short or damaged");
 }
 
 }  // namespace
 
 std::string encodeState(const WorldState& state) {
-  StateWriter payload;
-  Transfer<StateWriter> visitor(payload);
-  visit(visitor, state);
-  ByteWriter header;
+  Transfer<StateWriter> payload;
+  visit(payload, state);
+  StateWriter header;
   header.number(kStateVersion);
   header.number(static_cast<std::uint32_t>(sizeof(btScalar)));
   header.number(fnv1a64(payload.bytes()));
@@ -286,12 +245,11 @@ std::string encodeState(const WorldState& state) {
 
 WorldState decodeState(std::string_view bytes, const std::string& source,
                        const FluidBodyLookup& lookup) {
-  StateReader reader(bytes, source, lookup);
+  Transfer<StateReader> reader(bytes, source, lookup);
   checkHeader(reader);
   WorldState state;
-  Transfer<StateReader> visitor(reader);
-  fields(visitor, state);
-  if (reader.left() > 0) reader.fail("has bytes after its end");
+  fields(reader, state);
+  if (!reader.left().empty()) reader.fail("has bytes after its end");
   const std::string fault = findFault(state);
   if (!fault.empty()) reader.fail(fault);
   return state;
