@@ -55,10 +55,6 @@ void setMotion(const btTransform& pose, const Twist& twist_W, MotionView& view);
 inline const double kTurnRounding =
     std::sqrt(16 * static_cast<double>(std::numeric_limits<btScalar>::epsilon()));
 
-/// Returns the turn that Bullet makes of the vector `turn` [rad] in one step. Beyond pi/4 it turns
-/// by less.
-Quaternion turnOfBullet(const Vector3& turn) noexcept;
-
 /// Returns the attitude that Bullet's integrateTransform() gives to a body at `from` that turns by
 /// `turn_W` [rad]. Beyond pi/4 it turns by less, as Bullet does.
 Quaternion turnedByBullet(const Quaternion& from, const Vector3& turn_W) noexcept;

@@ -3,8 +3,6 @@
 #include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
-#include <algorithm>
-#include <array>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -29,16 +27,6 @@ struct FromBullet : FieldVisitor {
   void operator()(Field& field, const Rule&, const Get& get, const Set&) {
     field = std::invoke(get, object);
   }
-  template <std::size_t kSize, class Get>
-  void operator()(std::array<btScalar, kSize>& field, const Rule&, const Get& get) {
-    const Numbers numbers = get(object);
-    std::copy_n(numbers.first, numbers.count, field.begin());
-  }
-  template <class Get>
-  void operator()(std::vector<btScalar>& field, const Rule&, const Get& get) {
-    const Numbers numbers = get(object);
-    field.assign(numbers.first, numbers.first + numbers.count);
-  }
   Object& object;
 };
 
@@ -52,11 +40,6 @@ struct ToBullet : FieldVisitor {
   template <class Field, class Get, class Set>
   void operator()(const Field& field, const Rule&, const Get&, const Set& set) {
     std::invoke(set, object, field);
-  }
-  template <class Field, class Get>
-  void operator()(const Field& field, const Rule&, const Get& get) {
-    const Numbers numbers = get(object);
-    std::copy_n(field.begin(), numbers.count, numbers.first);
   }
   Object& object;
 };
