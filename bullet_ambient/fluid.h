@@ -130,7 +130,6 @@ class Immersed {
 
  private:
   friend class Fluid;
-  friend class WorldAttachment;
   Immersed(AmbientBodies& bodies, const AmbientBody& ambient);
 
   /// Bodies of the fluid, kept while they are in use, and the body or link of this handle; null: it

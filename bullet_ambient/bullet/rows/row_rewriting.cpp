@@ -10,14 +10,6 @@
 #include "bullet_ambient/spatial/inertia.h"
 
 AMBIENT_BEGIN
-namespace {
-
-WorldBasis toBulletBasis(const Matrix6& T) {
-  return {toBulletMatrix(T.topLeftCorner<3, 3>()), toBulletMatrix(T.topRightCorner<3, 3>()),
-          toBulletMatrix(T.bottomRightCorner<3, 3>())};
-}
-
-}  // namespace
 
 WorldBasis toWorld(const Matrix6& basis_B, const Matrix3& R) {
   AMBIENT_ASSERT(isRotation(R));
@@ -55,7 +47,8 @@ WorldBasis makeLockedBasis(const Matrix6& inertia, double mass, const Matrix3& r
   }
   root.leftCols<3>() = (root.leftCols<3>() * root_inertia_W).eval();
   root.rightCols<3>() *= std::sqrt(mass);
-  return toBulletBasis(root);
+  return {toBulletMatrix(root.topLeftCorner<3, 3>()), toBulletMatrix(root.topRightCorner<3, 3>()),
+          toBulletMatrix(root.bottomRightCorner<3, 3>())};
 }
 
 namespace {

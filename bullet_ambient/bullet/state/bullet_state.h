@@ -16,30 +16,21 @@ class btMultiBodyConstraint;
 
 AMBIENT_BEGIN
 
-/// Visitor that copies fields from an object of Bullet.
-template <class Object>
-struct FromBullet : FieldVisitor {
-  explicit FromBullet(Object& from) : object(from) {}
+/// Visitor that copies fields from an object of Bullet, or sets those of the object in order, but
+/// for those with SetElsewhere.
+template <class Object, bool kSets>
+struct BulletFields : FieldVisitor {
+  explicit BulletFields(Object& of) : object(of) {}
 
   template <class Field>
   void operator()(Field&, const Rule&) {}
   template <class Field, class Get, class Set>
-  void operator()(Field& field, const Rule&, const Get& get, const Set&) {
-    field = std::invoke(get, object);
-  }
-  Object& object;
-};
-
-/// Visitor that sets the fields of an object of Bullet, in order; skips those with SetElsewhere.
-template <class Object>
-struct ToBullet : FieldVisitor {
-  explicit ToBullet(Object& to) : object(to) {}
-
-  template <class Field>
-  void operator()(const Field&, const Rule&) {}
-  template <class Field, class Get, class Set>
-  void operator()(const Field& field, const Rule&, const Get&, const Set& set) {
-    std::invoke(set, object, field);
+  void operator()(Field& field, const Rule&, const Get& get, const Set& set) {
+    if constexpr (kSets) {
+      std::invoke(set, object, field);
+    } else {
+      field = std::invoke(get, object);
+    }
   }
   Object& object;
 };
@@ -47,14 +38,14 @@ struct ToBullet : FieldVisitor {
 template <class State, class Object>
 State fromBullet(Object& object) {
   State state;
-  FromBullet<Object> visitor(object);
+  BulletFields<Object, false> visitor(object);
   fields(visitor, state);
   return state;
 }
 
 template <class State, class Object>
 void toBullet(const State& state, Object& object) {
-  ToBullet<Object> visitor(object);
+  BulletFields<Object, true> visitor(object);
   visit(visitor, state);
 }
 

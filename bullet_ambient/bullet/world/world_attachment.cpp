@@ -18,6 +18,7 @@
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/bullet/members/attach.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
+#include "bullet_ambient/bullet/world/fluid_action.h"
 
 AMBIENT_BEGIN
 namespace {
