@@ -60,48 +60,41 @@ bool isStillIn(const btCollisionWorld& world, const AmbientBody& ambient) {
   return index < objects.size() && AmbientBodies::isSame(ambient);
 }
 
-// Completes the substep of bodies after Bullet has moved them; of bodies that did not fly, several
-// side by side.
-class Completion {
- public:
-  Completion(double time_step, Warnings& warnings) : time_step_(time_step), warnings_(warnings) {}
-
-  void add(Outcome kind, AmbientBody& ambient) {
-    if (kind == Outcome::kDisabled) return restoreActivation(ambient);
-    const Twist before_W = ambient.sensor ? velocityOf(*ambient.body) : Twist{};
-    if (kind == Outcome::kFlown) {
-      endFlight(ambient, time_step_);
-      finish(kind, before_W, ambient);
-      return;
-    }
-    bodies_[count_] = &ambient;
-    kinds_[count_] = kind;
-    before_W_[count_++] = before_W;
-    if (count_ == kFlightsTogether) completeRows();
-  }
-
-  // Call after the last add().
-  void completeRows() {
-    if (count_ == 0) return;
-    endRowMotions(bodies_, count_, time_step_, warnings_);
-    for (int i = 0; i < count_; ++i) finish(kinds_[i], before_W_[i], *bodies_[i]);
-    count_ = 0;
-  }
-
- private:
-  void finish(Outcome kind, const Twist& before_W, AmbientBody& ambient) const {
+// Completes the substep of the bodies that the solver has worked on, after Bullet has moved them;
+// of bodies that did not fly, several side by side.
+void completeBodies(const btCollisionWorld& world, AmbientBodies& bodies, double time_step) {
+  AmbientBody* moved[kFlightsTogether] = {};
+  Outcome kinds[kFlightsTogether] = {};
+  Twist before_W[kFlightsTogether];
+  int count = 0;
+  const auto finish = [&](AmbientBody& ambient, Outcome kind, const Twist& before) {
     keepAwake(ambient, kind);
     if (ambient.sensor)
-      finishBodyReading(ambient, kind, motionOf(*ambient.body), before_W, time_step_);
+      finishBodyReading(ambient, kind, motionOf(*ambient.body), before, time_step);
+  };
+  const auto completeRows = [&] {
+    if (count > 0) endRowMotions(moved, count, time_step, bodies.warnings);
+    for (int i = 0; i < count; ++i) finish(*moved[i], kinds[i], before_W[i]);
+    count = 0;
+  };
+  for (AmbientBody* ambient = bodies.takeSolved(); ambient; ambient = ambient->next_solved) {
+    const Outcome kind = std::exchange(ambient->outcome.kind, Outcome::kNotSolved);
+    if (kind == Outcome::kStock || !isStillIn(world, *ambient)) continue;
+    const Twist before = ambient->sensor ? velocityOf(*ambient->body) : Twist{};
+    if (kind == Outcome::kDisabled) {
+      restoreActivation(*ambient);
+    } else if (kind == Outcome::kFlown) {
+      endFlight(*ambient, time_step);
+      finish(*ambient, kind, before);
+    } else {
+      moved[count] = ambient;
+      kinds[count] = kind;
+      before_W[count++] = before;
+      if (count == kFlightsTogether) completeRows();
+    }
   }
-
-  double time_step_;
-  Warnings& warnings_;
-  AmbientBody* bodies_[kFlightsTogether] = {};
-  Outcome kinds_[kFlightsTogether] = {};
-  Twist before_W_[kFlightsTogether];
-  int count_ = 0;
-};
+  completeRows();
+}
 
 // Completes the trees that the solver has worked on, after Bullet has moved them.
 void completeTrees(const btCollisionWorld& world, AmbientBodies& bodies, double time_step) {
@@ -165,13 +158,7 @@ bool FluidAction::isSolverMissing(const btCollisionWorld& world) {
 
 void FluidAction::updateAction(btCollisionWorld* world, btScalar time_step) {
   world_ = world;
-  Completion completion(static_cast<double>(time_step), bodies_.warnings);
-  for (AmbientBody* ambient = bodies_.takeSolved(); ambient; ambient = ambient->next_solved) {
-    const Outcome kind = std::exchange(ambient->outcome.kind, Outcome::kNotSolved);
-    if (kind == Outcome::kStock || !isStillIn(*world, *ambient)) continue;
-    completion.add(kind, *ambient);
-  }
-  completion.completeRows();
+  completeBodies(*world, bodies_, static_cast<double>(time_step));
   completeTrees(*world, bodies_, static_cast<double>(time_step));
   if (std::isfinite(time_step)) {
     bodies_.regions.time += static_cast<double>(time_step);
