@@ -139,7 +139,6 @@ namespace {
 // Relative change of the velocity by others, in the norm of K, beyond which the load kept from the
 // last flight is not used.
 constexpr double kSameVelocity = 1e-3;
-constexpr double kBulletMaxTurn = kPi / 4;  // [rad] per step in integrateTransform
 // FlightTask::precision. Its error grows with the number of steps, rounding with the root of it.
 constexpr double kPrecision = std::max(1e-16, 1e-4 * kBulletRounding);
 
@@ -267,7 +266,7 @@ void keepFlight(const FlightResult& flight, const Twist& end_W, const Twist& mea
 // from half a turn on: u_eff contains the rotation modulo a turn only, and its rounding would
 // change the angular momentum.
 bool turnsTooFarForBullet(const LastFlight& flight, double time_step) {
-  return flight.effective_W.angular.norm() * time_step > kBulletMaxTurn * (1 - 1e-6) ||
+  return flight.effective_W.angular.norm() * time_step > kMostTurn * (1 - 1e-6) ||
          flight.left_W.angular.norm() * time_step > kPi;
 }
 

@@ -328,7 +328,7 @@ class Bounces {
     btScalar asked;          // velocity that Bullet asks for [m/s]
     btScalar correction;     // part of it by penetration; < 0: by a gap [m/s]
     btScalar push, load;     // change by all forces outside the rows; by surface loads [m/s]
-    btScalar right_side;     // of the row, while it is held
+    btScalar right_side;     // of the row, while it is suspended
   };
   template <class Visit>
   void visit(const RowPools& rows, const Visit& visit) noexcept;
