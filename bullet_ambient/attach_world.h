@@ -12,21 +12,16 @@
 
 class btCollisionObject;
 class btCollisionShape;
-class btCollisionWorld;
 class btMultiBody;
-class btMultiBodyDynamicsWorld;
 class btRigidBody;
 
 namespace ambient {
 
-struct AmbientBody;
 struct FluidBody;
 
 }  // namespace ambient
 
 AMBIENT_BEGIN
-
-class AmbientBodies;
 
 /// Interface for finding the fluid body of a collision shape. FluidBodyCache makes fluid bodies by
 /// the preprocessor, which the runtime does not link; a program may derive from this class and use
@@ -111,63 +106,6 @@ struct AttachReport {
 
   /// Returns one line of numbers, and one line for each refused body: "body 3 (Box): ...".
   std::string text() const;
-};
-
-/// Implements Fluid::addAll(): adds the dynamic rigid bodies of a world, and the links of its
-/// multibodies that have a collider and a mass, each with the fluid body that a source has for its
-/// collision shape.
-class WorldAttachment {
- public:
-  /// `bodies` and `source` must outlive this object.
-  WorldAttachment(AmbientBodies& bodies, FluidBodySource& source, const Medium& medium,
-                  AttachSettings settings);
-
-  /// Adds the objects that this attachment has not seen before. Cost: that of the fluid bodies that
-  /// the source has to make.
-  AttachReport attachNew(btCollisionWorld& world);
-
-  /// Adds bodies that have come since. Call between two steps. Without news it allocates nothing,
-  /// takes no lock and costs one comparison per object of the world. Refusals go to the fluid's
-  /// report function.
-  void update(btCollisionWorld& world) noexcept;
-
- private:
-  // An object of the world.
-  struct Seen {
-    const btCollisionObject* object = nullptr;
-    int instance = -1;
-  };
-
-  bool hasMetAll(const btCollisionWorld& world) const noexcept;
-  // Returns the objects that were not seen before; null in place of all others.
-  std::vector<btCollisionObject*> seeAll(const btCollisionWorld& world);
-  // A new object that is to be added.
-  struct Candidate {
-    int index = 0;   // in the world
-    int number = 0;  // among the new ones
-    btCollisionObject* object = nullptr;
-    std::shared_ptr<const btCollisionShape> shape;
-  };
-
-  bool isToAdd(const btCollisionObject& object, AttachReport& report) const;
-  bool isToAdd(const btRigidBody& body, AttachReport& report) const;
-  bool isToAdd(const btMultiBody& multi_body, int link, AttachReport& report) const;
-  const AmbientBody* attach(const Candidate& candidate, const std::function<std::string()>& whose);
-  // Calls add(); what it throws becomes a refusal of the object.
-  template <class Add>
-  void addOr(const btCollisionObject& object, int index, AttachReport& report,
-             const Add& add) const;
-  // Returns the collision shape of an object; that of a link includes those of the links without
-  // mass that it carries.
-  std::shared_ptr<const btCollisionShape> shapeOf(const btCollisionObject& object) const;
-  bool isWanted(const btMultiBody& multi_body, int link) const;
-
-  AmbientBodies& bodies_;
-  FluidBodySource& source_;
-  Medium medium_;
-  AttachSettings settings_;
-  std::vector<Seen> seen_;                               // in the order of the world
-  btMultiBodyDynamicsWorld* multibody_world_ = nullptr;  // of attachNew() while it runs
 };
 
 AMBIENT_END

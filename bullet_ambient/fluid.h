@@ -130,7 +130,6 @@ class Immersed {
 
  private:
   friend class Fluid;
-  friend class WorldAttachment;
   Immersed(AmbientBodies& bodies, const AmbientBody& ambient);
 
   /// Bodies of the fluid, kept while they are in use, and the body or link of this handle; null: it
@@ -141,6 +140,8 @@ class Immersed {
   };
   Access lock() const noexcept;
   Access require(const char* function) const;
+  /// Access for a function that changes what is asked for the fluid.
+  Access requireChangeable(const char* function) const;
 
   std::weak_ptr<AmbientBodies> bodies_;
   std::weak_ptr<AmbientBody*> handle_;

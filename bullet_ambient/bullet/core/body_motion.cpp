@@ -50,7 +50,6 @@ Surroundings readSurroundings(const AmbientBody& ambient) {
 
 namespace {
 
-constexpr double kMostTurn = kPi / 4;  // [rad] per step, Bullet's ANGULAR_MOTION_THRESHOLD
 constexpr double kSine = 0.38268343236508977, kCosine = 0.92387953251128674;  // of its half
 
 // Returns the sum of the squared differences of entries: twice the square of a small angle between

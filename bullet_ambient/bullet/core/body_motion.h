@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/bullet/core/conversions.h"
 #include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/immersed/ambient_body.h"
@@ -55,9 +56,8 @@ void setMotion(const btTransform& pose, const Twist& twist_W, MotionView& view);
 inline const double kTurnRounding =
     std::sqrt(16 * static_cast<double>(std::numeric_limits<btScalar>::epsilon()));
 
-/// Returns the turn that Bullet makes of the vector `turn` [rad] in one step. Beyond pi/4 it turns
-/// by less.
-Quaternion turnOfBullet(const Vector3& turn) noexcept;
+/// Largest turn that Bullet makes in a step [rad], its ANGULAR_MOTION_THRESHOLD.
+constexpr double kMostTurn = kPi / 4;
 
 /// Returns the attitude that Bullet's integrateTransform() gives to a body at `from` that turns by
 /// `turn_W` [rad]. Beyond pi/4 it turns by less, as Bullet does.

@@ -2,6 +2,7 @@
 
 #include <LinearMath/btVector3.h>
 
+#include "bullet_ambient/base/instruction_set.h"
 #include "bullet_ambient/bullet/core/precision_check.h"
 
 AMBIENT_BEGIN
@@ -19,6 +20,23 @@ static_assert(sizeof(btVector3) == 4 * sizeof(btScalar));
 #else
 #define AMBIENT_AVX
 #endif
+
+/// Copies of a function declared AMBIENT_INLINE, for processors without AVX and with it.
+template <auto kFunction, class = decltype(kFunction)>
+struct CompiledTwice;
+template <auto kFunction, class Result, class... Args>
+struct CompiledTwice<kFunction, Result (*)(Args...)> {
+  static Result baseline(Args... args) { return kFunction(args...); }
+  AMBIENT_AVX static Result avx(Args... args) { return kFunction(args...); }
+
+  static constexpr Kernels<Result (*)(Args...)> kKernels{&baseline, &avx, &avx};
+};
+
+/// Returns the copy for the processor's instruction set.
+template <auto kFunction>
+auto fastestCopy() noexcept {
+  return CompiledTwice<kFunction>::kKernels.fastest();
+}
 
 #ifdef BT_USE_DOUBLE_PRECISION
 

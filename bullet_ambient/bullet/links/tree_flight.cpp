@@ -4,7 +4,6 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/bullet/links/tree_step.h"
-#include "bullet_ambient/bullet/members/flight_coupling.h"
 #include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/motion/flight/flight.h"
 
@@ -95,6 +94,15 @@ void flyAsBodies(AmbientTree* const* trees, AmbientBodies* const* of, int count,
   }
 }
 
+void FlightQueue::fly() noexcept {
+  if (const int count = std::exchange(trees_.count, 0))
+    flySingleLinks(trees_.flyers, trees_.of, count, time_step_);
+  const int count = std::exchange(bodies_.count, 0);
+  if (count == 0) return;
+  flyBodies(bodies_.flyers, count, time_step_);
+  for (int i = 0; i < count; ++i) reportFlight(*bodies_.flyers[i].ambient, bodies_.of[i]->warnings);
+}
+
 namespace {
 
 // Returns the settings of the flight of all links: the strictest tolerance and the largest number
@@ -124,19 +132,22 @@ void addErrors(double error, AmbientTree& tree, Warnings& warnings) {
 // Flight of a tree in one substep.
 class TreeFlight {
  public:
-  TreeFlight(AmbientTree& tree, const TreeTask& task)
-      : tree_(tree), step_(tree.step), task_(task), settings_(settingsOf(tree)) {}
+  TreeFlight(AmbientTree& tree, double duration, Warnings& warnings)
+      : tree_(tree),
+        step_(tree.step),
+        duration_(duration),
+        warnings_(warnings),
+        settings_(settingsOf(tree)) {}
 
   bool fly() {
-    flyPart(task_.duration);
+    flyPart(duration_);
     step_.moved = tree_.flight.meanVelocity();
-    if (is_finite_ && step_.meets_surface && mayGainEnergy(tree_, task_.duration) &&
-        hasGained(1, 1))
+    if (is_finite_ && step_.meets_surface && mayGainEnergy(tree_, duration_) && hasGained(1, 1))
       flyInParts();
     if (count_.halted) forgetLoads(tree_);
     if (!is_finite_) return false;
     addCount(count_, tree_);
-    addErrors(count_.error, tree_, task_.bodies.warnings);
+    addErrors(count_.error, tree_, warnings_);
     countEnergyRemoved(count_.energy_removed, tree_);
     setFlown(step_);
     return true;
@@ -155,7 +166,7 @@ class TreeFlight {
   // part.
   bool hasGained(int made, int parts) {
     tree_.flight.dynamics().setPose(tree_.flight.endPose());
-    return hasGainedEnergy(tree_, made * task_.duration / parts);
+    return hasGainedEnergy(tree_, made * duration_ / parts);
   }
 
   // Flies the step again in 2, 4, ... parts, until the energy suffices for the pose at the end. If
@@ -171,7 +182,7 @@ class TreeFlight {
     if (reached < parts) halt(reached, parts);
     step_.pose = step_.surface.pose;
     step_.start = step_.surface.start;
-    velocityBetween(tree_.tree, step_.pose, tree_.flight.endPose(), task_.duration, step_.moved);
+    velocityBetween(tree_.tree, step_.pose, tree_.flight.endPose(), duration_, step_.moved);
     step_.moved.segment<3>(3) +=
         (1 - static_cast<double>(reached) / parts) * flowAround(tree_.tree);
   }
@@ -184,7 +195,7 @@ class TreeFlight {
       return;
     }
     returnToStart();
-    kickAtSurface(tree_, {task_.bodies, task_.duration / parts, task_.gravity});
+    kickAtSurface(tree_, duration_ / parts, warnings_);
     restInFlow(tree_.tree, step_.end);
     tree_.flight.stay(step_.pose, step_.end);
   }
@@ -193,12 +204,12 @@ class TreeFlight {
   // energy suffices; 0: none.
   int flyParts(int made, int parts) {
     returnToStart();
-    const TreeTask part{task_.bodies, task_.duration / parts, task_.gravity};
+    const double part = duration_ / parts;
     int reached = 0;
     for (int i = 1; i <= made && is_finite_; ++i) {
       if (i > 1) arrive();
-      kickAtSurface(tree_, part);
-      flyPart(part.duration);
+      kickAtSurface(tree_, part, warnings_);
+      flyPart(part);
       if (!hasGained(i, parts)) reached = i;
     }
     return reached;
@@ -229,7 +240,8 @@ class TreeFlight {
 
   AmbientTree& tree_;
   TreeStep& step_;
-  const TreeTask& task_;
+  const double duration_;  // of the step [s]
+  Warnings& warnings_;
   const LinkFlightSettings settings_;
   FlightCount count_;
   bool is_finite_ = true;
@@ -237,8 +249,8 @@ class TreeFlight {
 
 }  // namespace
 
-bool flyTree(AmbientTree& tree, const TreeTask& task) noexcept {
-  return TreeFlight(tree, task).fly();
+bool flyTree(AmbientTree& tree, double duration, Warnings& warnings) noexcept {
+  return TreeFlight(tree, duration, warnings).fly();
 }
 
 AMBIENT_END

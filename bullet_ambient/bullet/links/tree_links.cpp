@@ -1,4 +1,5 @@
 #include <BulletDynamics/Featherstone/btMultiBody.h>
+#include <BulletDynamics/Featherstone/btMultiBodyJointFeedback.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,16 +14,17 @@
 #include "bullet_ambient/bullet/members/tree_state.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "bullet_ambient/immersed/floating_state.h"
+#include "bullet_ambient/immersed/wrench_sensor.h"
 
 AMBIENT_BEGIN
 namespace {
 
-void prepareLink(AmbientLink& link, AmbientTree& tree, const TreeTask& task) {
+void prepareLink(AmbientLink& link, AmbientTree& tree, AmbientBodies& bodies, double duration) {
   Link& in_tree = tree.tree.links[link.link + 1];
   AmbientBody& ambient = link.ambient;
   in_tree.surroundings.flow = nullptr;
   if (link.mass.mass == 0 ||
-      !prepareFluid(ambient, &link.now, link.now.twist_W, link.mass, task.bodies, task.duration)) {
+      !prepareFluid(ambient, &link.now, link.now.twist_W, link.mass, bodies, duration)) {
     in_tree.model = nullptr;
     in_tree.surroundings.ambient_velocity.setZero();
     return;
@@ -102,17 +104,18 @@ void forgetLoads(AmbientTree& tree) noexcept {
   for (const auto& link : tree.links) forgetFlight(link->ambient);
 }
 
-bool prepareLinks(AmbientTree& tree, const TreeTask& task) noexcept {
+bool prepareLinks(AmbientTree& tree, AmbientBodies& bodies, double duration) noexcept {
   readLinks(*tree.multi_body, tree.tree);
+  const Vector3 gravity = toVector3(bodies.trees.world()->getGravity());
   for (const auto& link : tree.links) {
     link->mass = inverseMassOf(*tree.multi_body, link->link);
-    link->now.gravity = toVector3(task.gravity);
+    link->now.gravity = gravity;
   }
-  if (!task.bodies.regions.empty() || tree.tree.size() == 1 || hasWakes(tree))
+  if (!bodies.regions.empty() || tree.tree.size() == 1 || hasWakes(tree))
     computeLinkPoses(tree, tree.step.start);
   bool is_in_fluid = false;
   for (const auto& link : tree.links) {
-    prepareLink(*link, tree, task);
+    prepareLink(*link, tree, bodies, duration);
     is_in_fluid = is_in_fluid || tree.tree.links[link->link + 1].model;
   }
   return is_in_fluid;
@@ -165,89 +168,209 @@ bool settleTurn(btQuaternion& now, btQuaternion exact) {
   return true;
 }
 
-// A tree that Bullet has moved.
-class MovedTree {
- public:
-  MovedTree(AmbientTree& tree, double h)
-      : step_(tree.step),
-        links_(tree.tree.links),
-        body_(*tree.multi_body),
-        h_(static_cast<btScalar>(h)) {}
+// Functions below return true if they have changed a number. `h`: for which Bullet has moved the
+// tree [s].
 
-  // Each function returns true if it has changed a number.
+// Returns three coordinates, from `first` on, of the velocity that Bullet has moved a tree by.
+btVector3 velocityAlong(const TreeStep& step, int first) {
+  return toBullet(Vector3(step.moved.segment<3>(first)));
+}
 
-  bool settleBase() {
-    const btVector3 spin = velocityAlong(0);
-    if (links_.front().keeps_position || spin.isZero()) return false;
-    btQuaternion to_base = body_.getWorldToBaseRot();
-    if (!settleTurn(to_base, step_.to_base * turnInStep(spin, h_).inverse())) return false;
-    body_.setWorldToBaseRot(to_base);
-    return true;
+bool settleBase(AmbientTree& tree, btScalar h) {
+  const btVector3 spin = velocityAlong(tree.step, 0);
+  if (tree.tree.links.front().keeps_position || spin.isZero()) return false;
+  btQuaternion to_base = tree.multi_body->getWorldToBaseRot();
+  if (!settleTurn(to_base, tree.step.to_base * turnInStep(spin, h).inverse())) return false;
+  tree.multi_body->setWorldToBaseRot(to_base);
+  return true;
+}
+
+bool settleSpherical(const JointPosition& from, const btVector3& spin, btScalar h,
+                     btMultibodyLink& link) {
+  if (spin.isZero()) return false;
+  btScalar* p = link.m_jointPos;
+  btQuaternion now(p[0], p[1], p[2], p[3]);
+  const btQuaternion start = toBullet(Quaternion(from[3], from[0], from[1], from[2]));
+  if (!settleTurn(now, turnInStep(quatRotate(start, spin), h) * start)) return false;
+  for (int i = 0; i < 4; ++i) p[i] = now[i];
+  link.updateCacheMultiDof();
+  return true;
+}
+
+// Bullet has turned the way by the angle at the end of the step.
+void settlePlanar(const JointPosition& from, const btVector3& velocity, btScalar h,
+                  btMultibodyLink& link) {
+  constexpr btScalar kRounding = 16 * std::numeric_limits<btScalar>::epsilon();
+  const btVector3 turned =
+      quatRotate(turnAbout(link.getAxisTop(0), link.m_jointPos[0]),
+                 velocity[1] * link.getAxisBottom(1) + velocity[2] * link.getAxisBottom(2));
+  for (int i : {1, 2}) {
+    const auto start = static_cast<btScalar>(from[static_cast<std::size_t>(i)]);
+    const btScalar turn = link.getAxisBottom(i).dot(turned) * h, exact = start + turn;
+    const btScalar rounding = kRounding * (std::abs(start) + std::abs(turn));
+    if (std::abs(link.m_jointPos[i] - exact) <= rounding) link.m_jointPos[i] = exact;
   }
+}
 
-  bool settleJoints() {
-    bool has_changed = false;
-    int first = 6;
-    for (int i = 0; i < body_.getNumLinks(); ++i) {
-      const Link& link = links_[static_cast<std::size_t>(i) + 1];
-      btMultibodyLink& bullet = body_.getLink(i);
-      const JointPosition& from = step_.pose.joints[static_cast<std::size_t>(i) + 1];
-      if (link.joint.kind == JointKind::kSpherical && !link.keeps_position)
-        has_changed |= settleSpherical(from, velocityAlong(first), bullet);
-      if (link.joint.kind == JointKind::kPlanar && !link.keeps_position)
-        settlePlanar(from, velocityAlong(first), bullet);
-      has_changed |= settleLink(bullet);
-      first += axisCount(link.joint.kind);
-    }
-    return has_changed;
+bool settleJoints(AmbientTree& tree, btScalar h) {
+  bool has_changed = false;
+  int first = 6;
+  for (int i = 0; i < tree.multi_body->getNumLinks(); ++i) {
+    const Link& link = tree.tree.links[static_cast<std::size_t>(i) + 1];
+    btMultibodyLink& bullet = tree.multi_body->getLink(i);
+    const JointPosition& from = tree.step.pose.joints[static_cast<std::size_t>(i) + 1];
+    if (link.joint.kind == JointKind::kSpherical && !link.keeps_position)
+      has_changed |= settleSpherical(from, velocityAlong(tree.step, first), h, bullet);
+    if (link.joint.kind == JointKind::kPlanar && !link.keeps_position)
+      settlePlanar(from, velocityAlong(tree.step, first), h, bullet);
+    has_changed |= settleLink(bullet);
+    first += axisCount(link.joint.kind);
   }
-
- private:
-  // Returns three coordinates, from `first` on, of the velocity that Bullet has moved the tree by.
-  btVector3 velocityAlong(int first) const {
-    return toBullet(Vector3(step_.moved.segment<3>(first)));
-  }
-
-  bool settleSpherical(const JointPosition& from, const btVector3& spin,
-                       btMultibodyLink& link) const {
-    if (spin.isZero()) return false;
-    btScalar* p = link.m_jointPos;
-    btQuaternion now(p[0], p[1], p[2], p[3]);
-    const btQuaternion start = toBullet(Quaternion(from[3], from[0], from[1], from[2]));
-    if (!settleTurn(now, turnInStep(quatRotate(start, spin), h_) * start)) return false;
-    for (int i = 0; i < 4; ++i) p[i] = now[i];
-    link.updateCacheMultiDof();
-    return true;
-  }
-
-  // Bullet has turned the way by the angle at the end of the step.
-  void settlePlanar(const JointPosition& from, const btVector3& velocity,
-                    btMultibodyLink& link) const {
-    constexpr btScalar kRounding = 16 * std::numeric_limits<btScalar>::epsilon();
-    const btVector3 turned =
-        quatRotate(turnAbout(link.getAxisTop(0), link.m_jointPos[0]),
-                   velocity[1] * link.getAxisBottom(1) + velocity[2] * link.getAxisBottom(2));
-    for (int i : {1, 2}) {
-      const auto start = static_cast<btScalar>(from[static_cast<std::size_t>(i)]);
-      const btScalar turn = link.getAxisBottom(i).dot(turned) * h_, exact = start + turn;
-      const btScalar rounding = kRounding * (std::abs(start) + std::abs(turn));
-      if (std::abs(link.m_jointPos[i] - exact) <= rounding) link.m_jointPos[i] = exact;
-    }
-  }
-
-  const TreeStep& step_;
-  const std::vector<Link>& links_;
-  btMultiBody& body_;
-  const btScalar h_;
-};
+  return has_changed;
+}
 
 }  // namespace
 
-void settleTree(AmbientTree& tree, double h) noexcept {
-  MovedTree moved(tree, h);
-  const bool has_turned = moved.settleBase();
-  if (moved.settleJoints() || has_turned)
+void settleTree(AmbientTree& tree, double duration) noexcept {
+  const auto h = static_cast<btScalar>(duration);
+  const bool has_turned = settleBase(tree, h);
+  if (settleJoints(tree, h) || has_turned)
     tree.multi_body->updateCollisionObjectWorldTransforms(tree.to_local, tree.origins);
+}
+
+namespace {
+
+bool isRead(const AmbientTree& tree) {
+  return std::any_of(tree.links.begin(), tree.links.end(),
+                     [](const auto& link) { return link->ambient.sensor != nullptr; });
+}
+
+template <class Visit>
+void forEachRead(const AmbientTree& tree, const Visit& visit) {
+  for (const auto& link : tree.links) {
+    const Link& in_tree = tree.tree.links[link->link + 1];
+    if (link->ambient.sensor && in_tree.model) visit(*link, link->link + 1);
+  }
+}
+
+RigidState stateOf(const LinkDynamics& dynamics, int link) {
+  return {Quaternion(dynamics.rotation(link)), dynamics.position(link), dynamics.twist(link)};
+}
+
+/// Whether nothing but the fluid and applied forces have moved it.
+bool isFree(const AmbientTree& tree) {
+  return tree.tree.size() == 1 && !tree.tree.links.front().keeps_velocity &&
+         tree.step.outcome == Outcome::kFlown;
+}
+
+}  // namespace
+
+void beginTreeReading(AmbientTree& tree) noexcept {
+  if (!isRead(tree)) return;
+  LinkDynamics& dynamics = tree.flight.dynamics();
+  dynamics.setPose(tree.step.pose);
+  dynamics.setVelocity(tree.step.start);
+  forEachRead(tree, [&](AmbientLink& read, int link) {
+    WrenchSensor& sensor = *read.ambient.sensor;
+    Surroundings surroundings = tree.tree.links[link].surroundings;
+    surroundings.applied -= pushByFlow(read.ambient, read.now.state.orientation);
+    beginReading(read.ambient, stateOf(dynamics, link), surroundings, sensor);
+    sensor.model = *tree.tree.links[link].model;
+  });
+}
+
+void finishTreeReading(AmbientTree& tree, double duration) noexcept {
+  if (!isRead(tree)) return;
+  TreeStep& step = tree.step;
+  LinkDynamics& dynamics = tree.flight.dynamics();
+  const bool is_free = isFree(tree);
+  readPose(*tree.multi_body, step.pose);
+  dynamics.setPose(step.pose);
+  dynamics.setVelocity(step.end);
+  forEachRead(tree, [&](AmbientLink& read, int link) {
+    WrenchSensor& sensor = *read.ambient.sensor;
+    sensor.end = stateOf(dynamics, link);
+    sensor.knows_impulse = is_free;
+    const Matrix3& R = dynamics.rotation(link);
+    const Wrench& of_change = step.impulses[link];
+    if (step.meets_surface)
+      sensor.added_mass_impulse_W = {R * of_change.torque, R * of_change.force};
+  });
+  movePose(tree.tree, step.pose, step.moved, -duration / 2, step.pose);
+  dynamics.setPose(step.pose);
+  dynamics.setVelocity(step.moved);
+  forEachRead(tree, [&](AmbientLink& read, int link) {
+    WrenchSensor& sensor = *read.ambient.sensor;
+    finishReading(read.ambient,
+                  {stateOf(dynamics, link), sensor.end, sensor.model,
+                   step.outcome == Outcome::kFlown, duration},
+                  sensor);
+  });
+}
+
+namespace {
+
+// Adds surface loads, forces of rows, and the mean force of a water surface at the end of the step
+// to the applied wrenches of all links but the base, whose wrench does not matter to joint forces.
+void addOuterWrenches(AmbientTree& tree, double duration) {
+  LinkDynamics& dynamics = tree.flight.dynamics();
+  for (int i = 1; i < tree.tree.size(); ++i) {
+    Link& link = tree.tree.links[i];
+    const btMultibodyLink& bullet = tree.multi_body->getLink(i - 1);
+    link.surroundings.applied +=
+        {toVector3(bullet.m_appliedConstraintTorque), toVector3(bullet.m_appliedConstraintForce)};
+    Wrench load;
+    if (link.model && link.model->loads)
+      load =
+          wholeLoad(computeSurfaceLoad(*link.model, dynamics.relativeTwist(i), link.surroundings),
+                    link.model->resistance.get(), dynamics.relativeTwist(i));
+    if (tree.step.meets_surface) load += 1 / duration * tree.step.impulses[i];
+    const Matrix3& R = dynamics.rotation(i);
+    link.surroundings.applied += {R * load.torque, R * load.force};
+  }
+}
+
+// Brings a joint wrench at the link's centre of mass, in its axes, to the point and axes that the
+// solver's settings for joint feedback ask for.
+btSpatialForceVector inBulletsFrame(const Wrench& wrench, const btMultibodyLink& link,
+                                    const btContactSolverInfo& info) {
+  btVector3 torque = toBullet(wrench.torque), force = toBullet(wrench.force);
+  if (info.m_jointFeedbackInJointFrame) torque -= force.cross(link.m_dVector);
+  if (info.m_jointFeedbackInWorldSpace) {
+    torque = link.m_cachedWorldTransform.getBasis() * torque;
+    force = link.m_cachedWorldTransform.getBasis() * force;
+  }
+  return {torque, force};
+}
+
+bool wantsJointForces(const btMultiBody& body) {
+  for (int i = 0; i < body.getNumLinks(); ++i)
+    if (body.getLink(i).m_jointFeedback) return true;
+  return false;
+}
+
+}  // namespace
+
+void writeJointForces(AmbientTree& tree, double duration,
+                      const btContactSolverInfo& info) noexcept {
+  if (!wantsJointForces(*tree.multi_body)) return;
+  TreeStep& step = tree.step;
+  Coordinates &acceleration = step.change, &forces = step.spare;  // not needed any more
+  LinkDynamics& dynamics = tree.flight.dynamics();
+  readPose(*tree.multi_body, step.pose);
+  movePose(tree.tree, step.pose, step.moved, -duration / 2, step.pose);
+  dynamics.setPose(step.pose);
+  dynamics.setVelocity(step.moved);
+  addOuterWrenches(tree, duration);
+  dynamics.setPose(step.pose);  // again: it reads the applied wrenches
+  acceleration = (step.end - step.start) / duration;
+  dynamics.inverseDynamics(step.moved, acceleration, forces);
+  for (int i = 0; i < tree.multi_body->getNumLinks(); ++i) {
+    btMultibodyLink& link = tree.multi_body->getLink(i);
+    if (link.m_jointFeedback)
+      link.m_jointFeedback->m_reactionForces =
+          inBulletsFrame(dynamics.jointWrench(i + 1), link, info);
+  }
 }
 
 AMBIENT_END

@@ -51,23 +51,23 @@ double twiceProduct(LinkDynamics& dynamics, const Coordinates& a, const Coordina
   return (sum - dynamics.normSquared(free)) / 2;
 }
 
-void countRejected(AmbientTree& tree, AmbientBodies& bodies) {
+void countRejected(AmbientTree& tree, Warnings& warnings) {
   ++tree.links.front()->ambient.counters.rejected;
-  bodies.warnings.warnOnce(Warning::kNotFinite);
+  warnings.warnOnce(Warning::kNotFinite);
 }
 
-void stopIfNotFinite(AmbientTree& tree, AmbientBodies& bodies) {
+void stopIfNotFinite(AmbientTree& tree, Warnings& warnings) {
   if (tree.step.start.allFinite()) return;
   tree.step.start.setZero();
-  countRejected(tree, bodies);
+  countRejected(tree, warnings);
 }
 
 // Gives a tree the velocity that it had before the substep; its motion in the fluid is not finite.
-void giveUp(AmbientTree& tree, AmbientBodies& bodies) {
+void giveUp(AmbientTree& tree, Warnings& warnings) {
   forgetLoads(tree);
   tree.step.outcome = Outcome::kStock;
   writeVelocity(*tree.multi_body, tree.step.start);
-  countRejected(tree, bodies);
+  countRejected(tree, warnings);
 }
 
 // Computes the velocity x + X of a tree whose rows turn with it. Returns false if it is not finite.
@@ -115,13 +115,13 @@ void finishFlown(AmbientTree& tree) {
 
 // Flies a tree that no row has moved and that turns slowly; otherwise stores xi and the energy
 // bound of eq. (31a), twice the energy [J].
-void finishTreeRows(AmbientTree& tree, const TreeTask& task) {
+void finishTreeRows(AmbientTree& tree, double duration, Warnings& warnings) {
   TreeStep& step = tree.step;
   if (step.change.isZero(0) && step.turn_number <= kSlowTurn && step.was_awake) {
-    if (flyTree(tree, task)) {
+    if (flyTree(tree, duration, warnings)) {
       writeVelocity(*tree.multi_body, step.moved);
     } else {
-      giveUp(tree, task.bodies);
+      giveUp(tree, warnings);
     }
     return;
   }
@@ -204,23 +204,23 @@ void keepIntegrals(AmbientTree& tree, double h) {
 
 // Computes the velocity that rows are solved against, and sets the outcome. Returns false if the
 // velocity is not finite.
-bool beginTree(AmbientTree& tree, const TreeTask& task) {
+bool beginTree(AmbientTree& tree, double duration, Warnings& warnings) {
   TreeStep& step = tree.step;
   if (!step.was_awake) return prepareWoken(tree);
   if (tree.tree.size() == 1 || wasMovedByOthers(tree, step.start)) forgetLoads(tree);
   if (isAtSurface(tree)) {
     addInflow(tree);
     step.surface.start = step.start;
-    kickAtSurface(tree, task);
+    kickAtSurface(tree, duration, warnings);
     keepEnergy(tree);
   }
-  return step.turns_rows ? prepareRows(tree, task.duration) : flyTree(tree, task);
+  return step.turns_rows ? prepareRows(tree, duration) : flyTree(tree, duration, warnings);
 }
 
 // Sets the velocity of a tree that does not fly as a body.
-void beginAlone(AmbientTree& tree, const TreeTask& task) {
-  if (!beginTree(tree, task)) {
-    giveUp(tree, task.bodies);
+void beginAlone(AmbientTree& tree, double duration, Warnings& warnings) {
+  if (!beginTree(tree, duration, warnings)) {
+    giveUp(tree, warnings);
     return;
   }
   const TreeStep& step = tree.step;
@@ -229,24 +229,24 @@ void beginAlone(AmbientTree& tree, const TreeTask& task) {
 
 // Reports links that their joints turn by half a turn or more in a step: blades then meet the flow
 // from few sides, whose mean is not that of a turn.
-void warnOfFastJoints(const AmbientTree& tree, const TreeTask& task) noexcept {
+void warnOfFastJoints(const AmbientTree& tree, double duration, Warnings& warnings) {
   for (const auto& link : tree.links) {
     AmbientBody& ambient = link->ambient;
     if (link->link < 0 || ambient.counters.too_long > 0 || !ambient.isInFluid()) continue;
     const btMultiBody& body = *tree.multi_body;
     if (body.getLink(link->link).m_jointType != btMultibodyLink::eRevolute) continue;
     const auto rate = static_cast<double>(body.getJointVel(link->link));
-    const double turns = std::abs(rate) * task.duration / (2 * kPi);
+    const double turns = std::abs(rate) * duration / (2 * kPi);
     if (turns < 0.5) continue;
     ambient.counters.too_long = 1;
-    task.bodies.warnings.warnOfFastJoint(*ambient.def, turns, task.duration);
+    warnings.warnOfFastJoint(*ambient.def, turns, duration);
   }
 }
 
 }  // namespace
 
-bool prepareTree(AmbientTree& tree, const TreeTask& task) noexcept {
-  AMBIENT_ASSERT(task.duration > 0 && !tree.links.empty());
+bool prepareTree(AmbientTree& tree, AmbientBodies& bodies, double duration) noexcept {
+  AMBIENT_ASSERT(duration > 0 && !tree.links.empty());
   TreeStep& step = tree.step;
   btMultiBody& body = *tree.multi_body;
   if (isAsleep(body)) return true;
@@ -254,16 +254,16 @@ bool prepareTree(AmbientTree& tree, const TreeTask& task) noexcept {
   step.meets_surface = false;
   readPose(body, step.pose);
   step.to_base = body.getWorldToBaseRot();
-  stopIfNotFinite(tree, task.bodies);
-  if (!prepareLinks(tree, task)) return true;
+  stopIfNotFinite(tree, bodies.warnings);
+  if (!prepareLinks(tree, bodies, duration)) return true;
   beginTreeReading(tree);
   if (body.isUsingRK4Integration()) {
-    task.bodies.warnings.warnOnce(Warning::kRungeKutta);
+    bodies.warnings.warnOnce(Warning::kRungeKutta);
     body.setPosUpdated(false);
     setInstanceNumber(body, tree.instance);
   }
   if (fliesAsBody(tree)) return false;
-  beginAlone(tree, task);
+  beginAlone(tree, duration, bodies.warnings);
   return true;
 }
 
@@ -274,49 +274,49 @@ void flySingleLinks(AmbientTree* const* trees, AmbientBodies* const* of, int cou
     if (isSolved(*trees[i])) {
       writeVelocity(*trees[i]->multi_body, trees[i]->step.end);
     } else {
-      beginAlone(*trees[i], taskOf(*of[i], static_cast<btScalar>(duration)));
+      beginAlone(*trees[i], duration, of[i]->warnings);
     }
   }
 }
 
-void finishTree(AmbientTree& tree, const TreeTask& task) noexcept {
+void finishTree(AmbientTree& tree, AmbientBodies& bodies, double duration) noexcept {
   TreeStep& step = tree.step;
   if (!isSolved(tree)) return;
   readChange(*tree.multi_body, step.change);
   if (!step.change.allFinite()) {
     clearChange(*tree.multi_body);
     step.change.setZero();
-    countRejected(tree, task.bodies);
+    countRejected(tree, bodies.warnings);
   }
   if (step.outcome == Outcome::kFlown) {
     finishFlown(tree);
   } else {
-    finishTreeRows(tree, task);
+    finishTreeRows(tree, duration, bodies.warnings);
   }
   readChangedVelocity(*tree.multi_body, step.moved);
 }
 
-void completeTree(AmbientTree& tree, const TreeTask& task) noexcept {
+void completeTree(AmbientTree& tree, AmbientBodies& bodies, double duration) noexcept {
   TreeStep& step = tree.step;
   btMultiBody& body = *tree.multi_body;
   if (!isSolved(tree) || isAsleep(body)) return;
-  settleTree(tree, task.duration);
+  settleTree(tree, duration);
   if (step.outcome == Outcome::kRows) {
-    turnAfterRows(tree, task.duration);
+    turnAfterRows(tree, duration);
   } else {
-    keepIntegrals(tree, task.duration);
+    keepIntegrals(tree, duration);
   }
-  applyAddedMassChange(tree, task);
+  applyAddedMassChange(tree, duration);
   if (!step.end.allFinite()) {
-    countRejected(tree, task.bodies);
+    countRejected(tree, bodies.warnings);
     return;
   }
   step.change = step.end - step.moved;
   addVelocity(body, step.change);
-  warnOfFastJoints(tree, task);
+  warnOfFastJoints(tree, duration, bodies.warnings);
   keepTreeAwake(tree);
-  writeJointForces(tree, task);
-  finishTreeReading(tree, task.duration);
+  writeJointForces(tree, duration, bodies.trees.world()->getSolverInfo());
+  finishTreeReading(tree, duration);
 }
 
 AMBIENT_END

@@ -2,40 +2,32 @@
 
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 
+#include <functional>
+
 #include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
+#include "bullet_ambient/bullet/members/flight_coupling.h"
 
 AMBIENT_BEGIN
 
-/// Substep of the world of the trees.
-struct TreeTask {
-  AmbientBodies& bodies;
-  double duration;  ///< [s]
-  btVector3 gravity;
-};
-
-/// Makes the task of a substep of `time_step` [s]. @pre there are trees
-inline TreeTask taskOf(AmbientBodies& bodies, btScalar time_step) {
-  return {bodies, static_cast<double>(time_step), bodies.trees.world()->getGravity()};
-}
-
-/// True if there are trees, and they are those of this world.
-inline bool isOf(const btCollisionWorld& world, const AmbientTrees& trees) noexcept {
-  return !trees.empty() && trees.world() == &world;
-}
-
-/// Calls visit(AmbientTree&) for each tree whose multibody is in the world. Multibodies outside it
-/// may have been destroyed.
+/// Calls visit(AmbientTree&) for each tree whose multibody is in the world of the trees.
+/// Multibodies outside it may have been destroyed.
 template <class Visit>
-void forEachTree(btMultiBodyDynamicsWorld& world, const AmbientTrees& trees, const Visit& visit) {
-  for (int i = 0; i < world.getNumMultibodies(); ++i)
-    if (AmbientTree* tree = trees.find(world.getMultiBody(i))) visit(*tree);
+void forEachTree(const AmbientTrees& trees, const Visit& visit) {
+  for (int i = 0; trees.world() && i < trees.world()->getNumMultibodies(); ++i)
+    if (AmbientTree* tree = trees.find(trees.world()->getMultiBody(i))) visit(*tree);
+}
+
+/// Calls it only if that is this world.
+template <class Visit>
+void forEachTreeIn(const btCollisionWorld& world, const AmbientTrees& trees, const Visit& visit) {
+  if (trees.world() == &world) forEachTree(trees, visit);
 }
 
 /// Updates links, fluids and forces of a tree at the start of a substep. Places the links if
 /// regions, a smooth link or a tree without joints need it. Returns false if no link is in a fluid.
 /// Allocates nothing.
-bool prepareLinks(AmbientTree& tree, const TreeTask& task) noexcept;
+bool prepareLinks(AmbientTree& tree, AmbientBodies& bodies, double duration) noexcept;
 
 /// True if the velocity `now` is not `step.end`, up to Bullet's rounding: others have changed it
 /// since the last substep.
@@ -97,7 +89,7 @@ void addInflow(AmbientTree& tree) noexcept;
 
 /// Call before a step, or before each part of a step that is flown in parts. Changes `step.start`
 /// by the waves that links make and by the wind. @pre prepareLinks()
-void kickAtSurface(AmbientTree& tree, const TreeTask& task) noexcept;
+void kickAtSurface(AmbientTree& tree, double duration, Warnings& warnings) noexcept;
 
 /// Call before rows that turn with the tree are prepared. Stiffens the inertia of links whose
 /// floating period is too short for the step, docs/theory.md eq. (68). @pre kickAtSurface()
@@ -138,7 +130,7 @@ void keepWithinReach(AmbientTree& tree) noexcept;
 /// Call after Bullet has moved the tree. Calls arriveAtSurface() at the present pose. If no rows
 /// have moved the tree, scales the motion relative to the flow so that the energy does not exceed
 /// the one that keepEnergy() stored.
-void applyAddedMassChange(AmbientTree& tree, const TreeTask& task) noexcept;
+void applyAddedMassChange(AmbientTree& tree, double duration) noexcept;
 
 /// Flies a tree over a substep, from `step.pose` with velocity `step.start`. Writes the mean
 /// velocity to `step.moved`, the end velocity to `step.end`, and the outcome. At a water surface, a
@@ -146,7 +138,7 @@ void applyAddedMassChange(AmbientTree& tree, const TreeTask& task) noexcept;
 /// and ends early if that does not help; docs/theory.md section 14, eq. (81b). Returns false if a
 /// result is not finite.
 /// @pre no row turns with the tree; `step.start` contains the kicks by the surface
-bool flyTree(AmbientTree& tree, const TreeTask& task) noexcept;
+bool flyTree(AmbientTree& tree, double duration, Warnings& warnings) noexcept;
 
 /// True if a tree flies as a free rigid body: it has one link, its base is not fixed, it was awake,
 /// and no row turns with it. @pre prepareLinks()
@@ -187,7 +179,7 @@ void flyAsBodies(AmbientTree* const* trees, AmbientBodies* const* of, int count,
 /// Call before Bullet makes rows. Sets the velocity of a tree to the one that rows are solved
 /// against. Returns false, and sets none, for a tree that flies as a body: call flySingleLinks()
 /// for it. @pre `step.start` is the velocity before the substep
-bool prepareTree(AmbientTree& tree, const TreeTask& task) noexcept;
+bool prepareTree(AmbientTree& tree, AmbientBodies& bodies, double duration) noexcept;
 
 /// Flies up to kFlightsTogether trees for which prepareTree() was false, side by side, and sets
 /// their velocities to those at the end of the flights. `of`: the fluid of each tree.
@@ -195,12 +187,66 @@ void flySingleLinks(AmbientTree* const* trees, AmbientBodies* const* of, int cou
                     double duration) noexcept;
 
 /// Call after the rows are solved. Sets the velocity that Bullet moves the tree by.
-void finishTree(AmbientTree& tree, const TreeTask& task) noexcept;
+void finishTree(AmbientTree& tree, AmbientBodies& bodies, double duration) noexcept;
 
 /// Call after Bullet has moved the tree. Adds the difference between the velocity at the end of the
 /// substep and the one that Bullet has moved it by, so that impulses which others have applied
 /// meanwhile survive.
-void completeTree(AmbientTree& tree, const TreeTask& task) noexcept;
+void completeTree(AmbientTree& tree, AmbientBodies& bodies, double duration) noexcept;
+
+/// Bodies and trees of several worlds that nothing touches, which fly side by side, and the steps
+/// of these worlds, each within the one before:
+///
+///   rows of world 0, rows of world 1, ..., flights of all, Bullet moves world n - 1, ..., world 0
+///
+/// All on one thread. Allocates nothing.
+class FlightQueue {
+ public:
+  /// `step(i)` makes a step of world i, whose solver calls goOn(); null: there are no worlds.
+  explicit FlightQueue(int worlds = 0, const std::function<void(int)>* step = nullptr)
+      : worlds_(worlds), step_(step) {}
+
+  /// Adds one that flies in this substep of `time_step` [s], and its fluid; flies all that wait if
+  /// they fill the lanes or if their time step is another one. A tree: prepareTree() was false.
+  void add(AmbientBody& body, AmbientBodies& of, double time_step) noexcept {
+    add(bodies_, FreeBody{&body}, of, time_step);
+  }
+  void add(AmbientTree& tree, AmbientBodies& of, double time_step) noexcept {
+    add(trees_, &tree, of, time_step);
+  }
+  /// Flies all that wait.
+  void fly() noexcept;
+
+  /// Call when the rows of a world are solved: makes the steps of the worlds that have not begun,
+  /// and flies all that wait.
+  void goOn() noexcept {
+    while (begun_ < worlds_) (*step_)(begun_++);
+    fly();
+  }
+
+ private:
+  template <class Flyer>  // FreeBody or AmbientTree*
+  struct Waiting {
+    Flyer flyers[kFlightsTogether] = {};
+    AmbientBodies* of[kFlightsTogether] = {};
+    int count = 0;
+  };
+  template <class Flyer>
+  void add(Waiting<Flyer>& waiting, const Flyer& flyer, AmbientBodies& of,
+           double time_step) noexcept {
+    if (time_step != time_step_) fly();
+    time_step_ = time_step;
+    waiting.flyers[waiting.count] = flyer;
+    waiting.of[waiting.count++] = &of;
+    if (waiting.count == kFlightsTogether) fly();
+  }
+
+  Waiting<FreeBody> bodies_;
+  Waiting<AmbientTree*> trees_;
+  double time_step_ = 0;
+  int worlds_, begun_ = 0;
+  const std::function<void(int)>* step_;
+};
 
 // Functions for links whose wrenches are read. Cost without such links: one test per link.
 
@@ -214,8 +260,8 @@ void finishTreeReading(AmbientTree& tree, double duration) noexcept;
 /// Replaces the joint forces in each btMultiBodyJointFeedback of the links, which Bullet has
 /// computed without fluid, by those in fluid: inverse dynamics of the mean acceleration of the
 /// substep, at the pose in its middle. Forces of rows count as applied forces, as in Bullet.
-/// Velocity-dependent terms count once; Bullet counts them twice. @pre `step` has the velocities of
-/// this substep
-void writeJointForces(AmbientTree& tree, const TreeTask& task) noexcept;
+/// Velocity-dependent terms count once; Bullet counts them twice. `info`: of the solver, which says
+/// in which frame. @pre `step` has the velocities of this substep
+void writeJointForces(AmbientTree& tree, double duration, const btContactSolverInfo& info) noexcept;
 
 AMBIENT_END

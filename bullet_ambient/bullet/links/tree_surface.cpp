@@ -86,19 +86,17 @@ void addInflow(AmbientTree& tree) noexcept {
   if (has_come) addResponse(tree, tree.step.start);
 }
 
-void kickAtSurface(AmbientTree& tree, const TreeTask& task) noexcept {
+void kickAtSurface(AmbientTree& tree, double duration, Warnings& warnings) noexcept {
   TreeStep& step = tree.step;
-  step.surface.time = task.duration;
+  step.surface.time = duration;
   step.surface.has_flown = false;
   std::fill(step.impulses.begin(), step.impulses.end(), Wrench{});
   forEachAtSurface(tree, [&](AmbientLink& link, int i) {
-    step.impulses[i] =
-        impulseOf(link, kickByWavesAndWind(link.ambient, link.now.state, task.duration));
+    step.impulses[i] = impulseOf(link, kickByWavesAndWind(link.ambient, link.now.state, duration));
   });
   step.meets_surface = addResponse(tree, step.start);
-  forEachAtSurface(tree, [&](AmbientLink& link, int) {
-    warnOfShortPeriod(link.ambient, task.duration, task.bodies.warnings);
-  });
+  forEachAtSurface(
+      tree, [&](AmbientLink& link, int) { warnOfShortPeriod(link.ambient, duration, warnings); });
 }
 
 void stiffenForRows(AmbientTree& tree) noexcept {
@@ -328,13 +326,13 @@ double boundSurfaceEnergy(AmbientTree& tree, double duration) {
 
 }  // namespace
 
-void applyAddedMassChange(AmbientTree& tree, const TreeTask& task) noexcept {
+void applyAddedMassChange(AmbientTree& tree, double duration) noexcept {
   TreeStep& step = tree.step;
   if (!step.meets_surface) return;
   readPose(*tree.multi_body, step.pose);
   const double removed = arriveAtSurface(tree);
   const bool has_rows = step.outcome == Outcome::kRows || !step.change.isZero(0);
-  countEnergyRemoved(removed + (has_rows ? 0 : boundSurfaceEnergy(tree, task.duration)), tree);
+  countEnergyRemoved(removed + (has_rows ? 0 : boundSurfaceEnergy(tree, duration)), tree);
 }
 
 AMBIENT_END

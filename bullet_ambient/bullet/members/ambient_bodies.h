@@ -128,6 +128,11 @@ class AmbientTrees {
   /// Finds the tree that was added, never another one at the same address; null: none.
   /// @pre the multibody is alive, or nothing was attached at its address
   AmbientTree* find(const btMultiBody* multi_body) const noexcept;
+  /// Finds the tree of a multibody if the fluid's solver moves it in this substep, isSolved().
+  AmbientTree* findSolved(const btMultiBody* multi_body) const noexcept {
+    AmbientTree* const tree = find(multi_body);
+    return tree && isSolved(*tree) ? tree : nullptr;
+  }
   /// Returns the entry for an address, whatever is there now; null: none.
   AmbientTree* at(const btMultiBody* address) const noexcept;
   /// Null if the link is not in a fluid.

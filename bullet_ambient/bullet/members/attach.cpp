@@ -33,17 +33,13 @@ const btVector3& inertiaOf(const btMultiBody& body, int link) {
 
 double inverseNumber(btScalar a) { return static_cast<double>(a != 0 ? 1 / a : btScalar(0)); }
 
-void checkFlight(const std::string& who, const FlightSettings& flight) {
-  if (!(flight.tolerance > 0) || !std::isfinite(flight.tolerance)) {
-    throw std::invalid_argument(who + " has a flight tolerance of " +
-                                std::to_string(flight.tolerance) +
-                                ", which must be positive and finite");
-  }
-  if (flight.max_substeps < 0) {
-    throw std::invalid_argument(who + " has max_substeps of " +
-                                std::to_string(flight.max_substeps) +
-                                ", which must be zero or positive");
-  }
+// Refuses a number of a definition that is not finite or negative, or 0 unless it may be that.
+void checkNumber(const std::string& who, const std::string& what, double number,
+                 bool may_be_zero = false, const char* unit = "") {
+  if ((number > 0 || (may_be_zero && number == 0)) && std::isfinite(number)) return;
+  throw std::invalid_argument(who + " has " + what + " of " + std::to_string(number) + unit +
+                              ", which must be " + (may_be_zero ? "zero or positive" : "positive") +
+                              " and finite");
 }
 
 template <class Choice, class Names>
@@ -54,23 +50,11 @@ void checkChoice(const std::string& who, const char* what, Choice choice, const 
                               std::to_string(names.size() - 1));
 }
 
-void checkFactor(const std::string& who, const char* name, double factor) {
-  if (factor > 0 && std::isfinite(factor)) return;
-  throw std::invalid_argument(who + " has a " + name + " of " + std::to_string(factor) +
-                              ", which must be positive and finite");
-}
-
 void checkHoldSettings(const std::string& who, const AttachDef& def) {
   const std::vector<double>& water = def.holds.water;
   const std::vector<Hold>& holds = def.fluid_body->holds;
-  if (!(def.holds.atmosphere > 0) || !std::isfinite(def.holds.atmosphere))
-    throw std::invalid_argument(who + " has air at the surface of " +
-                                std::to_string(def.holds.atmosphere) +
-                                " Pa, which must be positive and finite");
-  if (!(def.holds.sloshing_damping >= 0) || !std::isfinite(def.holds.sloshing_damping))
-    throw std::invalid_argument(who + " has a damping of sloshing of " +
-                                std::to_string(def.holds.sloshing_damping) +
-                                ", which must be zero or positive and finite");
+  checkNumber(who, "air at the surface", def.holds.atmosphere, false, " Pa");
+  checkNumber(who, "a damping of sloshing", def.holds.sloshing_damping, true);
   if (water.empty()) return;
   if (water.size() != holds.size())
     throw std::invalid_argument(who + " has water for " + std::to_string(water.size()) +
@@ -89,9 +73,13 @@ void checkWater(const std::string& who, int hold, double volume, double capacity
 }
 
 void checkDef(const std::string& who, const AttachDef& def) {
-  checkFactor(who, "added_mass_factor", def.added_mass_factor);
-  checkFactor(who, "load_factor", def.load_factor);
-  checkFlight(who, def.flight);
+  checkNumber(who, "a added_mass_factor", def.added_mass_factor);
+  checkNumber(who, "a load_factor", def.load_factor);
+  checkNumber(who, "a flight tolerance", def.flight.tolerance);
+  if (def.flight.max_substeps < 0)
+    throw std::invalid_argument(who + " has max_substeps of " +
+                                std::to_string(def.flight.max_substeps) +
+                                ", which must be zero or positive");
   checkHoldSettings(who, def);
   checkChoice(who, "the pressure law", def.flow.law, kPressureLawNames);
   checkChoice(who, "the load precision", def.flow.precision, kLoadPrecisionNames);
@@ -123,9 +111,8 @@ void readLinkPose(const btMultiBody& body, AmbientLink& link) noexcept {
 
 void wake(btMultiBody& body) noexcept {
   body.wakeUp();
-  if (body.getBaseCollider()) body.getBaseCollider()->activate();
-  for (int i = 0; i < body.getNumLinks(); ++i)
-    if (body.getLink(i).m_collider) body.getLink(i).m_collider->activate();
+  for (int link = -1; link < body.getNumLinks(); ++link)
+    if (btCollisionObject* collider = colliderOf(body, link)) collider->activate();
 }
 
 void wake(const AmbientBody& ambient) noexcept {
@@ -151,7 +138,6 @@ btTransform poseInParent(const btMultibodyLink& link) {
 }  // namespace
 
 std::optional<FixedLink> carrierOf(const btMultiBody& body, int link) {
-  const auto mass = [&](int of) { return of < 0 ? body.getBaseMass() : body.getLinkMass(of); };
   std::vector<FixedLink> reached{{link, btTransform::getIdentity()}};
   const auto reach = [&](int next, const btTransform& pose) {
     const auto is_next = [next](const FixedLink& known) { return known.link == next; };
@@ -159,7 +145,7 @@ std::optional<FixedLink> carrierOf(const btMultiBody& body, int link) {
   };
   for (std::size_t i = 0; i < reached.size(); ++i) {
     const FixedLink here = reached[i];
-    if (mass(here.link) > 0 || (here.link < 0 && body.hasFixedBase())) return here;
+    if (massOf(body, here.link) > 0 || (here.link < 0 && body.hasFixedBase())) return here;
     if (isFixed(body, here.link)) {
       const btMultibodyLink& joint = body.getLink(here.link);
       reach(joint.m_parent, poseInParent(joint) * here.pose);
@@ -187,37 +173,31 @@ namespace {
 void warnOfDoubts(const AmbientBody& ambient, Warnings& warnings) {
   constexpr double kRounding = 1e-3;
   const FluidBody& shape = *ambient.def->fluid_body;
-  const std::string who = "bullet_ambient: " + nameOf(*ambient.def) + ' ';
+  const FlowSettings& flow = ambient.def->flow;
+  const auto warn = [&](Warning warning, const std::string& what) {
+    const std::string text = "bullet_ambient: " + nameOf(*ambient.def) + ' ' + what;
+    warnings.warnOnce(warning, text.c_str());
+  };
   const Vector3 moments = ambient.models->inverse_mass.moments();
   const double largest = moments.maxCoeff(), others = moments.sum() - largest;
-  if (largest > (1 + kRounding) * others) {
-    const std::string text = who + "has a principal moment of inertia of " +
-                             std::to_string(largest) + " kg m^2, but no rigid body has one above " +
-                             std::to_string(others) + " kg m^2, the sum of the other two";
-    warnings.warnOnce(Warning::kInertia, text.c_str());
-  }
-  const FlowSettings& flow = ambient.def->flow;
-  if (flow.law == PressureLaw::kForm && !flow.own_law &&
-      flow.separation_angle != FlowSettings{}.separation_angle) {
-    const std::string text = who +
-                             "has a separation angle, which the form law does not read: where the "
-                             "flow leaves a body follows from its shape and its roughness";
-    warnings.warnOnce(Warning::kAngle, text.c_str());
-  }
-  if (ambient.isInFluid() && flow.law == PressureLaw::kForm && !flow.own_law &&
-      ambient.medium.viscosity > 0 && ambient.model().loads && !(shape.sphere_radius > 0) &&
-      !shape.viscous.isKnown()) {
-    const std::string text = who +
-                             "moves as without viscosity: its fluid body has no resistance, which "
-                             "prepare() of preprocess/build.h and ambient_preprocess upgrade make";
-    warnings.warnOnce(Warning::kNoResistance, text.c_str());
-  }
+  if (largest > (1 + kRounding) * others)
+    warn(Warning::kInertia, "has a principal moment of inertia of " + std::to_string(largest) +
+                                " kg m^2, but no rigid body has one above " +
+                                std::to_string(others) + " kg m^2, the sum of the other two");
+  const bool has_form_law = flow.law == PressureLaw::kForm && !flow.own_law;
+  if (has_form_law && flow.separation_angle != FlowSettings{}.separation_angle)
+    warn(Warning::kAngle,
+         "has a separation angle, which the form law does not read: where the "
+         "flow leaves a body follows from its shape and its roughness");
+  if (ambient.isInFluid() && has_form_law && ambient.medium.viscosity > 0 &&
+      ambient.model().loads && !(shape.sphere_radius > 0) && !shape.viscous.isKnown())
+    warn(Warning::kNoResistance,
+         "moves as without viscosity: its fluid body has no resistance, which "
+         "prepare() of preprocess/build.h and ambient_preprocess upgrade make");
   if (ambient.isInFluid() && !ambient.model().loads && !(shape.volume > 0) &&
-      shape.added_mass.isZero(0)) {
-    const std::string text =
-        who + "feels no fluid: without faces, volume and added mass its shape is empty";
-    warnings.warnOnce(Warning::kEmpty, text.c_str());
-  }
+      shape.added_mass.isZero(0))
+    warn(Warning::kEmpty,
+         "feels no fluid: without faces, volume and added mass its shape is empty");
 }
 
 // Refuses a definition without a shape.
@@ -306,8 +286,7 @@ AmbientBody& attachLink(AmbientBodies& bodies, btMultiBodyDynamicsWorld& world, 
   requireShape(def);
   const std::string link_name = "add: link " + std::to_string(given);
   checkTreeOf(link_name + " with fluid body '" + def.fluid_body->name + "'", body, given);
-  const btCollisionObject* collider =
-      given < 0 ? body.getBaseCollider() : body.getLinkCollider(given);
+  const btCollisionObject* collider = colliderOf(body, given);
   if (def.name.empty() && collider && bodies.naming) def.name = bodies.naming(*collider);
   const std::string who = def.name.empty()
                               ? link_name + " with fluid body '" + def.fluid_body->name + "'"

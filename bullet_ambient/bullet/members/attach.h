@@ -18,8 +18,8 @@ class btRigidBody;
 AMBIENT_BEGIN
 
 class AmbientBodies;
+class AmbientTrees;
 struct AmbientLink;
-struct AmbientTree;
 
 /// Makes the models of a body or link again, in the medium around it now. If this throws, nothing
 /// has changed.

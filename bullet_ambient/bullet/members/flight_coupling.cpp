@@ -139,7 +139,6 @@ namespace {
 // Relative change of the velocity by others, in the norm of K, beyond which the load kept from the
 // last flight is not used.
 constexpr double kSameVelocity = 1e-3;
-constexpr double kBulletMaxTurn = kPi / 4;  // [rad] per step in integrateTransform
 // FlightTask::precision. Its error grows with the number of steps, rounding with the root of it.
 constexpr double kPrecision = std::max(1e-16, 1e-4 * kBulletRounding);
 
@@ -267,7 +266,7 @@ void keepFlight(const FlightResult& flight, const Twist& end_W, const Twist& mea
 // from half a turn on: u_eff contains the rotation modulo a turn only, and its rounding would
 // change the angular momentum.
 bool turnsTooFarForBullet(const LastFlight& flight, double time_step) {
-  return flight.effective_W.angular.norm() * time_step > kBulletMaxTurn * (1 - 1e-6) ||
+  return flight.effective_W.angular.norm() * time_step > kMostTurn * (1 - 1e-6) ||
          flight.left_W.angular.norm() * time_step > kPi;
 }
 
@@ -333,6 +332,22 @@ void beginFlights(AmbientBody* const* bodies, const StartStates& starts, int cou
     changes_W[i] = {};
     if (ambient.outcome.kind == Outcome::kFlown)
       changes_W[i] = {mean_W.angular - before_W.angular, mean_W.linear - before_W.linear};
+  }
+}
+
+void flyBodies(const FreeBody* bodies, int count, double time_step) noexcept {
+  AmbientBody* flying[kFlightsTogether] = {};
+  Twist changes_W[kFlightsTogether];
+  for (int i = 0; i < count; ++i) flying[i] = bodies[i].ambient;
+  StartStates starts;
+  readStartStates(flying, count, starts);
+  beginFlights(flying, starts, count, time_step, changes_W);
+  for (int i = 0; i < count; ++i) {
+    if (bodies[i].solver_body) {
+      setExternalImpulse(*bodies[i].solver_body, changes_W[i]);
+    } else {
+      addVelocity(*bodies[i].ambient->body, changes_W[i]);
+    }
   }
 }
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <BulletDynamics/ConstraintSolver/btSolverBody.h>
+
+#include "bullet_ambient/bullet/core/conversions.h"
 #include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/immersed/ambient_body.h"
@@ -63,6 +66,23 @@ void keepAwake(AmbientBody& ambient, Outcome kind) noexcept;
 /// is kept.
 void beginFlights(AmbientBody* const* bodies, const StartStates& starts, int count,
                   double time_step, Twist* changes_W) noexcept;
+
+/// Replaces the velocity change by gravity and applied forces that Bullet has computed for the dry
+/// body. Bullet adds it when it writes velocities back. World axes, [rad/s] and [m/s].
+inline void setExternalImpulse(btSolverBody& solver_body, const Twist& change_W) {
+  solver_body.m_externalTorqueImpulse = toBullet(change_W.angular);
+  solver_body.m_externalForceImpulse = toBullet(change_W.linear);
+}
+
+/// A body that no row moves.
+struct FreeBody {
+  AmbientBody* ambient;
+  btSolverBody* solver_body = nullptr;  ///< null: Bullet does not convert the body
+};
+
+/// Flies up to kFlightsTogether bodies from where they are, as beginFlights(), and gives Bullet the
+/// velocities that bring them to the ends.
+void flyBodies(const FreeBody* bodies, int count, double time_step) noexcept;
 
 /// Reports a flight that is not finite, or whose step is too long.
 inline void reportFlight(const AmbientBody& ambient, Warnings& warnings) noexcept {

@@ -97,10 +97,6 @@ btScalar withinLimit(const btMultiBody& body, double velocity) {
   return static_cast<btScalar>(std::clamp(velocity, -limit, limit));
 }
 
-bool sleeps(const btCollisionObject* collider) {
-  return collider && collider->getActivationState() == ISLAND_SLEEPING;
-}
-
 void readBase(const btMultiBody& body, Link& base) {
   base.mass = static_cast<double>(body.getBaseMass());
   base.inertia = toVector3(body.getBaseInertia());
@@ -202,9 +198,10 @@ void clearChange(btMultiBody& body) noexcept {
 }
 
 bool isAsleep(const btMultiBody& body) noexcept {
-  if (sleeps(body.getBaseCollider())) return true;
-  for (int i = 0; i < body.getNumLinks(); ++i)
-    if (sleeps(body.getLink(i).m_collider)) return true;
+  for (int link = -1; link < body.getNumLinks(); ++link) {
+    const btCollisionObject* collider = colliderOf(body, link);
+    if (collider && collider->getActivationState() == ISLAND_SLEEPING) return true;
+  }
   return false;
 }
 

@@ -51,6 +51,13 @@ void addVelocity(btMultiBody& multi_body, const CoordinatesIn& change) noexcept;
 void addChange(btMultiBody& multi_body, const CoordinatesIn& change) noexcept;
 void clearChange(btMultiBody& multi_body) noexcept;
 
+/// Returns the collider of a link; -1: of the base. Null: it has none. `Body`: btMultiBody, const
+/// or not.
+template <class Body>
+auto* colliderOf(Body& multi_body, int link) noexcept {
+  return link < 0 ? multi_body.getBaseCollider() : multi_body.getLinkCollider(link);
+}
+
 /// True if Bullet treats the multibody as asleep: at least one collider sleeps.
 bool isAsleep(const btMultiBody& multi_body) noexcept;
 

@@ -8,70 +8,64 @@
 #include <limits>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/base/instruction_set.h"
 #include "bullet_ambient/bullet/core/four_numbers.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
-#include "bullet_ambient/bullet/rows/row_rewriting.h"
+#include "bullet_ambient/bullet/rows/constraint_rows.h"
 
 AMBIENT_BEGIN
 namespace {
 
-// Returns the velocity along the row before the impulses of the step, including the velocity change
-// by external forces [m/s].
-btScalar velocityBefore(const btSolverConstraint& row, const btSolverBody& a,
-                        const btSolverBody& b) {
-  return row.m_contactNormal1.dot(a.m_linearVelocity + a.m_externalForceImpulse) +
-         row.m_relpos1CrossNormal.dot(a.m_angularVelocity + a.m_externalTorqueImpulse) +
-         row.m_contactNormal2.dot(b.m_linearVelocity + b.m_externalForceImpulse) +
-         row.m_relpos2CrossNormal.dot(b.m_angularVelocity + b.m_externalTorqueImpulse);
-}
+using SolverBodies = btAlignedObjectArray<btSolverBody>;
 
 // Returns the velocity of Bullet's position correction [m/s]: the right-hand side plus the velocity
-// along the row. Returns 0 for a row with bounds, which may be a motor with its speed in the
-// right-hand side.
-double correctionOf(const btSolverConstraint& row, const btSolverBody& a, const btSolverBody& b) {
+// along the row before the impulses of the step, with the change by external forces. Returns 0 for
+// a row with bounds, which may be a motor with its speed in the right-hand side.
+double correctionOf(btSolverConstraint& row, const SolverBodies& bodies) {
   if (hasBounds(row) || !(row.m_jacDiagABInv > 0)) return 0;
-  return std::abs(static_cast<double>(row.m_rhs / row.m_jacDiagABInv + velocityBefore(row, a, b)));
+  btScalar velocity = row.m_rhs / row.m_jacDiagABInv;
+  for (const RowSide& side : sidesOf(row)) {
+    const btSolverBody& body = bodies[side.solver_body];
+    velocity += side.rigid.along(body.m_linearVelocity + body.m_externalForceImpulse,
+                                 body.m_angularVelocity + body.m_externalTorqueImpulse);
+  }
+  return std::abs(static_cast<double>(velocity));
 }
 
 // Returns the difference between the velocity that the row asks for and the one reached [m/s]; 0 if
 // the impulse is at a bound.
-double missedBy(const btSolverConstraint& row, btSolverBody& a, btSolverBody& b) {
+double missedBy(btSolverConstraint& row, const SolverBodies& bodies) {
   const btScalar impulse = row.m_appliedImpulse;
   const bool is_bound = impulse <= row.m_lowerLimit || impulse >= row.m_upperLimit;
   if (is_bound || !(row.m_jacDiagABInv > 0)) return 0;
-  const btScalar change = row.m_contactNormal1.dot(a.internalGetDeltaLinearVelocity()) +
-                          row.m_relpos1CrossNormal.dot(a.internalGetDeltaAngularVelocity()) +
-                          row.m_contactNormal2.dot(b.internalGetDeltaLinearVelocity()) +
-                          row.m_relpos2CrossNormal.dot(b.internalGetDeltaAngularVelocity());
-  return std::abs(
-      static_cast<double>((row.m_rhs - impulse * row.m_cfm) / row.m_jacDiagABInv - change));
+  btScalar missed = (row.m_rhs - impulse * row.m_cfm) / row.m_jacDiagABInv;
+  for (const RowSide& side : sidesOf(row)) {
+    const btSolverBody& body = bodies[side.solver_body];
+    missed -= side.rigid.along(body.m_deltaLinearVelocity, body.m_deltaAngularVelocity);
+  }
+  return std::abs(static_cast<double>(missed));
 }
 
 }  // namespace
 
-void JointErrors::watch(const btConstraintArray& joints, RowBodies& ambient,
-                        btAlignedObjectArray<btSolverBody>& bodies) noexcept {
+void JointErrors::watch(const RowPools& pools, RowBodies& ambient) noexcept {
   rows_.clear();
-  for (int i = 0; i < joints.size(); ++i) {
-    const btSolverConstraint& row = joints[i];
+  for (int i = 0; i < pools.joints.size(); ++i) {
+    btSolverConstraint& row = pools.joints[i];
     const bool is_shift = !row.m_contactNormal1.isZero() || !row.m_contactNormal2.isZero();
-    const int a = row.m_solverBodyIdA, b = row.m_solverBodyIdB;
-    if (is_shift && (ambient.find(a) || ambient.find(b)))
-      rows_.push_back({i, correctionOf(row, bodies[a], bodies[b])});
+    if (is_shift && (ambient.find(row.m_solverBodyIdA) || ambient.find(row.m_solverBodyIdB)))
+      rows_.push_back({i, correctionOf(row, pools.solver_bodies)});
   }
 }
 
-void JointErrors::measure(const btConstraintArray& joints, RowBodies& ambient,
-                          btAlignedObjectArray<btSolverBody>& bodies,
+void JointErrors::measure(const RowPools& pools, RowBodies& ambient,
                           double time_step) const noexcept {
   if (ambient.empty()) return;
   AMBIENT_ASSERT(time_step > 0);
   for (const Row& watched : rows_) {
-    const btSolverConstraint& row = joints[watched.index];
+    btSolverConstraint& row = pools.joints[watched.index];
     const int a = row.m_solverBodyIdA, b = row.m_solverBodyIdB;
     const double joint_error =
-        time_step * std::max(watched.correction, missedBy(row, bodies[a], bodies[b]));
+        time_step * std::max(watched.correction, missedBy(row, pools.solver_bodies));
     for (const int id : {a, b}) {
       RowBody* body = ambient.find(id);
       if (body && joint_error > body->joint_error) {
@@ -203,35 +197,6 @@ AMBIENT_INLINE void solveAll(const Group* groups, const double* elements, int si
   for (int number = count - 1; number >= 0; --number) backward(groups[number], elements, number, x);
 }
 
-// Functions for one instruction set.
-struct FactorKernel {
-  bool (*factorize)(const Group* groups, double* elements, int size);
-  void (*solve)(const Group* groups, const double* elements, int size, double* x);
-};
-
-// NOLINTBEGIN(bugprone-macro-parentheses): an attribute takes none
-#define AMBIENT_FACTOR_KERNEL(name, target)                                                      \
-  struct name {                                                                                  \
-    target static bool factorize(const Group* groups, double* elements, int size) {              \
-      return factorizeAll(groups, elements, size);                                               \
-    }                                                                                            \
-    target static void solve(const Group* groups, const double* elements, int size, double* x) { \
-      solveAll(groups, elements, size, x);                                                       \
-    }                                                                                            \
-    static constexpr FactorKernel kAll{factorize, solve};                                        \
-  };
-// NOLINTEND(bugprone-macro-parentheses)
-
-AMBIENT_FACTOR_KERNEL(BaselineFactor, )
-AMBIENT_FACTOR_KERNEL(AvxFactor, AMBIENT_AVX)
-
-const FactorKernel& factorKernel() noexcept {
-  constexpr Kernels<const FactorKernel*> kKernels{&BaselineFactor::kAll, &AvxFactor::kAll,
-                                                  &AvxFactor::kAll};
-  static const FactorKernel& fastest = *kKernels.fastest();
-  return fastest;
-}
-
 }  // namespace
 
 void ChainFactor::clear() {
@@ -260,11 +225,13 @@ bool ChainFactor::begin() {
 }
 
 bool ChainFactor::factorize() noexcept {
-  return factorKernel().factorize(groups_.data(), elements_.data(), size_);
+  static const auto factorize_all = fastestCopy<&factorizeAll>();
+  return factorize_all(groups_.data(), elements_.data(), size_);
 }
 
 void ChainFactor::solve(double* x) const noexcept {
-  factorKernel().solve(groups_.data(), elements_.data(), size_, x);
+  static const auto solve_all = fastestCopy<&solveAll>();
+  solve_all(groups_.data(), elements_.data(), size_, x);
 }
 
 void JointChains::reserve(int solver_bodies) {
@@ -273,12 +240,12 @@ void JointChains::reserve(int solver_bodies) {
   queue_.reserve(count);
 }
 
-int JointChains::solve(btConstraintArray& joints, RowBodies& ambient,
-                       SolverBodies& bodies) noexcept {
+int JointChains::solve(const RowPools& pools, RowBodies& ambient) noexcept {
+  const btConstraintArray& joints = pools.joints;
   if (ambient.empty() || joints.size() == 0) return 0;
-  joints_ = &joints;
+  joints_ = &pools.joints;
   ambient_ = &ambient;
-  solver_bodies_ = &bodies;
+  solver_bodies_ = &pools.solver_bodies;
   if (!linkBodies()) return 0;
   int solved = 0;
   // Goes through joints, whose order is that of the program. The order of solver bodies depends on

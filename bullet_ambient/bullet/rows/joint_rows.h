@@ -9,9 +9,7 @@
 
 #include "bullet_ambient/bullet/core/four_numbers.h"
 #include "bullet_ambient/bullet/core/precision_check.h"
-#include "bullet_ambient/bullet/rows/row_rewriting.h"
-
-class btTypedConstraint;
+#include "bullet_ambient/bullet/rows/constraint_rows.h"
 
 AMBIENT_BEGIN
 
@@ -40,12 +38,10 @@ class JointErrors {
  public:
   /// Stores the rows of ambient bodies against translation, and their position corrections. Call
   /// before rows are rewritten: later, Jacobians and right-hand sides no longer tell these.
-  void watch(const btConstraintArray& joints, RowBodies& ambient,
-             btAlignedObjectArray<btSolverBody>& bodies) noexcept;
+  void watch(const RowPools& pools, RowBodies& ambient) noexcept;
   /// Writes the largest joint_error of each ambient body to RowBody::joint_error. Call after the
   /// iterations; `time_step` [s].
-  void measure(const btConstraintArray& joints, RowBodies& ambient,
-               btAlignedObjectArray<btSolverBody>& bodies, double time_step) const noexcept;
+  void measure(const RowPools& pools, RowBodies& ambient, double time_step) const noexcept;
 
  private:
   struct Row {
@@ -125,13 +121,11 @@ class ChainFactor {
 /// Solves the joint rows of ambient bodies, and of bodies joined to them. Reuses its memory.
 class JointChains {
  public:
-  using SolverBodies = btAlignedObjectArray<btSolverBody>;
-
   /// Reserves memory for a group of so many bodies.
   void reserve(int solver_bodies);
   /// Solves rows that were rewritten, sets their impulses and applies them to the bodies. Returns
   /// the number of rows solved, and adds it to RowBody::joint_rows.
-  int solve(btConstraintArray& joints, RowBodies& ambient, SolverBodies& bodies) noexcept;
+  int solve(const RowPools& pools, RowBodies& ambient) noexcept;
 
  private:
   enum class Kind : char {
@@ -172,7 +166,7 @@ class JointChains {
 
   btConstraintArray* joints_ = nullptr;
   RowBodies* ambient_ = nullptr;
-  SolverBodies* solver_bodies_ = nullptr;
+  btAlignedObjectArray<btSolverBody>* solver_bodies_ = nullptr;
 
   std::vector<Body> bodies_;
   std::vector<int> next_end_;  // by end: the one before it at the same body

@@ -1,5 +1,3 @@
-#include "bullet_ambient/bullet/rows/row_motion.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +6,7 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/bullet/members/flight_coupling.h"
+#include "bullet_ambient/bullet/rows/constraint_rows.h"
 #include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/motion/flight/flight.h"
 #include "bullet_ambient/motion/rows/row_velocity.h"
@@ -20,14 +19,6 @@ namespace {
 constexpr double kRounding = 16 * static_cast<double>(std::numeric_limits<btScalar>::epsilon());
 
 bool isBounded(const RowMotion& rows) { return std::isfinite(rows.energy_bound); }
-
-// Returns the velocity that Bullet will write back, world axes.
-Twist solvedVelocity(btSolverBody& b) {
-  return {toVector3(b.m_angularVelocity + b.internalGetDeltaAngularVelocity() +
-                    b.m_externalTorqueImpulse),
-          toVector3(b.m_linearVelocity + b.internalGetDeltaLinearVelocity() +
-                    b.m_externalForceImpulse)};
-}
 
 // Returns the part of the way time_step * xi that the body has made: less than 1 if continuous
 // collision detection has stopped it; none if its position is not on this way.
@@ -134,6 +125,7 @@ struct MovedBody {
   FrameOffset pose;        // B to W, before Bullet rounded it
   double part = 1;         // partOfPath()
   Vector6 moved;           // xi in B
+  BoundedTwist end;        // of the step, in B
   std::optional<StepModel> model;
 
   const RowMotion& rows() const { return ambient->outcome.rows(); }
@@ -173,67 +165,59 @@ int findMovedBodies(AmbientBody* const* bodies, int count, double time_step,
       moved_body.pose =
           poseAfter(ambient.outcome.rows(), moved_body.orientation, position, *part, time_step);
     moved_body.moved = moved_B[i].vector();
+    moved_body.end = {moved_body.moved};
     moved_body.model.emplace(ambient, time_step);
   }
   return moved_count;
 }
 
 // Computes the twists that keep the momenta, eq. (31), of the bodies that keep one.
-void keepMomenta(const MovedBody* moved_bodies, int count, double time_step, BoundedTwist* ends) {
+void keepMomenta(MovedBody* const* moved_bodies, int count, double time_step) {
   const BodyModel* models[kFlightsTogether] = {};
-  int numbers[kFlightsTogether] = {}, found = 0;
-  for (int i = 0; i < count; ++i) {
-    ends[i] = {moved_bodies[i].moved};
-    if (!moved_bodies[i].rows().momentum_W) continue;
-    models[found] = &**moved_bodies[i].model;
-    numbers[found++] = i;
-  }
-  if (found == 0) return;
+  for (int i = 0; i < count; ++i) models[i] = &**moved_bodies[i]->model;
+  if (count == 0) return;
   RowLanes lanes;
-  setModels(models, found, lanes);
-  for (int i = 0; i < found; ++i) {
-    const MovedBody& moved_body = moved_bodies[numbers[i]];
-    const RowMotion& rows = moved_body.rows();
-    setLane(lanes.orientation, i, moved_body.orientation);
+  setModels(models, count, lanes);
+  for (int i = 0; i < count; ++i) {
+    const RowMotion& rows = moved_bodies[i]->rows();
+    setLane(lanes.orientation, i, moved_bodies[i]->orientation);
     setLane(lanes.momentum_W, i, *rows.momentum_W);
-    setLane(lanes.displacement_W, i, Vector3(moved_body.part * time_step * rows.velocity_W.linear));
+    setLane(lanes.displacement_W, i,
+            Vector3(moved_bodies[i]->part * time_step * rows.velocity_W.linear));
   }
   kFlightKernels.fastest()->transport(lanes);
-  for (int i = 0; i < found; ++i) ends[numbers[i]].twist = twistOf(lanes.twist_B, i).vector();
+  for (int i = 0; i < count; ++i) moved_bodies[i]->end.twist = twistOf(lanes.twist_B, i).vector();
 }
 
 // Bounds the energy of a fast turn, eq. (31a).
-void boundTurnEnergy(const MovedBody& moved_body, BoundedTwist& end) {
+void boundTurnEnergy(MovedBody& moved_body) {
   const RowMotion& rows = moved_body.rows();
   if (!isBounded(rows)) return;
   const BodyModel& model = **moved_body.model;
-  end = rows.momentum_W ? keepingMomentum(model, rows, moved_body.moved, end.twist)
-                        : withinEnergy(model, moved_body.moved, end.twist, rows.energy_bound);
+  const Vector6 &from = moved_body.moved, to = moved_body.end.twist;
+  moved_body.end = rows.momentum_W ? keepingMomentum(model, rows, from, to)
+                                   : withinEnergy(model, from, to, rows.energy_bound);
 }
 
-// Passes the bodies that are at a surface through it, side by side.
-void changeAtSurface(const MovedBody* moved_bodies, int count, double time_step,
-                     BoundedTwist* ends) {
+// Passes bodies that are at a surface through it, side by side.
+void changeAtSurface(MovedBody* const* moved_bodies, int count, double time_step) {
   BodyMovedByRows moved[kFlightsTogether];
-  int numbers[kFlightsTogether] = {}, found = 0;
   for (int i = 0; i < count; ++i) {
-    AmbientBody& ambient = *moved_bodies[i].ambient;
-    if (!ambient.surface()) continue;
-    moved[found] = {&ambient, moved_bodies[i].pose, ends[i], axisFactors(*ambient.body),
-                    moved_bodies[i].rows().momentum_W.has_value()};
-    numbers[found++] = i;
+    const MovedBody& body = *moved_bodies[i];
+    moved[i] = {body.ambient, body.pose, body.end, axisFactors(*body.ambient->body),
+                body.rows().momentum_W.has_value()};
   }
-  if (found == 0) return;
-  applyAddedMassChanges(moved, found, time_step);
-  for (int i = 0; i < found; ++i) {
-    ends[numbers[i]].twist = moved[i].twist.twist;
-    ends[numbers[i]].energy_removed += moved[i].twist.energy_removed;
+  if (count == 0) return;
+  applyAddedMassChanges(moved, count, time_step);
+  for (int i = 0; i < count; ++i) {
+    moved_bodies[i]->end.twist = moved[i].twist.twist;
+    moved_bodies[i]->end.energy_removed += moved[i].twist.energy_removed;
   }
 }
 
-void setVelocity(const MovedBody& moved_body, const BoundedTwist& end, double time_step,
-                 Warnings& warnings) {
+void setVelocity(const MovedBody& moved_body, double time_step, Warnings& warnings) {
   AmbientBody& ambient = *moved_body.ambient;
+  const BoundedTwist& end = moved_body.end;
   Twist change_B = Twist::fromVector(end.twist - moved_body.moved);
   if (ambient.surface()) change_B.angular = ambient.surface()->withoutStill(change_B.angular);
   Twist change_W = withoutTraces(turned(moved_body.orientation, change_B), time_step);
@@ -287,13 +271,19 @@ void endRowMotions(AmbientBody* const* bodies, int count, double time_step,
                    Warnings& warnings) noexcept {
   AMBIENT_ASSERT(count > 0 && count <= kFlightsTogether);
   MovedBody moved_bodies[kFlightsTogether];
-  BoundedTwist ends[kFlightsTogether];
+  MovedBody *keeping[kFlightsTogether] = {}, *at_surface[kFlightsTogether] = {};
+  int keeping_count = 0, at_surface_count = 0;
   for (int i = 0; i < count; ++i) settleMoved(*bodies[i], time_step);
   const int moved_count = findMovedBodies(bodies, count, time_step, moved_bodies);
-  keepMomenta(moved_bodies, moved_count, time_step, ends);
-  for (int i = 0; i < moved_count; ++i) boundTurnEnergy(moved_bodies[i], ends[i]);
-  changeAtSurface(moved_bodies, moved_count, time_step, ends);
-  for (int i = 0; i < moved_count; ++i) setVelocity(moved_bodies[i], ends[i], time_step, warnings);
+  for (int i = 0; i < moved_count; ++i) {
+    MovedBody& body = moved_bodies[i];
+    if (body.rows().momentum_W) keeping[keeping_count++] = &body;
+    if (body.ambient->surface()) at_surface[at_surface_count++] = &body;
+  }
+  keepMomenta(keeping, keeping_count, time_step);
+  for (int i = 0; i < moved_count; ++i) boundTurnEnergy(moved_bodies[i]);
+  changeAtSurface(at_surface, at_surface_count, time_step);
+  for (int i = 0; i < moved_count; ++i) setVelocity(moved_bodies[i], time_step, warnings);
 }
 
 AMBIENT_END

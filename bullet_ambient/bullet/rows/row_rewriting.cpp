@@ -1,25 +1,15 @@
-#include "bullet_ambient/bullet/rows/row_rewriting.h"
-
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include <cmath>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/base/instruction_set.h"
 #include "bullet_ambient/bullet/core/conversions.h"
 #include "bullet_ambient/bullet/core/four_numbers.h"
+#include "bullet_ambient/bullet/rows/constraint_rows.h"
 #include "bullet_ambient/spatial/cholesky.h"
 #include "bullet_ambient/spatial/inertia.h"
 
 AMBIENT_BEGIN
-namespace {
-
-WorldBasis toBulletBasis(const Matrix6& T) {
-  return {toBulletMatrix(T.topLeftCorner<3, 3>()), toBulletMatrix(T.topRightCorner<3, 3>()),
-          toBulletMatrix(T.bottomRightCorner<3, 3>())};
-}
-
-}  // namespace
 
 WorldBasis toWorld(const Matrix6& basis_B, const Matrix3& R) {
   AMBIENT_ASSERT(isRotation(R));
@@ -57,13 +47,14 @@ WorldBasis makeLockedBasis(const Matrix6& inertia, double mass, const Matrix3& r
   }
   root.leftCols<3>() = (root.leftCols<3>() * root_inertia_W).eval();
   root.rightCols<3>() *= std::sqrt(mass);
-  return toBulletBasis(root);
+  return {toBulletMatrix(root.topLeftCorner<3, 3>()), toBulletMatrix(root.topRightCorner<3, 3>()),
+          toBulletMatrix(root.bottomRightCorner<3, 3>())};
 }
 
 namespace {
 
-// One side of a row. `ambient`: null if the body is not ambient.
-struct RowSide {
+// A rigid body at one side of a row. `ambient`: null if the body is not ambient.
+struct RigidSide {
   RowBody* ambient;
   const btSolverBody& solver_body;
   RowJacobian jacobian;
@@ -79,9 +70,9 @@ struct PartProducts {
   Four angular, linear;
 };
 
-// Returns products of J and e at one side, with e of row_rewriting.h. The linear part has the
+// Returns products of J and e at one side, with e of constraint_rows.h. The linear part has the
 // opposite sign: e_l = -velocity_excess.
-AMBIENT_INLINE PartProducts unseenProducts(RowKind kind, const RowSide& side) {
+AMBIENT_INLINE PartProducts unseenProducts(RowKind kind, const RigidSide& side) {
   if (!side.ambient) return {anyZero(), anyZero()};
   const RowBody& body = *side.ambient;
   const btVector3 spin = kind == RowKind::kContact ? -body.spin_excess : body.spin_change;
@@ -91,7 +82,7 @@ AMBIENT_INLINE PartProducts unseenProducts(RowKind kind, const RowSide& side) {
 
 // Returns J e of both sides: the velocity change along the row outside the rows, minus the one that
 // Bullet has put into the right-hand side.
-AMBIENT_INLINE btScalar unseenChange(RowKind kind, const RowSide& a, const RowSide& b) {
+AMBIENT_INLINE btScalar unseenChange(RowKind kind, const RigidSide& a, const RigidSide& b) {
   if (kind == RowKind::kJoint) return 0;
   const PartProducts of_a = unseenProducts(kind, a), of_b = unseenProducts(kind, b);
   const Four sums = sumsOfThree(of_a.angular, of_a.linear, of_b.angular, of_b.linear);
@@ -112,7 +103,7 @@ AMBIENT_INLINE PartProducts changedProducts(const RowBody& body, const RowJacobi
 }
 
 // Returns the products of J' D J'^T at one side; brings an ambient body's side into its basis.
-AMBIENT_INLINE PartProducts responseProducts(const RowSide& side) {
+AMBIENT_INLINE PartProducts responseProducts(const RigidSide& side) {
   const RowJacobian& jacobian = side.jacobian;
   if (side.ambient) return changedProducts(*side.ambient, jacobian);
   const Four linear = load(jacobian.linear);
@@ -122,10 +113,10 @@ AMBIENT_INLINE PartProducts responseProducts(const RowSide& side) {
 
 // Returns the sum of J' D J'^T over both sides; brings the sides of ambient bodies into their
 // bases.
-AMBIENT_INLINE btScalar inverseEffectiveMass(const RowSide& a, const RowSide& b) {
+AMBIENT_INLINE btScalar inverseEffectiveMass(const RigidSide& a, const RigidSide& b) {
   const PartProducts of_a = responseProducts(a), of_b = responseProducts(b);
   const Four sums = sumsOfThree(of_a.linear, of_a.angular, of_b.linear, of_b.angular);
-  const auto massOf = [](const RowSide& side) {
+  const auto massOf = [](const RigidSide& side) {
     return side.ambient ? side.ambient->inverse_mass : btScalar(1);
   };
   return (sums[0] * massOf(a) + sums[1]) + (sums[2] * massOf(b) + sums[3]);
@@ -138,7 +129,7 @@ btScalar diagonal(const RowBody& body, const RowJacobian& jacobian) {
 }
 
 // Returns J K^-1 J^T at one side; does not change the row.
-btScalar responseOf(const RowSide& side) {
+btScalar responseOf(const RigidSide& side) {
   btVector3 angular = side.jacobian.angular, linear = side.jacobian.linear;
   btVector3 angular_component = side.jacobian.angular_component;
   const RowJacobian copy{angular, linear, angular_component};
@@ -149,7 +140,7 @@ btScalar responseOf(const RowSide& side) {
 // Replaces J at an ambient body by J P sqrt(D)^-1, where P projects on the locked axes. This row
 // moves nothing, because T is zero along locked axes, and is orthogonal to all rows that move the
 // body. Returns its J D J^T.
-btScalar pointAlongLockedAxes(const RowSide& side) {
+btScalar pointAlongLockedAxes(const RigidSide& side) {
   if (!side.ambient) return 0;
   const RowBody& body = *side.ambient;
   const RowJacobian& jacobian = side.jacobian;
@@ -160,19 +151,19 @@ btScalar pointAlongLockedAxes(const RowSide& side) {
 }
 
 // Scales Jacobian and response at an ambient body.
-void scaleSide(const RowSide& side, btScalar factor) {
+void scaleSide(const RigidSide& side, btScalar factor) {
   if (!side.ambient) return;
   side.jacobian.angular *= factor;
   side.jacobian.linear *= factor;
   side.jacobian.angular_component *= factor;
 }
 
-bool isLocked(const RowSide& side) { return side.ambient && side.ambient->is_locked; }
+bool isLocked(const RigidSide& side) { return side.ambient && side.ambient->is_locked; }
 
 // Switches off a row that acts along locked axes only. The row stays in its pool, and
 // complementarity solvers divide by its diagonal entry, which therefore keeps its value without
 // fluid, `old_denominator`.
-void suspendRow(btSolverConstraint& row, const RowSide& a, const RowSide& b,
+void suspendRow(btSolverConstraint& row, const RigidSide& a, const RigidSide& b,
                 btScalar old_denominator) {
   const btScalar found = pointAlongLockedAxes(a) + pointAlongLockedAxes(b);
   const btScalar factor = found > 0 ? btSqrt(old_denominator / found) : btScalar(0);
@@ -183,7 +174,7 @@ void suspendRow(btSolverConstraint& row, const RowSide& a, const RowSide& b,
 
 // Returns |P J_l|^2 / m, where P projects on the locked axes: the response along locked axes that
 // Bullet's effective mass contains and the body does not have.
-btScalar lockedResponse(const RowSide& side) {
+btScalar lockedResponse(const RigidSide& side) {
   if (!side.ambient) return 0;
   return (side.jacobian.linear * side.ambient->locked_linear).length2() *
          side.ambient->inverse_mass;
@@ -193,13 +184,13 @@ btScalar lockedResponse(const RowSide& side) {
 // share of free axes in `old_denominator`, the inverse of Bullet's effective mass, which knows no
 // locks. A row almost along a locked axis has a small response; without this factor its large
 // impulse would throw the body about.
-btScalar lockedRelaxation(const RowSide& a, const RowSide& b, btScalar old_denominator) {
+btScalar lockedRelaxation(const RigidSide& a, const RigidSide& b, btScalar old_denominator) {
   const btScalar share = 1 - (lockedResponse(a) + lockedResponse(b)) / old_denominator;
   return btMax(share, kNoResponse);
 }
 
-AMBIENT_INLINE void rewriteRow(btSolverConstraint& row, RowKind kind, const RowSide& a,
-                               const RowSide& b, btScalar relaxation) {
+AMBIENT_INLINE void rewriteRow(btSolverConstraint& row, RowKind kind, const RigidSide& a,
+                               const RigidSide& b, btScalar relaxation) {
   const btScalar old_inverse = row.m_jacDiagABInv;
   if (!(old_inverse > 0)) {  // Bullet has switched it off: its Jacobian is as good as zero
     inverseEffectiveMass(a, b);
@@ -249,20 +240,6 @@ AMBIENT_INLINE void rewriteAll(btConstraintArray& rows, RowKind kind, btScalar r
   }
 }
 
-void rewriteBaseline(btConstraintArray& rows, RowKind kind, btScalar relaxation, RowBodies& bodies,
-                     const btAlignedObjectArray<btSolverBody>& solver_bodies) {
-  rewriteAll(rows, kind, relaxation, bodies, solver_bodies);
-}
-
-AMBIENT_AVX void rewriteAvx(btConstraintArray& rows, RowKind kind, btScalar relaxation,
-                            RowBodies& bodies,
-                            const btAlignedObjectArray<btSolverBody>& solver_bodies) {
-  rewriteAll(rows, kind, relaxation, bodies, solver_bodies);
-}
-
-using Rewriting = decltype(&rewriteBaseline);
-constexpr Kernels<Rewriting> kRewriting{&rewriteBaseline, &rewriteAvx, &rewriteAvx};
-
 }  // namespace
 
 void RowBodies::reset(int solver_body_count) {
@@ -276,7 +253,7 @@ RowBody& RowBodies::add(int solver_body) {
   return bodies_.emplace_back();
 }
 
-btScalar changeBasis(const RowBody& body, RowJacobian jacobian) noexcept {
+btScalar changeBasis(const RowBody& body, const RowJacobian& jacobian) noexcept {
   changedProducts(body, jacobian);
   return diagonal(body, jacobian);
 }
@@ -288,7 +265,7 @@ btScalar inverseEffectiveMass(const btSolverBody& body, const RowJacobian& jacob
 
 void rewriteRows(btConstraintArray& rows, RowKind kind, btScalar relaxation, RowBodies& bodies,
                  const btAlignedObjectArray<btSolverBody>& solver_bodies) noexcept {
-  static const Rewriting rewrite = kRewriting.fastest();
+  static const auto rewrite = fastestCopy<&rewriteAll>();
   rewrite(rows, kind, relaxation, bodies, solver_bodies);
 }
 
@@ -337,6 +314,84 @@ bool deflects(const AmbientBody& ambient, const btVector3& normal_W) noexcept {
   const Vector3 push = model.inverse_inertia.diagonal().tail<3>().cwiseProduct(normal);
   return push.cross(normal).squaredNorm() >
          kLeastAnisotropy * kLeastAnisotropy * push.squaredNorm();
+}
+
+namespace {
+
+// Returns ds, the change of the row's impulse before it is limited.
+AMBIENT_INLINE btScalar lackingImpulse(const btSolverBody& a, const btSolverBody& b,
+                                       const btSolverConstraint& row) {
+  const Four along = sumsOfThree(load(row.m_contactNormal1) * load(a.m_deltaLinearVelocity),
+                                 load(row.m_relpos1CrossNormal) * load(a.m_deltaAngularVelocity),
+                                 load(row.m_contactNormal2) * load(b.m_deltaLinearVelocity),
+                                 load(row.m_relpos2CrossNormal) * load(b.m_deltaAngularVelocity));
+  const btScalar j = row.m_jacDiagABInv;
+  btScalar lacking = row.m_rhs - btScalar(row.m_appliedImpulse) * row.m_cfm;
+  lacking -= (along[0] + along[1]) * j;
+  lacking -= (along[2] + along[3]) * j;
+  return lacking;
+}
+
+template <bool kHasUpperLimit>
+AMBIENT_INLINE btScalar solve(btSolverBody& a, btSolverBody& b, const btSolverConstraint& row) {
+  btScalar impulse = lackingImpulse(a, b, row);
+  const btScalar applied = row.m_appliedImpulse;
+  btScalar sum = applied + impulse;
+  if (sum < row.m_lowerLimit) {
+    sum = row.m_lowerLimit;
+    impulse = sum - applied;
+  } else if (kHasUpperLimit && sum > row.m_upperLimit) {
+    sum = row.m_upperLimit;
+    impulse = sum - applied;
+  }
+  row.m_appliedImpulse = sum;
+  applyImpulse(a, row.m_contactNormal1, row.m_angularComponentA, impulse);
+  applyImpulse(b, row.m_contactNormal2, row.m_angularComponentB, impulse);
+  return static_cast<btScalar>(static_cast<double>(impulse) *
+                               (1. / static_cast<double>(row.m_jacDiagABInv)));
+}
+
+AMBIENT_INLINE btScalar solveIn(const RowPass& pass, const btSolverConstraint& row,
+                                bool has_upper_limit, btScalar largest) {
+  btSolverBody &a = pass.bodies[row.m_solverBodyIdA], &b = pass.bodies[row.m_solverBodyIdB];
+  const btScalar residual = has_upper_limit ? solve<true>(a, b, row) : solve<false>(a, b, row);
+  return btMax(largest, residual * residual);
+}
+
+AMBIENT_INLINE btScalar solveJoints(const RowPass& pass, int iteration, btScalar largest) {
+  for (int i = 0; i < pass.rows.size(); ++i) {
+    const btSolverConstraint& row = pass.rows[pass.order[i]];
+    if (iteration < row.m_overrideNumSolverIterations) largest = solveIn(pass, row, true, largest);
+  }
+  return largest;
+}
+
+AMBIENT_INLINE btScalar solveContacts(const RowPass& pass, btScalar largest) {
+  for (int i = 0; i < pass.rows.size(); ++i)
+    largest = solveIn(pass, pass.rows[pass.order[i]], false, largest);
+  return largest;
+}
+
+AMBIENT_INLINE btScalar solveFrictions(const RowPass& pass, const btConstraintArray& contacts,
+                                       btScalar largest) {
+  for (int i = 0; i < pass.rows.size(); ++i) {
+    btSolverConstraint& row = pass.rows[pass.order[i]];
+    const btScalar pressed = contacts[row.m_frictionIndex].m_appliedImpulse;
+    if (!(pressed > 0)) continue;
+    row.m_lowerLimit = -(row.m_friction * pressed);
+    row.m_upperLimit = row.m_friction * pressed;
+    largest = solveIn(pass, row, true, largest);
+  }
+  return largest;
+}
+
+}  // namespace
+
+const QuickRows& quickRows() noexcept {
+  static const QuickRows fastest{fastestCopy<&solve<true>>(), fastestCopy<&solve<false>>(),
+                                 fastestCopy<&solveContacts>(), fastestCopy<&solveFrictions>(),
+                                 fastestCopy<&solveJoints>()};
+  return fastest;
 }
 
 AMBIENT_END

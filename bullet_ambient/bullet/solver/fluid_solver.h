@@ -9,8 +9,7 @@
 #include <utility>
 
 #include "bullet_ambient/bullet/core/precision_check.h"
-#include "bullet_ambient/bullet/links/multibody_rows.h"
-#include "bullet_ambient/bullet/rows/quick_rows.h"
+#include "bullet_ambient/bullet/rows/constraint_rows.h"
 #include "bullet_ambient/bullet/solver/solver_group.h"
 
 class btMLCPSolver;
@@ -54,7 +53,7 @@ class FluidSolver : public Base {
   explicit FluidSolver(std::shared_ptr<AmbientBodies> bodies, Args&&... args)
       : Base(std::forward<Args>(args)...),
         bodies_(std::move(bodies)),
-        group_(*bodies_),
+        group_(*bodies_, pools()),
         trees_(*bodies_) {}
 
   /// Returns a pointer that expires when the solver is destroyed, whoever destroys it.
@@ -96,24 +95,19 @@ class FluidSolver : public Base {
                      const btContactSolverInfo& info) override {
     this->m_tmpSolverBodyPool.reserve(body_count + 1);
     Base::convertBodies(converted_.first, converted_.count, info);
-    group_.begin(this->m_tmpSolverBodyPool);
+    group_.begin();
   }
 
   // Bullet calls this last in its setup: afterwards all rows exist, and are rewritten.
   void convertContacts(btPersistentManifold** manifolds, int manifold_count,
                        const btContactSolverInfo& info) override {
-    group_.showExternalChange(this->m_tmpSolverBodyPool, SolverGroup::ExternalChange::kIsotropic);
+    group_.showExternalChange(SolverGroup::ExternalChange::kIsotropic);
     Base::convertContacts(manifolds, manifold_count, info);
     if constexpr (!kHasUniformFrictionRows) addSecondFrictions(info);
-    group_.showExternalChange(this->m_tmpSolverBodyPool, SolverGroup::ExternalChange::kTrue);
-    withMultiBodyRows([&](const MultiBodyRows* multibodies) {
-      group_.rewriteRows(this->m_tmpSolverBodyPool, pools(), multibodies, info);
-    });
-    solved_joints_ = 0;
-    if constexpr (!kSolvesAtOnce)
-      solved_joints_ =
-          group_.solveJoints(this->m_tmpSolverBodyPool, this->m_tmpSolverNonContactConstraintPool);
-    if constexpr (kSolvesAtOnce) solveWithoutBounces([] {});
+    group_.showExternalChange(SolverGroup::ExternalChange::kTrue);
+    group_.rewriteRows(info);
+    solved_joints_ = kSolvesAtOnce ? 0 : group_.solveJoints();
+    if constexpr (kSolvesAtOnce) group_.iterateWithoutBounces([] {});
   }
 
   btScalar solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int body_count,
@@ -125,7 +119,7 @@ class FluidSolver : public Base {
     btContactSolverInfo once = info;
     useQuickRows();
     if constexpr (!kSolvesAtOnce)
-      solveWithoutBounces([&] {
+      group_.iterateWithoutBounces([&] {
         btScalar residual = BT_LARGE_FLOAT;
         for (int i = 0; i < info.m_numIterations; ++i) {
           if (!(residual > info.m_leastSquaresResidualThreshold)) break;
@@ -167,7 +161,7 @@ class FluidSolver : public Base {
                                          const btContactSolverInfo& info) override {
     if (is_over_) return 0;
     if constexpr (!kHasUniformFrictionRows) reportSecondFrictions();
-    group_.finish(this->m_tmpSolverBodyPool, this->m_tmpSolverNonContactConstraintPool, info);
+    group_.finish(info);
     return Base::solveGroupCacheFriendlyFinish(bodies, body_count, info);
   }
 
@@ -178,32 +172,20 @@ class FluidSolver : public Base {
                        [](const btCollisionObject* body) { return btRigidBody::upcast(body); });
   }
 
-  // Calls use(rows of multibodies); null: Base knows none.
-  template <class Use>
-  void withMultiBodyRows(const Use& use) {
-    if constexpr (kHasMultiBodies) {
-      const MultiBodyRows multibodies{this->m_multiBodyNormalContactConstraints,
-                                      this->m_multiBodyFrictionContactConstraints,
-                                      this->m_multiBodyTorsionalFrictionContactConstraints,
-                                      this->m_multiBodySpinningFrictionContactConstraints,
-                                      this->m_multiBodyNonContactConstraints,
-                                      this->m_data,
-                                      trees_.solvedTrees()};
-      use(&multibodies);
-    } else {
-      use(nullptr);
-    }
-  }
-
-  // If contacts bounce, calls iterate() without them, by which their speeds are found.
-  template <class Iterate>
-  void solveWithoutBounces(const Iterate& iterate) {
-    if (!group_.hasBounces()) return;
-    withMultiBodyRows([&](const MultiBodyRows* multibodies) {
-      group_.suspendBounces(this->m_tmpSolverBodyPool, pools(), multibodies);
-      iterate();
-      group_.resumeBounces(this->m_tmpSolverBodyPool, pools(), multibodies);
-    });
+  RowPools pools() {
+    RowPools pools{this->m_tmpSolverBodyPool,
+                   this->m_tmpSolverContactConstraintPool,
+                   this->m_tmpSolverContactFrictionConstraintPool,
+                   this->m_tmpSolverContactRollingFrictionConstraintPool,
+                   this->m_tmpSolverNonContactConstraintPool,
+                   std::nullopt};
+    if constexpr (kHasMultiBodies)
+      pools.multibodies.emplace(MultiBodyRows{
+          this->m_multiBodyNormalContactConstraints, this->m_multiBodyFrictionContactConstraints,
+          this->m_multiBodyTorsionalFrictionContactConstraints,
+          this->m_multiBodySpinningFrictionContactConstraints,
+          this->m_multiBodyNonContactConstraints, this->m_data});
+    return pools;
   }
 
   // Replaces Bullet's scalar row solvers by quick ones. Keeps row solvers with SSE of other builds
@@ -227,8 +209,8 @@ class FluidSolver : public Base {
   btScalar iterate(int iteration, btTypedConstraint** constraints, int constraint_count,
                    const btContactSolverInfo& info) {
     btAlignedObjectArray<btSolverBody>& bodies = this->m_tmpSolverBodyPool;
-    const btConstraintArray& joints = this->m_tmpSolverNonContactConstraintPool;
-    const btConstraintArray& contacts = this->m_tmpSolverContactConstraintPool;
+    btConstraintArray& joints = this->m_tmpSolverNonContactConstraintPool;
+    btConstraintArray& contacts = this->m_tmpSolverContactConstraintPool;
     const auto solve = [&](const btSolverConstraint& row, btScalar largest) {
       const btScalar residual = this->resolveSingleConstraintRowGeneric(
           bodies[row.m_solverBodyIdA], bodies[row.m_solverBodyIdB], row);
@@ -326,8 +308,7 @@ class FluidSolver : public Base {
     first_frictions_ = this->m_tmpSolverContactFrictionConstraintPool.size();
     if (!group_.mayNeedSecondFriction() || (info.m_solverMode & kUniformModes)) return;
     for (int i = 0; i < contacts.size(); ++i)
-      if (group_.needsSecondFriction(this->m_tmpSolverBodyPool, contacts[i]))
-        addSecondFriction(i, info);
+      if (group_.needsSecondFriction(contacts[i])) addSecondFriction(i, info);
   }
 
   // Adds a row across the first friction row of contact `index`, as Bullet does with
@@ -377,12 +358,6 @@ class FluidSolver : public Base {
         return false;
     return this->m_tmpSolverContactConstraintPool.size() == 0 &&
            solved_joints_ == this->m_tmpSolverNonContactConstraintPool.size();
-  }
-
-  RowPools pools() {
-    return {this->m_tmpSolverContactConstraintPool, this->m_tmpSolverContactFrictionConstraintPool,
-            this->m_tmpSolverContactRollingFrictionConstraintPool,
-            this->m_tmpSolverNonContactConstraintPool};
   }
 
   const std::shared_ptr<AmbientBodies> bodies_;

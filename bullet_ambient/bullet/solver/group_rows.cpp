@@ -12,12 +12,9 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/bullet/core/body_motion.h"
-#include "bullet_ambient/bullet/links/multibody_rows.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/bullet/members/flight_coupling.h"
 #include "bullet_ambient/bullet/rows/joint_rows.h"
-#include "bullet_ambient/bullet/rows/row_motion.h"
-#include "bullet_ambient/bullet/rows/row_rewriting.h"
 #include "bullet_ambient/bullet/solver/solver_group.h"
 #include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/immersed/wrench_sensor.h"
@@ -191,34 +188,34 @@ void fillRowBody(const AmbientBody& ambient, const BodyModel& model, const Matri
 
 }  // namespace
 
-void SolverGroup::begin(SolverBodies& solver_bodies) noexcept {
+void SolverGroup::begin() noexcept {
+  const auto& solver_bodies = pools_.solver_bodies;
   may_need_second_friction_ = false;
   if (members_.empty()) {
-    row_bodies_->reset(0);
+    row_bodies_.reset(0);
     return;
   }
   member_of_solver_body_.assign(solver_bodies.size(), -1);
-  row_bodies_->reset(solver_bodies.size());
+  row_bodies_.reset(solver_bodies.size());
   Member* waiting[kFlightsTogether] = {};
   int count = 0;
   for (std::size_t i = 0; i < members_.size(); ++i) {
     Member& member = members_[i];
-    member.solver_body = member.object->getCompanionId();
+    member.solver_body = member.ambient->body->getCompanionId();
     AMBIENT_ASSERT(member.solver_body >= 0 && member.solver_body < solver_bodies.size());
     member_of_solver_body_[member.solver_body] = static_cast<int>(i);
     if (!member.has_rows && !member.is_locked) {
-      setExternalImpulse(solver_bodies[member.solver_body], Twist{});
+      setExternalImpulse(pools_.solver_bodies[member.solver_body], Twist{});
       continue;
     }
     may_need_second_friction_ = may_need_second_friction_ || mayDeflect(*member.ambient);
     waiting[count++] = &member;
-    if (count == kFlightsTogether) prepareForRows(waiting, std::exchange(count, 0), solver_bodies);
+    if (count == kFlightsTogether) prepareForRows(waiting, std::exchange(count, 0));
   }
-  if (count > 0) prepareForRows(waiting, count, solver_bodies);
+  if (count > 0) prepareForRows(waiting, count);
 }
 
-void SolverGroup::prepareForRows(Member* const* members, int count,
-                                 SolverBodies& solver_bodies) noexcept {
+void SolverGroup::prepareForRows(Member* const* members, int count) noexcept {
   AMBIENT_ASSERT(batch_count_ < batches_.size());
   RowBatch& batch = batches_[batch_count_++];
   RowLanes& lanes = batch.lanes;
@@ -265,9 +262,9 @@ void SolverGroup::prepareForRows(Member* const* members, int count,
     complete(ambient, models[i]->inertia, start, starts.surroundings[i], time_step_,
              bodies_.warnings, row);
     setConserved(start, row, time_step_, i, batch);
-    btSolverBody& solver_body = solver_bodies[member.solver_body];
+    btSolverBody& solver_body = pools_.solver_bodies[member.solver_body];
     setExternalImpulse(solver_body, withoutTraces(row.change_W, time_step_));
-    RowBody& row_body = row_bodies_->add(member.solver_body);
+    RowBody& row_body = row_bodies_.add(member.solver_body);
     row_body.is_anchored = member.is_anchored;
     if (member.is_locked)
       lock(row_body, *ambient.body, rowInertia(*models[i], row), R, solver_body);
@@ -277,23 +274,25 @@ void SolverGroup::prepareForRows(Member* const* members, int count,
   }
 }
 
-void SolverGroup::prepareJoinedToMultiBodies(SolverBodies& solver_bodies,
-                                             const btMultiBodyConstraintArray& joints) noexcept {
+// Bodies joined to multibodies are known only once Bullet has made the rows.
+void SolverGroup::prepareJoinedToMultiBodies() noexcept {
   Member* waiting[kFlightsTogether] = {};
   int count = 0;
   const auto prepare = [&] {
-    if (count > 0) prepareForRows(waiting, std::exchange(count, 0), solver_bodies);
+    if (count > 0) prepareForRows(waiting, std::exchange(count, 0));
   };
-  forEachJoinedBody(joints, [&](int id) {
-    Member* member = memberOf(id);
-    if (!member) return;
-    member->is_anchored = true;
-    if (RowBody* row_body = row_bodies_->find(id))
-      row_body->is_anchored = true;
-    else if (!std::exchange(member->has_rows, true))
-      waiting[count++] = member;
-    if (count == kFlightsTogether) prepare();
-  });
+  btMultiBodyConstraintArray& joints = pools_.multibodies->joints;
+  for (int i = 0; i < joints.size(); ++i)
+    for (const RowSide& side : sidesOf(joints[i])) {
+      Member* member = memberOf(side.solver_body);
+      if (!member) continue;
+      member->is_anchored = true;
+      if (RowBody* row_body = row_bodies_.find(side.solver_body))
+        row_body->is_anchored = true;
+      else if (!std::exchange(member->has_rows, true))
+        waiting[count++] = member;
+      if (count == kFlightsTogether) prepare();
+    }
   prepare();
 }
 
@@ -316,11 +315,7 @@ void fromBasis(const WorldBasis& T, btVector3& angular, btVector3& linear) {
 
 // True if the velocity and the position correction that Bullet will write back are finite.
 bool isFinite(btSolverBody& b) {
-  const btVector3 linear =
-      b.m_linearVelocity + b.internalGetDeltaLinearVelocity() + b.m_externalForceImpulse;
-  const btVector3 angular =
-      b.m_angularVelocity + b.internalGetDeltaAngularVelocity() + b.m_externalTorqueImpulse;
-  return toVector3(linear).allFinite() && toVector3(angular).allFinite() &&
+  return solvedVelocity(b).vector().allFinite() &&
          toVector3(b.internalGetPushVelocity()).allFinite() &&
          toVector3(b.internalGetTurnVelocity()).allFinite();
 }
@@ -356,34 +351,34 @@ bool finishRows(AmbientBody& ambient, const RowBody& row_body, btSolverBody& b) 
 
 }  // namespace
 
-void SolverGroup::finish(SolverBodies& solver_bodies, btConstraintArray& joints,
-                         const btContactSolverInfo& info) noexcept {
-  joint_errors_->measure(joints, *row_bodies_, solver_bodies, time_step_);
-  restoreFeedbackJacobians(joints);
+void SolverGroup::finish(const btContactSolverInfo& info) noexcept {
+  auto& solver_bodies = pools_.solver_bodies;
+  joint_errors_->measure(pools_, row_bodies_, time_step_);
+  restoreFeedbackJacobians();
   if (is_disabled_)
     for (int i = 0; i < solver_bodies.size(); ++i) dropRows(solver_bodies[i]);
   for (const Member& member : members_) {
     // Every body that a row has moved has a RowBody since begin() or rewriteRows().
-    if (row_bodies_->find(member.solver_body)) continue;
+    if (row_bodies_.find(member.solver_body)) continue;
     AMBIENT_ASSERT(isUntouched(solver_bodies[member.solver_body]));
-    flyLater({member.ambient, member.solver_body}, &solver_bodies);
+    flyLater({member.ambient, &solver_bodies[member.solver_body]});
   }
   for (std::size_t i = 0; i < batch_count_; ++i)
-    finishBatch(batches_[i], static_cast<double>(info.m_splitImpulseTurnErp), solver_bodies);
-  flyFreely(&solver_bodies);
+    finishBatch(batches_[i], static_cast<double>(info.m_splitImpulseTurnErp));
+  flyFreely();
   members_.clear();
   batch_count_ = 0;
 }
 
 // Ends the work on bodies that rows may have moved: flies those that none has moved, and prepares
 // the motion of the others, eq. (31).
-void SolverGroup::finishBatch(RowBatch& batch, double turn_share,
-                              SolverBodies& solver_bodies) noexcept {
+void SolverGroup::finishBatch(RowBatch& batch, double turn_share) noexcept {
+  auto& solver_bodies = pools_.solver_bodies;
   bool is_any_moved = false;
   for (int i = 0; i < batch.count; ++i) {
     const int id = batch.solver_bodies[i];
     AmbientBody& ambient = *batch.bodies[i];
-    const RowBody& row_body = *row_bodies_->find(id);
+    const RowBody& row_body = *row_bodies_.find(id);
     btSolverBody& solver_body = solver_bodies[id];
     ambient.counters.rows += row_body.rows;
     ambient.counters.joint_rows += row_body.joint_rows;
@@ -393,7 +388,7 @@ void SolverGroup::finishBatch(RowBatch& batch, double turn_share,
     const bool may_fly = !row_body.is_locked && batch.lanes.turn_number[i] <= kSlowTurn;
     bool is_moved = false;
     if (may_fly && isUntouched(solver_body)) {
-      flyLater({&ambient, id}, &solver_bodies);
+      flyLater({&ambient, &solver_body});
     } else if (finishRows(ambient, row_body, solver_body)) {
       is_moved = true;
     } else {
@@ -403,7 +398,7 @@ void SolverGroup::finishBatch(RowBatch& batch, double turn_share,
     is_any_moved = is_any_moved || is_moved;
   }
   if (!is_any_moved) return;
-  beginRowMotions(batch, *row_bodies_, solver_bodies, turn_share, time_step_);
+  beginRowMotions(batch, row_bodies_, solver_bodies, turn_share, time_step_);
   for (int i = 0; i < batch.count; ++i)
     if (batch.lanes.active[i] != 0 && batch.bodies[i]->sensor)
       readRows(*batch.bodies[i], changeByRows(solver_bodies[batch.solver_bodies[i]]),

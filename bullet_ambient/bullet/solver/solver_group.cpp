@@ -18,17 +18,12 @@
 #include <utility>
 
 #include "bullet_ambient/bullet/core/body_motion.h"
-#include "bullet_ambient/bullet/links/multibody_rows.h"
 #include "bullet_ambient/bullet/links/tree_step.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/bullet/members/attach.h"
 #include "bullet_ambient/bullet/members/flight_coupling.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
 #include "bullet_ambient/bullet/rows/joint_rows.h"
-#include "bullet_ambient/bullet/rows/row_motion.h"
-#include "bullet_ambient/bullet/rows/row_rewriting.h"
-#include "bullet_ambient/bullet/solver/bounces.h"
-#include "bullet_ambient/bullet/solver/flight_queue.h"
 #include "bullet_ambient/immersed/wrench_sensor.h"
 #include "bullet_ambient/motion/flight/flight.h"
 #include "bullet_ambient/motion/rows/row_velocity.h"
@@ -36,29 +31,24 @@
 AMBIENT_BEGIN
 namespace {
 
-// Tells what may move a body in this substep. Written into its companion id while bodies are
-// selected: Bullet overwrites the id when it converts the body.
-struct Marks {
-  bool is_near = false;      // has a joint, or a pair with another body in the broadphase
-  bool has_rows = false;     // has a joint or contact
-  bool is_anchored = false;  // has a joint, or a contact with a body that cannot move
-};
+// Companion ids that tell what may move a body in this substep, while bodies are selected: Bullet
+// overwrites the id when it converts the body. Bullet's own are from -2 on; -2: cannot move.
+constexpr int kNotConverted = -1;
+constexpr int kNear = -3;      // has a joint, or a pair with another body in the broadphase
+constexpr int kRows = -4;      // has a joint or contact
+constexpr int kAnchored = -5;  // has a joint, or a contact with a body that cannot move
 
-// Companion ids. Bullet's own are from -2 on: -1, not converted; -2, cannot move.
-constexpr int kNear = -3, kRows = -4, kAnchored = -5;
-
-Marks marksOf(const btCollisionObject& body) {
+// Returns one of these.
+int markOf(const btCollisionObject& body) {
   const int id = body.getCompanionId();
-  return {id <= kNear && id >= kAnchored, id <= kRows && id >= kAnchored, id == kAnchored};
+  return id <= kNear && id >= kAnchored ? id : kNotConverted;
 }
 
 // Leaves bodies that cannot move alone: solvers of other groups may read them at the same time.
 void mark(const btCollisionObject& body, int id) {
   if (body.isStaticOrKinematicObject() || !btRigidBody::upcast(&body)) return;
-  const bool is_marked = marksOf(body).is_near;
-  const int known = body.getCompanionId();
   // Bullet writes to bodies of manifolds, too.
-  const_cast<btCollisionObject&>(body).setCompanionId(is_marked && known < id ? known : id);
+  const_cast<btCollisionObject&>(body).setCompanionId(std::min(markOf(body), id));
 }
 
 // Marks the bodies in contact manifolds and joints.
@@ -107,12 +97,11 @@ bool movesInFluid(const AmbientBodies& bodies, const btCollisionObject* object) 
 
 }  // namespace
 
-SolverGroup::SolverGroup(AmbientBodies& bodies)
+SolverGroup::SolverGroup(AmbientBodies& bodies, const RowPools& pools)
     : bodies_(bodies),
-      row_bodies_(std::make_unique<RowBodies>()),
+      pools_(pools),
       joint_chains_(std::make_unique<JointChains>()),
-      joint_errors_(std::make_unique<JointErrors>()),
-      bounces_(std::make_unique<Bounces>()) {}
+      joint_errors_(std::make_unique<JointErrors>()) {}
 
 SolverGroup::~SolverGroup() = default;
 
@@ -171,7 +160,7 @@ void SolverGroup::reserve(int bodies) noexcept {
   // One batch of bodies joined to multibodies may be begun besides.
   const std::size_t batches = count / kFlightsTogether + 2;
   if (batches_.size() < batches) batches_.resize(batches);
-  row_bodies_->reserve(bodies + 1);
+  row_bodies_.reserve(bodies + 1);
   joint_chains_->reserve(bodies);
 }
 
@@ -186,22 +175,22 @@ void SolverGroup::findMembers(const GroupBodies& bodies, bool all_stay) noexcept
       continue;
     }
     stopIfNotFinite(*ambient, bodies_.warnings);
-    const Marks marks = marksOf(object);
+    const int mark = markOf(object);
     const bool is_locked = !axisFactors(*ambient->body).areFree();
     if (ambient->sensor)
       beginBodyReading(*ambient, readState(*ambient->body), readSurroundings(*ambient), is_locked);
-    if (all_stay || is_locked || marks.is_near) {
+    if (all_stay || is_locked || mark <= kNear) {
       converted_.push_back(&object);
-      members_.push_back({ambient, &object, is_locked, marks.has_rows, marks.is_anchored});
+      members_.push_back({ambient, is_locked, mark <= kRows, mark == kAnchored});
     } else {
-      object.setCompanionId(kAlone);
+      object.setCompanionId(kNotConverted);
       if (FlightQueue* queue = bodies_.flight_queue)
         queue->add(*ambient, bodies_, time_step_);
       else
-        flyLater({ambient, kAlone}, nullptr);
+        flyLater({ambient});
     }
   }
-  flyFreely(nullptr);
+  flyFreely();
 }
 
 // Disables the ambient bodies, so that Bullet does not move them. Returns true if there are any.
@@ -218,30 +207,30 @@ bool SolverGroup::disableAll(const GroupBodies& bodies) noexcept {
 
 // Flies a body as soon as there are kFlightsTogether of them, while their data are in the cache; on
 // several threads, when there is no further one.
-void SolverGroup::flyLater(const FreeBody& body, SolverBodies* solver_bodies) noexcept {
+void SolverGroup::flyLater(const FreeBody& body) noexcept {
   free_.push_back(body);
-  if (!bodies_.task_runner && free_.size() == kFlightsTogether) flyFreely(solver_bodies);
+  if (!bodies_.task_runner && free_.size() == kFlightsTogether) flyFreely();
 }
 
 // Flies free_. A flight changes its own body only, so that any thread may compute it.
 // kFlightsTogether flights side by side are quickest on one thread; few bodies are spread over the
-// threads in smaller groups. `solver_bodies`: null: Bullet converts none of the bodies.
-void SolverGroup::flyFreely(SolverBodies* solver_bodies) noexcept {
+// threads in smaller groups.
+void SolverGroup::flyFreely() noexcept {
   if (free_.empty()) return;
   constexpr int kLeastGroups = 8;  // groups to make before a group is filled
   const int count = static_cast<int>(free_.size());
   const TaskRunner& runner = bodies_.task_runner;
   const int together =
       runner ? std::clamp(count / kLeastGroups, 1, kFlightsTogether) : kFlightsTogether;
-  const auto fly = [&](int group) {
+  const auto flyGroup = [&](int group) {
     const int first = group * together;
-    flyGroup(first, std::min(together, count - first), solver_bodies);
+    flyBodies(free_.data() + first, std::min(together, count - first), time_step_);
   };
   const int groups = (count + together - 1) / together;
   if (runner) {
-    runner(groups, std::cref(fly));  // allocates nothing
+    runner(groups, std::cref(flyGroup));  // allocates nothing
   } else {
-    for (int i = 0; i < groups; ++i) fly(i);
+    for (int i = 0; i < groups; ++i) flyGroup(i);
   }
   for (const FreeBody& body : free_) reportFlight(*body.ambient, bodies_.warnings);
   free_.clear();
@@ -251,28 +240,11 @@ void SolverGroup::goOn() noexcept {
   if (bodies_.flight_queue) bodies_.flight_queue->goOn();
 }
 
-void SolverGroup::flyGroup(int first, int count, SolverBodies* solver_bodies) const noexcept {
-  AmbientBody* bodies[kFlightsTogether] = {};
-  Twist changes_W[kFlightsTogether];
-  const FreeBody* free = free_.data() + first;
-  for (int i = 0; i < count; ++i) bodies[i] = free[i].ambient;
-  StartStates starts;
-  readStartStates(bodies, count, starts);
-  beginFlights(bodies, starts, count, time_step_, changes_W);
-  for (int i = 0; i < count; ++i) {
-    if (free[i].solver_body == kAlone) {
-      addVelocity(*bodies[i]->body, changes_W[i]);
-    } else {
-      setExternalImpulse((*solver_bodies)[free[i].solver_body], changes_W[i]);
-    }
-  }
-}
-
-void SolverGroup::showExternalChange(SolverBodies& solver_bodies, ExternalChange change) noexcept {
+void SolverGroup::showExternalChange(ExternalChange change) noexcept {
   for (const Member& member : members_) {
-    const RowBody* row_body = row_bodies_->find(member.solver_body);
+    const RowBody* row_body = row_bodies_.find(member.solver_body);
     if (!row_body) continue;
-    btSolverBody& solver_body = solver_bodies[member.solver_body];
+    btSolverBody& solver_body = pools_.solver_bodies[member.solver_body];
     solver_body.m_externalTorqueImpulse = row_body->spin_change;
     solver_body.m_externalForceImpulse = row_body->velocity_change;
     if (change == ExternalChange::kTrue) continue;
@@ -281,13 +253,12 @@ void SolverGroup::showExternalChange(SolverBodies& solver_bodies, ExternalChange
   }
 }
 
-bool SolverGroup::needsSecondFriction(const SolverBodies& solver_bodies,
-                                      const btSolverConstraint& contact) const noexcept {
+bool SolverGroup::needsSecondFriction(const btSolverConstraint& contact) noexcept {
   const btVector3& normal =
       static_cast<const btManifoldPoint*>(contact.m_originalContactPoint)->m_normalWorldOnB;
-  const btVector3 push = solver_bodies[contact.m_solverBodyIdA].m_externalForceImpulse -
-                         solver_bodies[contact.m_solverBodyIdB].m_externalForceImpulse;
-  if (isTurnedInFrictionCone(contact, push, normal, *row_bodies_)) return true;
+  const btVector3 push = pools_.solver_bodies[contact.m_solverBodyIdA].m_externalForceImpulse -
+                         pools_.solver_bodies[contact.m_solverBodyIdB].m_externalForceImpulse;
+  if (isTurnedInFrictionCone(contact, push, normal, row_bodies_)) return true;
   if (!isInFrictionCone(push, normal, contact.m_friction)) return false;
   for (const int id : {contact.m_solverBodyIdA, contact.m_solverBodyIdB}) {
     const Member* member = memberOf(id);
@@ -296,88 +267,70 @@ bool SolverGroup::needsSecondFriction(const SolverBodies& solver_bodies,
   return false;
 }
 
-void SolverGroup::rewriteRows(SolverBodies& solver_bodies, const RowPools& rows,
-                              const MultiBodyRows* multibodies,
-                              const btContactSolverInfo& info) noexcept {
-  const bool has_trees = multibodies && multibodies->trees;
-  bounces_->clear();
+void SolverGroup::rewriteRows(const btContactSolverInfo& info) noexcept {
+  const bool has_trees = pools_.multibodies && !bodies_.trees.empty();
+  bounces_.clear();
   if (members_.empty() && !has_trees) return;
-  if (multibodies && !members_.empty())
-    prepareJoinedToMultiBodies(solver_bodies, multibodies->joints);
-  if (row_bodies_->empty() && !has_trees) return;
-  saveFeedbackJacobians(rows.joints);
-  joint_errors_->watch(rows.joints, *row_bodies_, solver_bodies);
-  bounces_->find({rows.contacts, multibodies, *row_bodies_, solver_bodies}, info);
+  if (pools_.multibodies && !members_.empty()) prepareJoinedToMultiBodies();
+  if (row_bodies_.empty() && !has_trees) return;
+  saveFeedbackJacobians();
+  joint_errors_->watch(pools_, row_bodies_);
+  bounces_.find(pools_, info, bodies_.trees, row_bodies_);
   const auto rewrite = [&](btConstraintArray& pool, RowKind kind, btScalar relaxation) {
-    ambient::rewriteRows(pool, kind, relaxation, *row_bodies_, solver_bodies);
+    ambient::rewriteRows(pool, kind, relaxation, row_bodies_, pools_.solver_bodies);
   };
-  rewrite(rows.contacts, RowKind::kContact, info.m_sor);
-  rewrite(rows.frictions, RowKind::kFriction, info.m_sor);
-  rewrite(rows.torsional_frictions, RowKind::kTorsionalFriction, 1);
-  rewrite(rows.joints, RowKind::kJoint, 1);
-  if (multibodies) rewriteMultiBodyRows(*multibodies, info, *row_bodies_, solver_bodies);
-  reapplyWarmStart(solver_bodies, rows, multibodies, info.m_solverMode);
+  rewrite(pools_.contacts, RowKind::kContact, info.m_sor);
+  rewrite(pools_.frictions, RowKind::kFriction, info.m_sor);
+  rewrite(pools_.torsional_frictions, RowKind::kTorsionalFriction, 1);
+  rewrite(pools_.joints, RowKind::kJoint, 1);
+  if (pools_.multibodies) rewriteMultiBodyRows(pools_, info, bodies_.trees, row_bodies_);
+  reapplyWarmStart(info.m_solverMode);
 }
 
 bool SolverGroup::hasMembers() const noexcept {
-  return !row_bodies_->empty() || !bodies_.trees.empty();
+  return !row_bodies_.empty() || !bodies_.trees.empty();
 }
 
-bool SolverGroup::touchesMember(const btMultiBodySolverConstraint& row) const noexcept {
-  const auto is_member = [this](const btMultiBody* multibody, int solver_body) {
-    if (!multibody) return row_bodies_->find(solver_body) != nullptr;
-    const AmbientTree* tree = bodies_.trees.find(multibody);
-    return tree && isSolved(*tree);
-  };
-  return is_member(row.m_multiBodyA, row.m_solverBodyIdA) ||
-         is_member(row.m_multiBodyB, row.m_solverBodyIdB);
+bool SolverGroup::touchesMember(btMultiBodySolverConstraint& row) noexcept {
+  const auto sides = sidesOf(row);
+  return std::any_of(sides.begin(), sides.end(), [this](const RowSide& side) {
+    return row_bodies_.find(side.solver_body) || bodies_.trees.findSolved(side.multibody);
+  });
 }
 
-int SolverGroup::solveJoints(SolverBodies& solver_bodies, btConstraintArray& joints) noexcept {
-  return joint_chains_->solve(joints, *row_bodies_, solver_bodies);
-}
+int SolverGroup::solveJoints() noexcept { return joint_chains_->solve(pools_, row_bodies_); }
 
-bool SolverGroup::hasBounces() const noexcept { return !bounces_->empty(); }
+void SolverGroup::resumeBounces() noexcept { bounces_.resume(pools_, bodies_.trees, row_bodies_); }
 
-void SolverGroup::suspendBounces(SolverBodies& solver_bodies, const RowPools& rows,
-                                 const MultiBodyRows* multibodies) noexcept {
-  bounces_->suspend({rows.contacts, multibodies, *row_bodies_, solver_bodies});
-}
-
-void SolverGroup::resumeBounces(SolverBodies& solver_bodies, const RowPools& rows,
-                                const MultiBodyRows* multibodies) noexcept {
-  bounces_->resume({rows.contacts, multibodies, *row_bodies_, solver_bodies});
-}
-
-void SolverGroup::reapplyWarmStart(SolverBodies& solver_bodies, const RowPools& rows,
-                                   const MultiBodyRows* multibodies, int solver_mode) noexcept {
-  const bool for_multibodies = multibodies && (solver_mode & SOLVER_USE_ARTICULATED_WARMSTARTING);
+void SolverGroup::reapplyWarmStart(int solver_mode) noexcept {
+  const bool for_multibodies =
+      pools_.multibodies && (solver_mode & SOLVER_USE_ARTICULATED_WARMSTARTING);
   if (!(solver_mode & SOLVER_USE_WARMSTARTING) && !for_multibodies) return;
   for (const Member& member : members_) {
-    solver_bodies[member.solver_body].internalGetDeltaLinearVelocity().setZero();
-    solver_bodies[member.solver_body].internalGetDeltaAngularVelocity().setZero();
+    btSolverBody& solver_body = pools_.solver_bodies[member.solver_body];
+    solver_body.internalGetDeltaLinearVelocity().setZero();
+    solver_body.internalGetDeltaAngularVelocity().setZero();
   }
-  reapplyImpulses(rows.contacts, *row_bodies_, solver_bodies);
+  reapplyImpulses(pools_.contacts, row_bodies_, pools_.solver_bodies);
   if (!for_multibodies) return;
-  reapplyImpulses(multibodies->contacts, *row_bodies_, solver_bodies);
-  reapplyImpulses(multibodies->frictions, *row_bodies_, solver_bodies);
   // Stock Bullet applies the impulses of joints to the multibody only, which loses momentum.
-  reapplyImpulses(multibodies->joints, *row_bodies_, solver_bodies);
+  for (auto* pool :
+       {&pools_.multibodies->contacts, &pools_.multibodies->frictions, &pools_.multibodies->joints})
+    reapplyImpulses(*pool, row_bodies_, pools_.solver_bodies);
 }
 
-void SolverGroup::saveFeedbackJacobians(const btConstraintArray& joints) noexcept {
-  for (int i = 0; i < joints.size(); ++i) {
-    const btSolverConstraint& row = joints[i];
-    const auto* constraint = static_cast<const btTypedConstraint*>(row.m_originalContactPoint);
-    if (!constraint->getJointFeedback()) continue;
+void SolverGroup::saveFeedbackJacobians() noexcept {
+  for (int i = 0; i < pools_.joints.size(); ++i) {
+    const btSolverConstraint& row = pools_.joints[i];
+    if (!constraintOf(row)->getJointFeedback()) continue;
     saved_.push_back({i, row.m_relpos1CrossNormal, row.m_contactNormal1, row.m_relpos2CrossNormal,
                       row.m_contactNormal2});
   }
 }
 
-void SolverGroup::restoreFeedbackJacobians(btConstraintArray& joints) noexcept {
+void SolverGroup::restoreFeedbackJacobians() noexcept {
   for (const SavedJacobian& saved : saved_) {
-    btSolverConstraint& row = joints[saved.row];
+    btSolverConstraint& row = pools_.joints[saved.row];
     row.m_relpos1CrossNormal = saved.angular_a;
     row.m_contactNormal1 = saved.linear_a;
     row.m_relpos2CrossNormal = saved.angular_b;
@@ -386,15 +339,11 @@ void SolverGroup::restoreFeedbackJacobians(btConstraintArray& joints) noexcept {
   saved_.clear();
 }
 
-const SolverGroup::Member* SolverGroup::memberOf(int solver_body) const noexcept {
+SolverGroup::Member* SolverGroup::memberOf(int solver_body) noexcept {
   // Bodies appended after convertBodies (fixed, kinematic) are never ambient.
   if (static_cast<std::size_t>(solver_body) >= member_of_solver_body_.size()) return nullptr;
   const int index = member_of_solver_body_[solver_body];
   return index < 0 ? nullptr : &members_[index];
-}
-
-SolverGroup::Member* SolverGroup::memberOf(int solver_body) noexcept {
-  return const_cast<Member*>(std::as_const(*this).memberOf(solver_body));
 }
 
 namespace {
@@ -443,7 +392,7 @@ void TreeGroup::begin() noexcept {
   detachReplacedTrees();
   if (bodies_.trees.empty()) return;
   is_begun_ = true;
-  forEachTree(*bodies_.trees.world(), bodies_.trees, [this](AmbientTree& tree) {
+  forEachTree(bodies_.trees, [this](AmbientTree& tree) {
     TreeStep& step = tree.step;
     if (isSolved(tree)) bodies_.warnings.warnOnce(Warning::kNoAction);
     step.outcome = Outcome::kNotSolved;
@@ -475,26 +424,22 @@ void TreeGroup::prepare(const btContactSolverInfo& info) noexcept {
   is_begun_ = false;
   bodies_.solved.fetch_add(1, std::memory_order_relaxed);
   markTurningRows();
-  const TreeTask task = taskOf(bodies_, info.m_timeStep);
+  const auto duration = static_cast<double>(info.m_timeStep);
   FlightQueue own;
   FlightQueue& queue = bodies_.flight_queue ? *bodies_.flight_queue : own;
-  forEachTree(*bodies_.trees.world(), bodies_.trees, [&](AmbientTree& tree) {
-    if (!prepareTree(tree, task)) queue.add(tree, bodies_, task.duration);
+  forEachTree(bodies_.trees, [&](AmbientTree& tree) {
+    if (!prepareTree(tree, bodies_, duration)) queue.add(tree, bodies_, duration);
   });
   own.fly();
-}
-
-const AmbientTrees* TreeGroup::solvedTrees() const noexcept {
-  return bodies_.trees.empty() ? nullptr : &bodies_.trees;
 }
 
 void TreeGroup::finish(const btContactSolverInfo& info) noexcept {
   if (bodies_.trees.empty()) return;
   if (is_begun_) bodies_.warnings.warnOnce(Warning::kNoMultiBodySolver);
   is_begun_ = false;
-  const TreeTask task = taskOf(bodies_, info.m_timeStep);
-  forEachTree(*bodies_.trees.world(), bodies_.trees,
-              [&task](AmbientTree& tree) { finishTree(tree, task); });
+  forEachTree(bodies_.trees, [&](AmbientTree& tree) {
+    finishTree(tree, bodies_, static_cast<double>(info.m_timeStep));
+  });
 }
 
 AMBIENT_END

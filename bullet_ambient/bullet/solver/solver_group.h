@@ -1,15 +1,10 @@
 #pragma once
 
-#include <BulletDynamics/ConstraintSolver/btSolverBody.h>
-#include <BulletDynamics/ConstraintSolver/btSolverConstraint.h>
-#include <LinearMath/btScalar.h>
-
 #include <memory>
 #include <vector>
 
-#include "bullet_ambient/bullet/core/conversions.h"
 #include "bullet_ambient/bullet/core/precision_check.h"
-#include "bullet_ambient/bullet/rows/row_rewriting.h"
+#include "bullet_ambient/bullet/rows/constraint_rows.h"
 
 class btCollisionObject;
 class btPersistentManifold;
@@ -18,20 +13,10 @@ struct btContactSolverInfo;
 
 AMBIENT_BEGIN
 
-/// Replaces the velocity change by gravity and applied forces that Bullet has computed for the dry
-/// body. Bullet adds it when it writes velocities back. World axes, [rad/s] and [m/s].
-inline void setExternalImpulse(btSolverBody& solver_body, const Twist& change_W) {
-  solver_body.m_externalTorqueImpulse = toBullet(change_W.angular);
-  solver_body.m_externalForceImpulse = toBullet(change_W.linear);
-}
-
 class AmbientBodies;
-class Bounces;
 class JointChains;
 class JointErrors;
-class RowBodies;
-struct RowBatch;
-struct RowBody;
+struct FreeBody;
 
 /// Bodies of a group.
 struct GroupBodies {
@@ -52,9 +37,8 @@ struct GroupInput {
 /// memory from step to step.
 class SolverGroup {
  public:
-  using SolverBodies = btAlignedObjectArray<btSolverBody>;
-
-  explicit SolverGroup(AmbientBodies& bodies);
+  /// `pools`: of the solver; must outlive the group.
+  SolverGroup(AmbientBodies& bodies, const RowPools& pools);
   ~SolverGroup();
 
   /// Call before Bullet makes rows. Returns the manifolds of a group: those of one pair of compound
@@ -73,13 +57,13 @@ class SolverGroup {
   /// Call after Bullet has converted the bodies. Sets the velocity changes k + X of docs/theory.md
   /// eq. (28), against which rows are solved, for bodies with contacts, joints or locked axes; sets
   /// zero for the other ambient bodies.
-  void begin(SolverBodies& solver_bodies) noexcept;
+  void begin() noexcept;
 
   /// Call around Bullet's conversion of contacts. Sets the velocity change by forces and loads that
   /// Bullet reads there: kIsotropic, that of a body with isotropic inertia, k' + X, so that Bullet
   /// lays friction along the force, eq. (28b); kTrue, k + X again.
   enum class ExternalChange { kIsotropic, kTrue };
-  void showExternalChange(SolverBodies& solver_bodies, ExternalChange change) noexcept;
+  void showExternalChange(ExternalChange change) noexcept;
 
   /// False: needsSecondFriction() is false for all contacts of the group.
   bool mayNeedSecondFriction() const { return may_need_second_friction_; }
@@ -87,59 +71,48 @@ class SolverGroup {
   /// True if a contact needs a second friction row: its bodies are pushed along its face, by no
   /// more than friction can hold, and a push along its normal also moves one of them sideways,
   /// because of its added mass. @pre showExternalChange(kIsotropic) is in effect
-  bool needsSecondFriction(const SolverBodies& solver_bodies,
-                           const btSolverConstraint& contact) const noexcept;
+  bool needsSecondFriction(const btSolverConstraint& contact) noexcept;
 
   /// Call after Bullet has made rows of joints and contacts. Rewrites every row that touches an
   /// ambient body, eq. (27), and applies the impulses of warm starting in the velocity bases.
-  /// `multibodies`: null if the solver knows none.
-  void rewriteRows(SolverBodies& solver_bodies, const RowPools& rows,
-                   const MultiBodyRows* multibodies, const btContactSolverInfo& info) noexcept;
+  void rewriteRows(const btContactSolverInfo& info) noexcept;
 
   /// False: touchesMember() is false for all rows of the group.
   bool hasMembers() const noexcept;
   /// True if a row of multibodies acts on a body or tree that moves in a fluid. @pre rewriteRows()
-  bool touchesMember(const btMultiBodySolverConstraint& row) const noexcept;
+  bool touchesMember(btMultiBodySolverConstraint& row) noexcept;
 
   /// Call after rewriteRows(). Solves rows of joints without loops together, eq. (27a); the
   /// iterations go on from their impulses. Returns the number of rows solved.
-  int solveJoints(SolverBodies& solver_bodies, btConstraintArray& joints) noexcept;
+  int solveJoints() noexcept;
 
-  /// True if contacts bounce. @pre rewriteRows()
-  bool hasBounces() const noexcept;
-  /// Call around iterations before the others: those without the bounces, which tell the velocities
-  /// that these ask for, docs/theory.md eq. (28e).
-  void suspendBounces(SolverBodies& solver_bodies, const RowPools& rows,
-                      const MultiBodyRows* multibodies) noexcept;
-  void resumeBounces(SolverBodies& solver_bodies, const RowPools& rows,
-                     const MultiBodyRows* multibodies) noexcept;
+  /// If contacts bounce, calls iterate() without the bounces, which tells the velocities that these
+  /// ask for, docs/theory.md eq. (28e). Call before the other iterations. @pre rewriteRows()
+  template <class Iterate>
+  void iterateWithoutBounces(const Iterate& iterate) noexcept {
+    if (bounces_.empty()) return;
+    bounces_.suspend(pools_);
+    iterate();
+    resumeBounces();
+  }
 
   /// Call after the iterations, before Bullet writes velocities back. Maps velocity changes from
   /// the bases to world axes, du = T du', and flies the members that no row has
   /// moved.
-  void finish(SolverBodies& solver_bodies, btConstraintArray& joints,
-              const btContactSolverInfo& info) noexcept;
+  void finish(const btContactSolverInfo& info) noexcept;
 
   /// Call when all groups of the world are solved. If it steps together with others: makes their
   /// steps, and flies the bodies of all.
   void goOn() noexcept;
 
  private:
-  static constexpr int kAlone = -1;  // solver body of a body that Bullet does not convert
-
   // An ambient body that rows may move.
   struct Member {
     AmbientBody* ambient;
-    const btCollisionObject* object;
     bool is_locked;
     bool has_rows;
-    bool is_anchored;          // true: has a joint, or a contact with a body that cannot move
-    int solver_body = kAlone;  // index in the solver's pool
-  };
-  // A body that no row moves.
-  struct FreeBody {
-    AmbientBody* ambient;
-    int solver_body;
+    bool is_anchored;      // true: has a joint, or a contact with a body that cannot move
+    int solver_body = -1;  // index in the solver's pool
   };
   // Jacobian of a joint row before it is rewritten; Bullet computes joint feedback from it.
   struct SavedJacobian {
@@ -151,23 +124,20 @@ class SolverGroup {
   void reserve(int bodies) noexcept;
   void findMembers(const GroupBodies& bodies, bool all_stay) noexcept;
   bool disableAll(const GroupBodies& bodies) noexcept;
-  void prepareForRows(Member* const* members, int count, SolverBodies& solver_bodies) noexcept;
-  void prepareJoinedToMultiBodies(
-      SolverBodies& solver_bodies,
-      const btAlignedObjectArray<btMultiBodySolverConstraint>& joints) noexcept;
-  void reapplyWarmStart(SolverBodies& solver_bodies, const RowPools& rows,
-                        const MultiBodyRows* multibodies, int solver_mode) noexcept;
-  void saveFeedbackJacobians(const btConstraintArray& joints) noexcept;
-  void restoreFeedbackJacobians(btConstraintArray& joints) noexcept;
+  void prepareForRows(Member* const* members, int count) noexcept;
+  void prepareJoinedToMultiBodies() noexcept;
+  void reapplyWarmStart(int solver_mode) noexcept;
+  void saveFeedbackJacobians() noexcept;
+  void restoreFeedbackJacobians() noexcept;
+  void resumeBounces() noexcept;
   void noteJointError(AmbientBody& ambient, const RowBody& row_body) noexcept;
-  void finishBatch(RowBatch& batch, double turn_share, SolverBodies& solver_bodies) noexcept;
-  void flyLater(const FreeBody& body, SolverBodies* solver_bodies) noexcept;
-  void flyFreely(SolverBodies* solver_bodies) noexcept;
-  void flyGroup(int first, int count, SolverBodies* solver_bodies) const noexcept;
+  void finishBatch(RowBatch& batch, double turn_share) noexcept;
+  void flyLater(const FreeBody& body) noexcept;
+  void flyFreely() noexcept;
   Member* memberOf(int solver_body) noexcept;
-  const Member* memberOf(int solver_body) const noexcept;
 
   AmbientBodies& bodies_;
+  const RowPools pools_;
   double time_step_ = 0;
   bool may_need_second_friction_ = false;
   bool is_disabled_ =
@@ -179,10 +149,10 @@ class SolverGroup {
   std::vector<RowBatch> batches_;              // of members that rows may move
   std::size_t batch_count_ = 0;                // of batches_ in use
   std::vector<FreeBody> free_;                 // bodies to fly
-  std::unique_ptr<RowBodies> row_bodies_;
+  RowBodies row_bodies_;
+  Bounces bounces_;
   std::unique_ptr<JointChains> joint_chains_;
   std::unique_ptr<JointErrors> joint_errors_;
-  std::unique_ptr<Bounces> bounces_;
   std::vector<SavedJacobian> saved_;
   std::vector<btPersistentManifold*> ordered_;  // by inOrderOfParts()
 };
@@ -201,8 +171,6 @@ class TreeGroup {
   /// which only rows of their own joints act. Sets the velocity of each tree to the one that its
   /// rows are solved against, docs/theory.md section 14.
   void prepare(const btContactSolverInfo& info) noexcept;
-  /// Returns the trees whose rows have to be rewritten; null: none.
-  const AmbientTrees* solvedTrees() const noexcept;
   /// Call after all groups are solved. Sets the velocity that Bullet moves each tree by.
   void finish(const btContactSolverInfo& info) noexcept;
 

@@ -1,5 +1,3 @@
-#include "bullet_ambient/bullet/state/body_state.h"
-
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 #include <BulletDynamics/Featherstone/btMultiBodyConstraint.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
@@ -16,8 +14,7 @@
 #include "bullet_ambient/bullet/links/tree_step.h"
 #include "bullet_ambient/bullet/members/attach.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
-#include "bullet_ambient/bullet/state/bullet_visitors.h"
-#include "bullet_ambient/bullet/state/world_state_fields.h"
+#include "bullet_ambient/bullet/state/bullet_state.h"
 #include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/immersed/region_following.h"
 
@@ -92,16 +89,71 @@ std::size_t velocityCount(const btMultiBody& body) {
   return 6 + static_cast<std::size_t>(body.getNumDofs());
 }
 
-template <class Body>  // const or not
-auto* colliderOf(Body& body, int link) {
-  return link < 0 ? body.getBaseCollider() : body.getLinkCollider(link);
+// Calls visit(collider, index in MultiBodyState::links).
+template <class Visit>
+void forEachCollider(btMultiBody& body, const Visit& visit) {
+  for (int link = -1; link < body.getNumLinks(); ++link)
+    if (btMultiBodyLinkCollider* collider = colliderOf(body, link))
+      visit(*collider, static_cast<std::size_t>(link + 1));
 }
 
-template <class Visit>
-void forEachCollider(const MultiBodyState& state, btMultiBody& body, const Visit& visit) {
-  for (std::size_t i = 0; i < state.links.size(); ++i)
-    if (state.links[i].collider)
-      visit(*state.links[i].collider, *colliderOf(body, static_cast<int>(i) - 1));
+// Sleep data of a multibody, for which Bullet has no public getters.
+struct MultiBodySleep {
+  btScalar &timer, &threshold, &timeout;
+};
+MultiBodySleep sleepOf(btMultiBody& body) noexcept;
+
+// An explicit instantiation lends access to private members, as C++ allows.
+template <btScalar btMultiBody::*kTimer, btScalar btMultiBody::*kThreshold,
+          btScalar btMultiBody::*kTimeout>
+struct SleepReader {
+  friend MultiBodySleep sleepOf(btMultiBody& body) noexcept {
+    return {body.*kTimer, body.*kThreshold, body.*kTimeout};
+  }
+};
+template struct SleepReader<&btMultiBody::m_sleepTimer, &btMultiBody::m_sleepEpsilon,
+                            &btMultiBody::m_sleepTimeout>;
+
+MultiBodyLinkState saveBase(const btMultiBody& body) {
+  MultiBodyLinkState s;
+  s.mass = body.getBaseMass();
+  s.inertia = body.getBaseInertia();
+  s.force = body.getBaseForce();
+  s.torque = body.getBaseTorque();
+  return s;
+}
+
+MultiBodyLinkState saveLink(const btMultibodyLink& link) {
+  MultiBodyLinkState s;
+  s.mass = link.m_mass;
+  s.inertia = link.m_inertiaLocal;
+  s.force = link.m_appliedForce;
+  s.torque = link.m_appliedTorque;
+  std::copy_n(link.m_jointPos, link.m_posVarCount, s.joint_position.begin());
+  std::copy_n(link.m_jointTorque, link.m_dofCount, s.joint_force.begin());
+  s.turn_in_parent = link.m_cachedRotParentToThis;
+  s.way_from_parent = link.m_cachedRVector;
+  s.pose = link.m_cachedWorldTransform;
+  return s;
+}
+
+void restoreBase(const MultiBodyLinkState& s, btMultiBody& body) {
+  body.setBaseMass(s.mass);
+  body.setBaseInertia(s.inertia);
+  body.addBaseForce(s.force);  // to zero: there is no setter
+  body.addBaseTorque(s.torque);
+}
+
+void restoreLink(const MultiBodyLinkState& s, btMultibodyLink& link) {
+  link.m_mass = s.mass;
+  link.m_inertiaLocal = s.inertia;
+  link.m_appliedForce = s.force;
+  link.m_appliedTorque = s.torque;
+  std::copy_n(s.joint_position.begin(), link.m_posVarCount, link.m_jointPos);
+  std::copy_n(s.joint_force.begin(), link.m_dofCount, link.m_jointTorque);
+  link.m_cachedRotParentToThis = link.m_cachedRotParentToThis_interpolate = s.turn_in_parent;
+  link.m_cachedRVector = link.m_cachedRVector_interpolate = s.way_from_parent;
+  link.m_cachedWorldTransform = s.pose;
 }
 
 [[noreturn]] void refuse(const std::string& what, std::size_t number, const std::string& why) {
@@ -134,12 +186,16 @@ std::vector<btMultiBodyConstraint*> multiBodyJointsOf(btCollisionWorld& world) {
 
 MultiBodyState saveMultiBody(btMultiBody& body) {
   auto s = fromBullet<MultiBodyState>(body);
-  for (int i = -1; i < body.getNumLinks(); ++i) {
-    LinkAccess access(body, i);
-    s.links.push_back(fromBullet<MultiBodyLinkState>(access));
-    if (const btMultiBodyLinkCollider* collider = colliderOf(body, i))
-      s.links.back().collider = fromBullet<ObjectState>(*collider);
-  }
+  s.velocity.assign(body.getVelocityVector(), body.getVelocityVector() + velocityCount(body));
+  for (int link = -1; link < body.getNumLinks(); ++link)
+    s.links.push_back(link < 0 ? saveBase(body) : saveLink(body.getLink(link)));
+  forEachCollider(body, [&](const btCollisionObject& collider, std::size_t i) {
+    s.links[i].collider = fromBullet<ObjectState>(collider);
+  });
+  const MultiBodySleep sleep = sleepOf(body);
+  s.sleep_timer = sleep.timer;
+  s.sleep_threshold = sleep.threshold;
+  s.sleep_timeout = sleep.timeout;
   return s;
 }
 
@@ -186,11 +242,15 @@ void restoreMultiBody(const MultiBodyState& state, btMultiBody& body) {
   AMBIENT_ASSERT(state.links.size() == static_cast<std::size_t>(body.getNumLinks()) + 1);
   body.clearForcesAndTorques();  // there is no setter
   toBullet(state, body);
-  for (int i = -1; i < body.getNumLinks(); ++i) {
-    LinkAccess access(body, i);
-    toBullet(state.links[static_cast<std::size_t>(i) + 1], access);
-  }
-  forEachCollider(state, body, toBullet<ObjectState, btMultiBodyLinkCollider>);
+  // As Bullet writes them itself (btMultiBodyDynamicsWorld, RK4).
+  std::copy(state.velocity.begin(), state.velocity.end(),
+            const_cast<btScalar*>(body.getVelocityVector()));
+  restoreBase(state.links.front(), body);
+  for (int link = 0; link < body.getNumLinks(); ++link)
+    restoreLink(state.links[static_cast<std::size_t>(link) + 1], body.getLink(link));
+  forEachCollider(body, [&](btCollisionObject& collider, std::size_t i) {
+    toBullet(*state.links[i].collider, collider);
+  });
 }
 
 void restoreJoint(const MultiBodyJointState& state, btMultiBodyConstraint& joint) {
@@ -214,15 +274,15 @@ void restoreSleep(const MultiBodyState& state, btMultiBody& body) {
   sleep.timer = state.sleep_timer;
   sleep.threshold = state.sleep_threshold;
   sleep.timeout = state.sleep_timeout;
-  forEachCollider(state, body, [](const ObjectState& s, btCollisionObject& collider) {
-    restoreSleep(s, collider);
+  forEachCollider(body, [&](btCollisionObject& collider, std::size_t i) {
+    restoreSleep(*state.links[i].collider, collider);
   });
 }
 
 void wakeColliders(btMultiBody& body) {
-  for (int i = -1; i < body.getNumLinks(); ++i)
-    if (auto* collider = colliderOf(body, i))
-      if (!collider->isStaticObject()) collider->forceActivationState(ACTIVE_TAG);
+  forEachCollider(body, [](btCollisionObject& collider, std::size_t) {
+    if (!collider.isStaticObject()) collider.forceActivationState(ACTIVE_TAG);
+  });
 }
 
 bool floatAgain(AmbientBody& ambient, const RigidState& now, const FluidRegions& regions) noexcept {
@@ -256,22 +316,17 @@ AmbientState saveAmbient(const AmbientBody& ambient, const InverseMass& mass) {
   const auto* last = std::get_if<LastFlight>(&ambient.outcome.motion);
   LastFlight flight = last ? *last : LastFlight{};
   flight.memory.load_W = ambient.outcome.lastLoad();
-  AmbientState state{*ambient.def,
-                     ambient.medium,
-                     ambient.location,
-                     ambient.flow,
-                     flight.memory,
-                     ambient.floating ? ambient.floating->waves : WaveMemory{},
-                     lastPlane(ambient),
-                     ambient.wake ? *ambient.wake : Wake{},
-                     false,
-                     false,
-                     {},
-                     {},
-                     {},
-                     {},
-                     flight.left_W,
-                     ambient.counters};
+  AmbientState state;
+  state.def = *ambient.def;
+  state.medium = ambient.medium;
+  state.location = ambient.location;
+  state.flow = ambient.flow;
+  state.memory = flight.memory;
+  if (ambient.floating) state.waves = ambient.floating->waves;
+  state.plane_B = lastPlane(ambient);
+  if (ambient.wake) state.wake = *ambient.wake;
+  state.left_W = flight.left_W;
+  state.counters = ambient.counters;
   if (ambient.vessel) {
     state.has_met_water = ambient.vessel->is_known;
     state.has_sunk = ambient.vessel->has_sunk;
@@ -381,24 +436,5 @@ void insertLinks(const MultiBodyState& state, std::vector<std::unique_ptr<Ambien
     if (floatAgain(link->ambient, link->now.state, registered.regions))
       link->frozen.freeze(link->ambient);
 }
-
-namespace {
-
-MultiBodySleep readSleep(btMultiBody& body) noexcept;
-
-// An explicit instantiation lends access to private members, as C++ allows.
-template <btScalar btMultiBody::*kTimer, btScalar btMultiBody::*kThreshold,
-          btScalar btMultiBody::*kTimeout>
-struct SleepReader {
-  friend MultiBodySleep readSleep(btMultiBody& body) noexcept {
-    return {body.*kTimer, body.*kThreshold, body.*kTimeout};
-  }
-};
-template struct SleepReader<&btMultiBody::m_sleepTimer, &btMultiBody::m_sleepEpsilon,
-                            &btMultiBody::m_sleepTimeout>;
-
-}  // namespace
-
-MultiBodySleep sleepOf(btMultiBody& body) noexcept { return readSleep(body); }
 
 AMBIENT_END

@@ -1,5 +1,3 @@
-#include "bullet_ambient/bullet/state/contact_state.h"
-
 #include <BulletCollision/BroadphaseCollision/btCollisionAlgorithm.h>
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
 #include <BulletCollision/BroadphaseCollision/btDispatcher.h>
@@ -12,29 +10,34 @@
 #include <tuple>
 #include <utility>
 
-#include "bullet_ambient/bullet/state/body_state.h"
+#include "bullet_ambient/bullet/state/bullet_state.h"
 
 AMBIENT_BEGIN
 
 namespace {
 
-class ObjectNumbers {
- public:
-  explicit ObjectNumbers(btCollisionWorld& world) {
-    for (const btCollisionObject* object : objectsOf(world)) {
-      numbers_.emplace(object, static_cast<int>(numbers_.size()));
-    }
-  }
-  /// Both are -1 if one is not in this world.
-  PairState pair(const void* a, const void* b) const {
-    const auto found_a = numbers_.find(a), found_b = numbers_.find(b);
-    if (found_a == numbers_.end() || found_b == numbers_.end()) return {-1, -1};
-    return {found_a->second, found_b->second};
-  }
+// Numbers of the objects of a world.
+using ObjectNumbers = std::map<const void*, int>;
 
- private:
-  std::map<const void*, int> numbers_;
-};
+ObjectNumbers numbersOf(btCollisionWorld& world) {
+  ObjectNumbers numbers;
+  for (const btCollisionObject* object : objectsOf(world))
+    numbers.emplace(object, static_cast<int>(numbers.size()));
+  return numbers;
+}
+
+// Returns the numbers of two objects; both are -1 if one is not in this world.
+PairState pairOf(const ObjectNumbers& numbers, const void* a, const void* b) {
+  const auto found_a = numbers.find(a), found_b = numbers.find(b);
+  if (found_a == numbers.end() || found_b == numbers.end()) return {-1, -1};
+  return {found_a->second, found_b->second};
+}
+PairState pairOf(const ObjectNumbers& numbers, const btBroadphasePair& pair) {
+  return pairOf(numbers, pair.m_pProxy0->m_clientObject, pair.m_pProxy1->m_clientObject);
+}
+PairState pairOf(const ObjectNumbers& numbers, const btPersistentManifold& manifold) {
+  return pairOf(numbers, manifold.getBody0(), manifold.getBody1());
+}
 
 // A manifold, Bullet's place for the contact points of a pair or a part of one.
 struct PairManifold {
@@ -51,11 +54,11 @@ std::vector<PairManifold> pairManifoldsOf(btCollisionWorld& world) {
     btCollisionAlgorithm* algorithm = cache.getOverlappingPairArrayPtr()[i].m_algorithm;
     if (algorithm) algorithm->getAllContactManifolds(manifolds);
   }
-  const ObjectNumbers numbers(world);
+  const ObjectNumbers numbers = numbersOf(world);
   std::map<std::pair<int, int>, int> parts;
   std::vector<PairManifold> pair_manifolds;
   for (int i = 0; i < manifolds.size(); ++i) {
-    const PairState pair = numbers.pair(manifolds[i]->getBody0(), manifolds[i]->getBody1());
+    const PairState pair = pairOf(numbers, *manifolds[i]);
     if (pair.object_a < 0) continue;
     pair_manifolds.push_back({manifolds[i], pair, parts[{pair.object_a, pair.object_b}]++});
   }
@@ -78,19 +81,13 @@ void swapManifolds(int to, int from, btPersistentManifold** array) {
   array[from]->m_index1a = from;
 }
 
-class Objects {
- public:
-  explicit Objects(btCollisionWorld& world) : objects_(objectsOf(world)) {}
+using Objects = std::vector<btCollisionObject*>;
 
-  /// Null if there is none of this number.
-  btCollisionObject* operator[](int number) const {
-    const auto i = static_cast<std::size_t>(number);
-    return i < objects_.size() ? objects_[i] : nullptr;
-  }
-
- private:
-  std::vector<btCollisionObject*> objects_;
-};
+// Null if there is none of this number.
+btCollisionObject* objectAt(const Objects& objects, int number) {
+  const auto i = static_cast<std::size_t>(number);
+  return i < objects.size() ? objects[i] : nullptr;
+}
 
 // btDbvtBroadphase finds a pair once, when its boxes with margins begin to overlap, and drops it
 // some steps after they ceased to.
@@ -116,7 +113,7 @@ void restoreBoxes(const WorldState& state, const Objects& objects, btCollisionWo
   if (!broadphase) return;
   for (std::size_t i = 0; i < state.boxes.size(); ++i) {
     const BoxState& box = state.boxes[i];
-    btDbvtProxy* const proxy = proxyOf(objects[static_cast<int>(i)]);
+    btDbvtProxy* const proxy = proxyOf(objects[i]);
     if (!proxy) continue;
     proxy->m_aabbMin = box.smallest;
     proxy->m_aabbMax = box.largest;
@@ -141,11 +138,9 @@ void restorePairs(const WorldState& state, const Objects& objects, btCollisionWo
     cache.removeOverlappingPair(pair.m_pProxy0, pair.m_pProxy1, world.getDispatcher());
   }
   for (const PairState& pair : state.pairs) {
-    btCollisionObject* a = objects[pair.object_a];
-    btCollisionObject* b = objects[pair.object_b];
-    if (a && b && a != b) {
+    btCollisionObject *a = objectAt(objects, pair.object_a), *b = objectAt(objects, pair.object_b);
+    if (a && b && a != b)
       cache.addOverlappingPair(a->getBroadphaseHandle(), b->getBroadphaseHandle());
-    }
   }
   for (const btBroadphasePair& pair : found) {
     cache.addOverlappingPair(pair.m_pProxy0, pair.m_pProxy1);
@@ -247,7 +242,7 @@ ManifoldKey keyOf(const ContactState& contact) {
 class ManifoldMaker {
  public:
   explicit ManifoldMaker(btCollisionWorld& world)
-      : world_(world), objects_(world), numbers_(world) {}
+      : world_(world), objects_(objectsOf(world)), numbers_(numbersOf(world)) {}
 
   ManifoldsByKey manifoldsFor(const std::vector<ContactState>& contacts) {
     std::map<std::pair<int, int>, std::vector<const ContactState*>> touching;
@@ -256,9 +251,7 @@ class ManifoldMaker {
     btOverlappingPairCache& cache = *world_.getPairCache();
     for (int i = 0; i < cache.getNumOverlappingPairs(); ++i) {
       btBroadphasePair& pair = cache.getOverlappingPairArrayPtr()[i];
-      const PairState found =
-          numbers_.pair(pair.m_pProxy0->m_clientObject, pair.m_pProxy1->m_clientObject);
-      const auto saved = touching.find(inOrder(found));
+      const auto saved = touching.find(inOrder(pairOf(numbers_, pair)));
       if (saved != touching.end()) makeFor(pair, saved->second);
     }
     ManifoldsByKey pair_manifolds;
@@ -283,10 +276,10 @@ class ManifoldMaker {
       for (const ContactState* contact : contacts) {
         if (contact->points.empty() || isThere(pair, *contact, keys)) continue;
         const btManifoldPoint& point = contact->points.front();
-        const btCollisionObject& first = *objects_[contact->pair.object_a];
+        const btCollisionObject& first = *objectAt(objects_, contact->pair.object_a);
         const btVector3 gap =
             first.getWorldTransform() * point.m_localPointA -
-            objects_[contact->pair.object_b]->getWorldTransform() * point.m_localPointB;
+            objectAt(objects_, contact->pair.object_b)->getWorldTransform() * point.m_localPointB;
         const btVector3 way = gap + gap.length() * point.m_normalWorldOnB;
         makeManifolds(pair, pair.m_pProxy0->m_clientObject == &first ? way : -way, world_);
         noteParts(pair, keys);
@@ -309,8 +302,7 @@ class ManifoldMaker {
       btPersistentManifold& manifold = *manifolds[i];
       const auto known = keys.find(&manifold);
       if (manifold.getNumContacts() > 0 && hasParts(manifold.getContactPoint(0)))
-        now[&manifold] = keyOf(numbers_.pair(manifold.getBody0(), manifold.getBody1()), 0,
-                               &manifold.getContactPoint(0));
+        now[&manifold] = keyOf(pairOf(numbers_, manifold), 0, &manifold.getContactPoint(0));
       else if (known != keys.end())
         now.insert(*known);
     }
@@ -333,13 +325,12 @@ class ManifoldMaker {
 }  // namespace
 
 std::vector<PairState> savePairs(btCollisionWorld& world) {
-  const ObjectNumbers numbers(world);
+  const ObjectNumbers numbers = numbersOf(world);
   std::vector<PairState> pairs;
   btOverlappingPairCache& cache = *world.getPairCache();
   for (int i = 0; i < cache.getNumOverlappingPairs(); ++i) {
     const btBroadphasePair& pair = cache.getOverlappingPairArrayPtr()[i];
-    const PairState saved =
-        numbers.pair(pair.m_pProxy0->m_clientObject, pair.m_pProxy1->m_clientObject);
+    const PairState saved = pairOf(numbers, pair);
     if (saved.object_a >= 0) pairs.push_back(saved);
   }
   return pairs;
@@ -381,7 +372,7 @@ void saveBoxes(btCollisionWorld& world, WorldState& state) {
 void restoreContacts(const WorldState& state, btCollisionWorld& world) {
   updateBoxes(world);
   world.computeOverlappingPairs();
-  restorePairs(state, Objects(world), world);
+  restorePairs(state, objectsOf(world), world);
   wakeAll(world);
   ManifoldsByKey pair_manifolds = ManifoldMaker(world).manifoldsFor(state.contacts);
   for (const auto& [name, manifold] : pair_manifolds) manifold->clearManifold();
@@ -394,7 +385,7 @@ void restoreContacts(const WorldState& state, btCollisionWorld& world) {
     swapManifolds(restored++, found->second->m_index1a, array);
     pair_manifolds.erase(found);
   }
-  restoreBoxes(state, Objects(world), world);
+  restoreBoxes(state, objectsOf(world), world);
 }
 
 AMBIENT_END

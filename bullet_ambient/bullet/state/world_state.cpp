@@ -4,16 +4,13 @@
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
-#include "bullet_ambient/bullet/state/body_state.h"
-#include "bullet_ambient/bullet/state/bullet_visitors.h"
-#include "bullet_ambient/bullet/state/contact_state.h"
+#include "bullet_ambient/bullet/state/bullet_state.h"
 #include "bullet_ambient/bullet/state/world_state_structs.h"
 #include "bullet_ambient/saved_state.h"
 
@@ -22,18 +19,11 @@ namespace {
 
 void checkCount(const char* what, std::size_t saved, std::size_t found) {
   if (saved == found) return;
-  std::ostringstream sentence;
-  sentence << "restoreState: the state has " << saved << ' ' << what << ", but the world has "
-           << found;
-  throw std::invalid_argument(sentence.str());
+  throw std::invalid_argument("restoreState: the state has " + std::to_string(saved) + ' ' + what +
+                              ", but the world has " + std::to_string(found));
 }
 
-void checkNumbers(const WorldState& state) {
-  const std::string fault = findFault(state);
-  if (!fault.empty()) throw std::invalid_argument("restoreState: the saved state " + fault);
-}
-
-void checkFits(const WorldState& state, btDynamicsWorld& world) {
+void check(const WorldState& state, btDynamicsWorld& world) {
   const auto multi_bodies = multiBodiesOf(world);
   const auto multi_body_joints = multiBodyJointsOf(world);
   checkCount("rigid bodies", state.bodies.size(), rigidBodiesOf(world).size());
@@ -44,6 +34,8 @@ void checkFits(const WorldState& state, btDynamicsWorld& world) {
     requireFits(state.multi_bodies[i], *multi_bodies[i], i);
   for (std::size_t i = 0; i < multi_body_joints.size(); ++i)
     requireFits(state.multi_body_joints[i], *multi_body_joints[i], i);
+  const std::string fault = findFault(state);
+  if (!fault.empty()) throw std::invalid_argument("restoreState: the saved state " + fault);
 }
 
 // Models are built before anything is changed, so that a medium that is refused changes nothing.
@@ -87,11 +79,6 @@ void restoreMultiBodies(const WorldState& state, std::vector<Links> links, btDyn
     restoreJoint(state.multi_body_joints[i], *joints[i]);
 }
 
-void restoreJoints(const WorldState& state, btDynamicsWorld& world) {
-  for (int i = 0; i < world.getNumConstraints(); ++i)
-    toBullet(state.joints[static_cast<std::size_t>(i)], *world.getConstraint(i));
-}
-
 btSequentialImpulseConstraintSolver* shufflingSolver(btDynamicsWorld& world) {
   return dynamic_cast<btSequentialImpulseConstraintSolver*>(world.getConstraintSolver());
 }
@@ -128,8 +115,7 @@ WorldState saveState(const btDynamicsWorld& world, const AmbientBodies& register
 void restoreState(const WorldState& state, btDynamicsWorld& world, AmbientBodies& registered) {
   registered.requireChangeable("restoreState");
   const std::vector<btRigidBody*> bodies = rigidBodiesOf(world);
-  checkFits(state, world);
-  checkNumbers(state);
+  check(state, world);
   auto ambient_bodies = makeAmbientBodies(state, bodies, registered);
   std::vector<Links> links = makeAllLinks(state, world, registered);
 
@@ -145,7 +131,8 @@ void restoreState(const WorldState& state, btDynamicsWorld& world, AmbientBodies
   }
   restoreMultiBodies(state, std::move(links), world, registered);
   registered.regions.time = state.time;
-  restoreJoints(state, world);
+  for (int i = 0; i < world.getNumConstraints(); ++i)
+    toBullet(state.joints[static_cast<std::size_t>(i)], *world.getConstraint(i));
   restoreContacts(state, world);
   for (std::size_t i = 0; i < bodies.size(); ++i) restoreSleep(state.bodies[i], *bodies[i]);
   const std::vector<btMultiBody*> multi_bodies = multiBodiesOf(world);

@@ -30,40 +30,6 @@ struct SetElsewhere {
 };
 constexpr SetElsewhere kByRestoreMass{}, kByRestoreForces{}, kByRestoreSleep{};
 
-/// An array of numbers in an object of Bullet.
-struct Numbers {
-  btScalar* first;
-  int count;
-};
-
-/// A link of a multibody, or its base.
-struct LinkAccess {
-  btMultiBody& body;
-  btMultibodyLink* link;  ///< null: the base
-
-  LinkAccess(btMultiBody& of, int number)
-      : body(of), link(number < 0 ? nullptr : &of.getLink(number)) {}
-
-  /// Returns the first numbers of an array of the joint, as many as the joint uses; none for a
-  /// base.
-  template <std::size_t kSize>
-  Numbers joint(btScalar (btMultibodyLink::*numbers)[kSize], int btMultibodyLink::*count) const {
-    return link ? Numbers{link->*numbers, link->*count} : Numbers{nullptr, 0};
-  }
-};
-
-/// Velocities of base and joints, to be written as Bullet does itself (btMultiBodyDynamicsWorld,
-/// RK4).
-inline Numbers velocitiesOf(btMultiBody& body) {
-  return {const_cast<btScalar*>(body.getVelocityVector()), 6 + body.getNumDofs()};
-}
-
-/// Sleep data of a multibody, for which Bullet has no public getters.
-struct MultiBodySleep {
-  btScalar &timer, &threshold, &timeout;
-};
-MultiBodySleep sleepOf(btMultiBody& body) noexcept;
-
 // All stored fields, listed once for all operations: write, read, check, copy from Bullet and back
 // to Bullet. Their order is that of the bytes. To add a field, add it to the structure and here,
 // and raise the version.
@@ -93,9 +59,8 @@ constexpr Rule number(const char* fault) {
   return {[](double x) { return !std::isnan(x); }, fault};
 }
 
-/// Base of visitors of fields; does nothing. A visitor defines v(field, rule); v(field, rule, get,
-/// set) with getter and setter of Bullet's object; and v(field, rule, get) if `get` returns
-/// Numbers.
+/// Base of visitors of fields; does nothing. A visitor defines v(field, rule), and v(field, rule,
+/// get, set) with getter and setter of Bullet's object.
 struct FieldVisitor {
   /// Visits an enumerator; `names`: table of the valid ones.
   template <class Enum, class Names>
@@ -303,60 +268,20 @@ void fields(V& v, BodyState& s) {
   v.optional(s.ambient);
 }
 
+// saveMultiBody() and restoreMultiBody() pass these between Bullet's links and their states.
 template <class V>
 void fields(V& v, MultiBodyLinkState& s) {
-  using Link = btMultibodyLink;
-  using Access = LinkAccess;
-  constexpr Rule kMass = finiteNotNegative("mass is negative or not finite: ");
-  constexpr Rule kInertia = finiteNotNegative("inertia is negative or not finite");
   constexpr Rule kForce = finite("force or torque is not finite");
   constexpr Rule kPosition = finite("pose or position of its joint is not finite");
-  // `get`, `set`: of the base.
-  const auto linkField = [&v](auto& field, const Rule& rule, auto of_link, auto get, auto set) {
-    using Field = std::remove_reference_t<decltype(field)>;
-    v(
-        field, rule,
-        [=](Access& l) -> Field { return l.link ? l.link->*of_link : std::invoke(get, l.body); },
-        [=](Access& l, const Field& x) {
-          l.link ? void(l.link->*of_link = x) : std::invoke(set, l.body, x);
-        });
-  };
-  using Body = btMultiBody;
-  linkField(s.mass, kMass, &Link::m_mass, &Body::getBaseMass, &Body::setBaseMass);
-  linkField(s.inertia, kInertia, &Link::m_inertiaLocal, &Body::getBaseInertia,
-            &Body::setBaseInertia);
-  // Added to zero: a base has no setter.
-  linkField(s.force, kForce, &Link::m_appliedForce, &Body::getBaseForce, &Body::addBaseForce);
-  linkField(s.torque, kForce, &Link::m_appliedTorque, &Body::getBaseTorque, &Body::addBaseTorque);
-  v(s.joint_position, kPosition,
-    [](Access& l) { return l.joint(&Link::m_jointPos, &Link::m_posVarCount); });
-  v(s.joint_force, kForce,
-    [](Access& l) { return l.joint(&Link::m_jointTorque, &Link::m_dofCount); });
-  v(
-      s.turn_in_parent, kPosition,
-      [](Access& l) {
-        return l.link ? l.link->m_cachedRotParentToThis : btQuaternion::getIdentity();
-      },
-      [](Access& l, const btQuaternion& x) {
-        if (l.link)
-          l.link->m_cachedRotParentToThis = l.link->m_cachedRotParentToThis_interpolate = x;
-      });
+  v(s.mass, finiteNotNegative("mass is negative or not finite: "));
+  v(s.inertia, finiteNotNegative("inertia is negative or not finite"));
+  each(v, kForce, s.force, s.torque);
+  v(s.joint_position, kPosition);
+  v(s.joint_force, kForce);
+  v(s.turn_in_parent, kPosition);
   v.check("turn of its joint is no quaternion of unit length",
           [&s] { return std::abs(s.turn_in_parent.length2() - 1) < btScalar(0.01); });
-  v(
-      s.way_from_parent, kPosition,
-      [](Access& l) { return l.link ? l.link->m_cachedRVector : btVector3(0, 0, 0); },
-      [](Access& l, const btVector3& x) {
-        if (l.link) l.link->m_cachedRVector = l.link->m_cachedRVector_interpolate = x;
-      });
-  v(
-      s.pose, kPosition,
-      [](Access& l) {
-        return l.link ? l.link->m_cachedWorldTransform : btTransform::getIdentity();
-      },
-      [](Access& l, const btTransform& x) {
-        if (l.link) l.link->m_cachedWorldTransform = x;
-      });
+  each(v, kPosition, s.way_from_parent, s.pose);
   v.optional(s.collider);
 }
 
@@ -383,18 +308,13 @@ void fields(V& v, MultiBodyState& s) {
     return std::abs(s.orientation.length2() - 1) < btScalar(0.01) &&
            std::abs(s.interpolation_orientation.length2() - 1) < btScalar(0.01);
   });
-  v(s.velocity, kMotion, &velocitiesOf);
+  v(s.velocity, kMotion);
   v.list(s.links,
          [](std::size_t i) { return "link " + std::to_string(static_cast<int>(i) - 1) + ": "; });
   v(s.linear_damping, kDamping, &Body::getLinearDamping, &Body::setLinearDamping);
   v(s.angular_damping, kDamping, &Body::getAngularDamping, &Body::setAngularDamping);
   v(s.velocity_limit, kLimit, &Body::getMaxCoordinateVelocity, &Body::setMaxCoordinateVelocity);
-  v(
-      s.sleep_timer, kSleep, [](Body& b) { return sleepOf(b).timer; }, kByRestoreSleep);
-  v(
-      s.sleep_threshold, kSleep, [](Body& b) { return sleepOf(b).threshold; }, kByRestoreSleep);
-  v(
-      s.sleep_timeout, kSleep, [](Body& b) { return sleepOf(b).timeout; }, kByRestoreSleep);
+  each(v, kSleep, s.sleep_timer, s.sleep_threshold, s.sleep_timeout);
   v(s.is_awake, kAny, &Body::isAwake, kByRestoreSleep);
   v(s.can_sleep, kAny, &Body::getCanSleep, kByRestoreSleep);
   v(s.can_wake_up, kAny, &Body::getCanWakeup, kByRestoreSleep);

@@ -1,5 +1,3 @@
-#include "bullet_ambient/bullet/world/bodies_in_holds.h"
-
 #include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
 
 #include <algorithm>
@@ -13,6 +11,7 @@
 #include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/bullet/links/tree_step.h"
 #include "bullet_ambient/bullet/members/attach.h"
+#include "bullet_ambient/bullet/world/fluid_action.h"
 
 AMBIENT_BEGIN
 namespace {
@@ -83,12 +82,11 @@ bool gatherMovingBodies(const btCollisionWorld& world, AmbientBodies& bodies) {
     if (ambient && !objects[i]->isStaticOrKinematicObject())
       place(*ambient, nullptr, toVector3(objects[i]->getWorldTransform().getOrigin()));
   }
-  if (isOf(world, bodies.trees))
-    forEachTree(*bodies.trees.world(), bodies.trees, [&](AmbientTree& tree) {
-      computeLinkPosesNow(tree);
-      for (const auto& link : tree.links)
-        if (link->mass.mass > 0) place(link->ambient, link.get(), link->now.centre());
-    });
+  forEachTreeIn(world, bodies.trees, [&](AmbientTree& tree) {
+    computeLinkPosesNow(tree);
+    for (const auto& link : tree.links)
+      if (link->mass.mass > 0) place(link->ambient, link.get(), link->now.centre());
+  });
   if (!may_be_inside) return false;
   std::sort(west_to_east.begin(), west_to_east.end(), [](const MovingBody& a, const MovingBody& b) {
     return a.centre.x() < b.centre.x() || (a.centre.x() == b.centre.x() && a.number < b.number);

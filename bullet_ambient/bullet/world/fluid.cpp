@@ -7,10 +7,9 @@
 #include <vector>
 
 #include "bullet_ambient/bullet/connection/world_connection.h"
+#include "bullet_ambient/bullet/links/tree_step.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/bullet/members/attach.h"
-#include "bullet_ambient/bullet/solver/flight_queue.h"
-#include "bullet_ambient/bullet/world/bodies_in_holds.h"
 #include "bullet_ambient/bullet/world/fluid_action.h"
 #include "bullet_ambient/immersed/region_following.h"
 #include "bullet_ambient/saved_state.h"
@@ -34,8 +33,12 @@ void knowFluids(AmbientBodies& bodies, const FluidRegion& region, bool is_coming
   bodies.forEach([&](AmbientBody& ambient) { setModels(ambient, std::move(made[next++])); });
 }
 
-// Makes room for what differs of the fluid along each body, after a change of regions.
-void makeAllStations(AmbientBodies& bodies, bool knew, bool knew_layers) {
+// Changes the regions by change(), and makes room for what then differs of the fluid along each
+// body.
+template <class Change>
+void changeRegions(AmbientBodies& bodies, const Change& change) {
+  const bool knew = bodies.regions.mayDiffer(), knew_layers = bodies.regions.haveLayers();
+  change();
   if (bodies.regions.mayDiffer() == knew && bodies.regions.haveLayers() == knew_layers) return;
   bodies.forEach([&](AmbientBody& ambient) { makeStations(ambient, bodies.regions); });
 }
@@ -124,9 +127,8 @@ RegionId Fluid::addRegion(FluidRegion region) {
   FluidRegions& regions = bodies_->regions;
   checkRegion(regions.next(), region);
   knowFluids(*bodies_, region, true);
-  const bool knew = regions.mayDiffer(), knew_layers = regions.haveLayers();
-  const RegionId id = regions.add(std::move(region));
-  makeAllStations(*bodies_, knew, knew_layers);
+  RegionId id = RegionId::kNone;
+  changeRegions(*bodies_, [&] { id = regions.add(std::move(region)); });
   return id;
 }
 
@@ -136,9 +138,7 @@ void Fluid::setRegion(RegionId id, FluidRegion region) {
   checkRegion(id, region);
   const FluidRegion before = regions.require(id);
   knowFluids(*bodies_, region, true);
-  const bool knew = regions.mayDiffer(), knew_layers = regions.haveLayers();
-  regions.set(id, std::move(region));
-  makeAllStations(*bodies_, knew, knew_layers);
+  changeRegions(*bodies_, [&] { regions.set(id, std::move(region)); });
   knowFluids(*bodies_, before, false);
 }
 

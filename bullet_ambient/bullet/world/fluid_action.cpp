@@ -13,8 +13,7 @@
 #include "bullet_ambient/bullet/members/attach.h"
 #include "bullet_ambient/bullet/members/flight_coupling.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
-#include "bullet_ambient/bullet/rows/row_motion.h"
-#include "bullet_ambient/bullet/world/bodies_in_holds.h"
+#include "bullet_ambient/bullet/rows/constraint_rows.h"
 #include "bullet_ambient/drawing.h"
 #include "bullet_ambient/immersed/fluid_regions.h"
 #include "bullet_ambient/immersed/wrench_sensor.h"
@@ -23,12 +22,6 @@ AMBIENT_BEGIN
 
 namespace {
 
-// Calls visit(AmbientTree&) for the trees of a world.
-template <class Visit>
-void forEachTreeIn(const btCollisionWorld& world, const AmbientBodies& bodies, const Visit& visit) {
-  if (isOf(world, bodies.trees)) forEachTree(*bodies.trees.world(), bodies.trees, visit);
-}
-
 // Calls visit(AmbientBody&) for the bodies and links that a world has. Asks the world, not the
 // fluid: a body there may have been destroyed.
 template <class Visit>
@@ -36,7 +29,7 @@ void forEachIn(const btCollisionWorld& world, const AmbientBodies& bodies, const
   const btCollisionObjectArray& objects = world.getCollisionObjectArray();
   for (int i = 0; i < objects.size(); ++i)
     if (AmbientBody* ambient = bodies.find(objects[i])) visit(*ambient);
-  forEachTreeIn(world, bodies, [&visit](const AmbientTree& tree) {
+  forEachTreeIn(world, bodies.trees, [&visit](const AmbientTree& tree) {
     for (const auto& link : tree.links) visit(link->ambient);
   });
 }
@@ -67,54 +60,46 @@ bool isStillIn(const btCollisionWorld& world, const AmbientBody& ambient) {
   return index < objects.size() && AmbientBodies::isSame(ambient);
 }
 
-// Completes the substep of bodies after Bullet has moved them; of bodies that did not fly, several
-// side by side.
-class Completion {
- public:
-  Completion(double time_step, Warnings& warnings) : time_step_(time_step), warnings_(warnings) {}
-
-  void add(Outcome kind, AmbientBody& ambient) {
-    if (kind == Outcome::kDisabled) return restoreActivation(ambient);
-    const Twist before_W = ambient.sensor ? velocityOf(*ambient.body) : Twist{};
-    if (kind == Outcome::kFlown) {
-      endFlight(ambient, time_step_);
-      finish(kind, before_W, ambient);
-      return;
-    }
-    bodies_[count_] = &ambient;
-    kinds_[count_] = kind;
-    before_W_[count_++] = before_W;
-    if (count_ == kFlightsTogether) completeRows();
-  }
-
-  // Call after the last add().
-  void completeRows() {
-    if (count_ == 0) return;
-    endRowMotions(bodies_, count_, time_step_, warnings_);
-    for (int i = 0; i < count_; ++i) finish(kinds_[i], before_W_[i], *bodies_[i]);
-    count_ = 0;
-  }
-
- private:
-  void finish(Outcome kind, const Twist& before_W, AmbientBody& ambient) const {
+// Completes the substep of the bodies that the solver has worked on, after Bullet has moved them;
+// of bodies that did not fly, several side by side.
+void completeBodies(const btCollisionWorld& world, AmbientBodies& bodies, double time_step) {
+  AmbientBody* moved[kFlightsTogether] = {};
+  Outcome kinds[kFlightsTogether] = {};
+  Twist before_W[kFlightsTogether];
+  int count = 0;
+  const auto finish = [&](AmbientBody& ambient, Outcome kind, const Twist& before) {
     keepAwake(ambient, kind);
     if (ambient.sensor)
-      finishBodyReading(ambient, kind, motionOf(*ambient.body), before_W, time_step_);
+      finishBodyReading(ambient, kind, motionOf(*ambient.body), before, time_step);
+  };
+  const auto completeRows = [&] {
+    if (count > 0) endRowMotions(moved, count, time_step, bodies.warnings);
+    for (int i = 0; i < count; ++i) finish(*moved[i], kinds[i], before_W[i]);
+    count = 0;
+  };
+  for (AmbientBody* ambient = bodies.takeSolved(); ambient; ambient = ambient->next_solved) {
+    const Outcome kind = std::exchange(ambient->outcome.kind, Outcome::kNotSolved);
+    if (kind == Outcome::kStock || !isStillIn(world, *ambient)) continue;
+    const Twist before = ambient->sensor ? velocityOf(*ambient->body) : Twist{};
+    if (kind == Outcome::kDisabled) {
+      restoreActivation(*ambient);
+    } else if (kind == Outcome::kFlown) {
+      endFlight(*ambient, time_step);
+      finish(*ambient, kind, before);
+    } else {
+      moved[count] = ambient;
+      kinds[count] = kind;
+      before_W[count++] = before;
+      if (count == kFlightsTogether) completeRows();
+    }
   }
-
-  double time_step_;
-  Warnings& warnings_;
-  AmbientBody* bodies_[kFlightsTogether] = {};
-  Outcome kinds_[kFlightsTogether] = {};
-  Twist before_W_[kFlightsTogether];
-  int count_ = 0;
-};
+  completeRows();
+}
 
 // Completes the trees that the solver has worked on, after Bullet has moved them.
-void completeTrees(const btCollisionWorld& world, AmbientBodies& bodies, btScalar time_step) {
-  if (!isOf(world, bodies.trees)) return;
-  const TreeTask task = taskOf(bodies, time_step);
-  forEachTreeIn(world, bodies, [&task](AmbientTree& tree) { completeTree(tree, task); });
+void completeTrees(const btCollisionWorld& world, AmbientBodies& bodies, double time_step) {
+  if (bodies.trees.world() != &world) return;
+  forEachTree(bodies.trees, [&](AmbientTree& tree) { completeTree(tree, bodies, time_step); });
   for (const auto& tree : bodies.trees.all()) tree->step.outcome = Outcome::kNotSolved;
 }
 
@@ -145,7 +130,7 @@ void wakeReloaded(const btCollisionWorld& world, const AmbientBodies& bodies) {
         isModelStale(*ambient, inverseMassOf(*ambient->body)))
       objects[i]->activate();
   }
-  forEachTreeIn(world, bodies, [](const AmbientTree& tree) {
+  forEachTreeIn(world, bodies.trees, [](const AmbientTree& tree) {
     if (!isAsleep(*tree.multi_body)) return;
     for (const auto& link : tree.links)
       if (!(link->mass == inverseMassOf(*tree.multi_body, link->link)))
@@ -173,14 +158,8 @@ bool FluidAction::isSolverMissing(const btCollisionWorld& world) {
 
 void FluidAction::updateAction(btCollisionWorld* world, btScalar time_step) {
   world_ = world;
-  Completion completion(static_cast<double>(time_step), bodies_.warnings);
-  for (AmbientBody* ambient = bodies_.takeSolved(); ambient; ambient = ambient->next_solved) {
-    const Outcome kind = std::exchange(ambient->outcome.kind, Outcome::kNotSolved);
-    if (kind == Outcome::kStock || !isStillIn(*world, *ambient)) continue;
-    completion.add(kind, *ambient);
-  }
-  completion.completeRows();
-  completeTrees(*world, bodies_, time_step);
+  completeBodies(*world, bodies_, static_cast<double>(time_step));
+  completeTrees(*world, bodies_, static_cast<double>(time_step));
   if (std::isfinite(time_step)) {
     bodies_.regions.time += static_cast<double>(time_step);
   } else if (bodies_.size() > 0 || !bodies_.trees.empty() || !bodies_.regions.empty()) {
@@ -222,7 +201,7 @@ void FluidAction::debugDraw(btIDebugDraw* drawer) {
       drawFluid(*ambient, motionOf(*ambient->body), drawing_, *drawer);
     }
   }
-  forEachTreeIn(*world_, bodies_, [&](AmbientTree& tree) {
+  forEachTreeIn(*world_, bodies_.trees, [&](AmbientTree& tree) {
     computeLinkPosesNow(tree);
     for (const auto& link : tree.links)
       if (link->ambient.isInFluid() && link->mass.mass > 0)

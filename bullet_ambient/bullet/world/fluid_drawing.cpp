@@ -19,51 +19,35 @@
 AMBIENT_BEGIN
 namespace {
 
-class Arrows {
- public:
-  Arrows(const RigidState& pose, btIDebugDraw& drawer) : pose_(pose), drawer_(drawer) {}
+// Draws an arrow of a body at a pose; in body axes.
+void drawArrow(const RigidState& pose, const Vector3& from, const Vector3& arrow,
+               const btVector3& colour, btIDebugDraw& drawer) {
+  const auto toWorld = [&](const Vector3& point) {
+    return toBullet(Vector3(pose.position + pose.orientation * point));
+  };
+  drawer.drawLine(toWorld(from), toWorld(from + arrow), colour);
+}
 
-  // Both in body axes.
-  void draw(const Vector3& from, const Vector3& arrow, const btVector3& colour) const {
-    drawer_.drawLine(toWorld(from), toWorld(from + arrow), colour);
-  }
-  void drawCross(const Vector3& centre, double half_size, const btVector3& colour) const {
-    for (int axis = 0; axis < 3; ++axis) {
-      const Vector3 arm = half_size * Vector3::Unit(axis);
-      draw(centre - arm, 2 * arm, colour);
-    }
-  }
-
- private:
-  btVector3 toWorld(const Vector3& point) const {
-    return toBullet(Vector3(pose_.position + pose_.orientation * point));
-  }
-
-  const RigidState& pose_;
-  btIDebugDraw& drawer_;
-};
-
-/// Draws faces of one part of a body; `shape`: by the form law, else null.
+/// Draws faces of one part of a body by draw(from, arrow, colour); `shape`: by the form law, else
+/// null.
+template <class Draw>
 void drawFaces(const FaceTable& faces, const ShapeFactors* shape, const AmbientBody& ambient,
-               const Twist& relative, const FluidDrawing& what, const Arrows& arrows) {
+               const Twist& relative, const FluidDrawing& what, const Draw& draw_arrow) {
   const FrameOffset& frame = ambient.def->fluid_frame;
   LoadSettings settings = loadSettings(ambient.medium, ambient.def->flow);
   settings.shape = shape;
-  const bool is_form = shape != nullptr;
   const double length = ambient.model().reference_length;
   const Twist x_F = frame.toF(relative);
-  const double normal_length = what.normal_length * length;
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const FaceFlow flow = computeFaceFlow(faces, i, length, x_F, settings);
     const Vector3 at = frame.rotation * faces.centroid(i) + frame.translation;
     const auto draw = [&](double scale, const Vector3& vector_F, const btVector3& colour) {
-      arrows.draw(at, scale * (frame.rotation * vector_F), colour);
+      draw_arrow(at, scale * (frame.rotation * vector_F), colour);
     };
-    if (what.separation) {
-      draw(normal_length, faces.normal(i),
+    if (what.separation)
+      draw(what.normal_length * length, faces.normal(i),
            flow.is_attached ? fluid_colours::kAttached : fluid_colours::kSeparated);
-    }
-    if (what.pressure && (flow.is_attached || is_form))
+    if (what.pressure && (flow.is_attached || shape))
       draw(what.length_per_face_force, flow.pressure, fluid_colours::kPressure);
     if (!flow.is_attached) continue;
     if (what.slip_velocity) draw(what.length_per_velocity, flow.slip, fluid_colours::kSlip);
@@ -71,17 +55,18 @@ void drawFaces(const FaceTable& faces, const ShapeFactors* shape, const AmbientB
   }
 }
 
-void drawFaces(const AmbientBody& ambient, const Twist& relative, const FluidDrawing& what,
-               const Arrows& arrows) {
+template <class Draw>
+void drawAllFaces(const AmbientBody& ambient, const Twist& relative, const FluidDrawing& what,
+                  const Draw& draw) {
   const std::shared_ptr<const FluidBody>& body = ambient.def->fluid_body;
   if (ambient.def->flow.law != PressureLaw::kForm || body->sphere_radius > 0)
-    return drawFaces(facesOf(*body), nullptr, ambient, relative, what, arrows);
+    return drawFaces(facesOf(*body), nullptr, ambient, relative, what, draw);
   const LoadTables tables(body);
   const LoadTables::Parts parts = tables.parts();
   for (const BodyPart& part : *parts)
-    drawFaces(part.faces, &part.shape, ambient, relative, what, arrows);
+    drawFaces(part.faces, &part.shape, ambient, relative, what, draw);
   if (parts->empty())
-    drawFaces(body->form.faces, tables.shape().get(), ambient, relative, what, arrows);
+    drawFaces(body->form.faces, tables.shape().get(), ambient, relative, what, draw);
 }
 
 void drawWrenches(const WrenchSensor& sensor, const Vector3& place, double length_per_force,
@@ -97,8 +82,7 @@ void drawWrenches(const WrenchSensor& sensor, const Vector3& place, double lengt
 }
 
 // Each edge of the holds' triangles once, and the levels of their water.
-void drawHolds(const AmbientBody& ambient, const MotionView& now, const Arrows& arrows,
-               btIDebugDraw& drawer) {
+void drawHolds(const AmbientBody& ambient, const MotionView& now, btIDebugDraw& drawer) {
   if (!ambient.vessel) return;
   const FrameOffset& frame = ambient.def->fluid_frame;
   for (const Hold& hold : ambient.vessel->shape->holds) {
@@ -108,7 +92,8 @@ void drawHolds(const AmbientBody& ambient, const MotionView& now, const Arrows& 
     const std::vector<std::int32_t>& triangles = hold.surface.triangles;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
       const std::int32_t a = triangles[i], b = triangles[i % 3 == 2 ? i - 2 : i + 1];
-      if (a < b) arrows.draw(corner(a), corner(b) - corner(a), fluid_colours::kHolds);
+      if (a < b)
+        drawArrow(now.state, corner(a), corner(b) - corner(a), fluid_colours::kHolds, drawer);
     }
   }
   for (const HoldWater& water : holdsOf(ambient, now))
@@ -119,16 +104,18 @@ void drawHolds(const AmbientBody& ambient, const MotionView& now, const Arrows& 
 
 // Draws a rectangle by its middle and the vectors from there to the middles of two sides, and a
 // line to the leading edge.
+template <class Draw>
 void drawPlate(const Vector3& middle, const Vector3& half_span, const Vector3& half_chord,
-               const Vector3& nose, const btVector3& colour, const Arrows& arrows) {
+               const Vector3& nose, const btVector3& colour, const Draw& draw) {
   for (const double side : {-1.0, 1.0}) {
-    arrows.draw(middle - half_span + side * half_chord, 2 * half_span, colour);
-    arrows.draw(middle - half_chord + side * half_span, 2 * half_chord, colour);
+    draw(middle - half_span + side * half_chord, 2 * half_span, colour);
+    draw(middle - half_chord + side * half_span, 2 * half_chord, colour);
   }
-  if (!nose.isZero(0)) arrows.draw(middle, nose, colour);
+  if (!nose.isZero(0)) draw(middle, nose, colour);
 }
 
-void drawWings(const AttachDef& def, const Arrows& arrows) {
+template <class Draw>
+void drawWings(const AttachDef& def, const Draw& draw) {
   const Matrix3& to_B = def.fluid_frame.rotation;
   const auto inBody = [&](const Vector3& place_F) -> Vector3 {
     return to_B * place_F + def.fluid_frame.translation;
@@ -138,14 +125,14 @@ void drawWings(const AttachDef& def, const Arrows& arrows) {
     const Vector3 half_span = to_B * (wing.span / 2 * wing.span_axis);
     const Vector3 half_chord = to_B * (wing.chord / 2 * wing.span_axis.cross(wing.facing));
     drawPlate(inBody(wing.centre), half_span, half_chord, wing.nose * half_chord,
-              fluid_colours::kWings[number++ % std::size(fluid_colours::kWings)], arrows);
+              fluid_colours::kWings[number++ % std::size(fluid_colours::kWings)], draw);
   }
   for (std::size_t i = 0; def.flow.foils && i < def.flow.foils->size(); ++i) {
     const Foil& foil = def.flow.foils->foil(i);
     const Matrix3 axes = to_B * def.flow.foils->axesOf(i);
     const Vector3 half_chord = foil.chord / 2 * axes.col(0);
     drawPlate(inBody(foil.position), foil.span / 2 * axes.col(1), half_chord, half_chord,
-              fluid_colours::kFoils, arrows);
+              fluid_colours::kFoils, draw);
   }
 }
 
@@ -195,31 +182,33 @@ void drawFluid(const AmbientBody& ambient, const MotionView& now, const FluidDra
   Surroundings s = surroundingsOf(ambient, now.gravity, {});
   addFlowAlong(ambient, state.orientation, s);
   const Quaternion to_body = state.orientation.conjugate();
-  const Arrows arrows(state, drawer);
+  const auto draw = [&](const Vector3& from, const Vector3& arrow, const btVector3& colour) {
+    drawArrow(state, from, arrow, colour, drawer);
+  };
   Twist relative = state.twist;
   relative.linear -= to_body * s.ambient_velocity;
-  if (what.drawsFaces()) drawFaces(ambient, relative, what, arrows);
-  if (what.holds) drawHolds(ambient, now, arrows, drawer);
-  if (what.wings) drawWings(*ambient.def, arrows);
+  if (what.drawsFaces()) drawAllFaces(ambient, relative, what, draw);
+  if (what.holds) drawHolds(ambient, now, drawer);
+  if (what.wings) drawWings(*ambient.def, draw);
 
   const Vector3& centre = model.centre_of_volume;
   const Wrench lift =
       buoyancy(model.displaced_mass, centre, to_body * (s.gravity - s.ambient_acceleration));
   if (what.buoyancy) {
-    arrows.draw(centre, what.length_per_force * lift.force, fluid_colours::kBuoyancy);
+    draw(centre, what.length_per_force * lift.force, fluid_colours::kBuoyancy);
   }
   if (what.total_wrench) {
     Wrench total = lift;
     if (model.loads)
       total += wholeLoad(computeSurfaceLoad(model, relative, s), model.resistance.get(), relative);
-    arrows.draw(Vector3::Zero(), what.length_per_force * total.force, fluid_colours::kForce);
-    arrows.draw(Vector3::Zero(), what.length_per_torque * total.torque, fluid_colours::kTorque);
+    draw(Vector3::Zero(), what.length_per_force * total.force, fluid_colours::kForce);
+    draw(Vector3::Zero(), what.length_per_torque * total.torque, fluid_colours::kTorque);
   }
   if (what.read_forces && ambient.sensor)
     drawWrenches(*ambient.sensor, state.position, what.length_per_force, drawer);
-  if (what.centre_of_volume) {
-    arrows.drawCross(centre, what.normal_length * model.reference_length / 2,
-                     fluid_colours::kBuoyancy);
+  for (int axis = 0; axis < 3 && what.centre_of_volume; ++axis) {
+    const Vector3 arm = what.normal_length * model.reference_length / 2 * Vector3::Unit(axis);
+    draw(centre - arm, 2 * arm, fluid_colours::kBuoyancy);
   }
 }
 

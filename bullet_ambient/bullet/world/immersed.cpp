@@ -14,7 +14,6 @@
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/bullet/members/attach.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
-#include "bullet_ambient/bullet/world/tree_now.h"
 #include "bullet_ambient/fluid.h"
 #include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/immersed/wrench_sensor.h"
@@ -29,6 +28,12 @@ MotionView presentMotion(const AmbientBody& ambient, const AmbientBodies& bodies
   AmbientLink& link = bodies.trees.linkOf(ambient);
   readLinkPose(*ambient.multi_body, link);
   return link.now;
+}
+
+// Returns the present pose and velocity.
+MotionView presentVelocity(const AmbientBody& ambient, const AmbientBodies& bodies) {
+  if (!ambient.body) computeLinkPosesNow(bodies.trees.treeOf(ambient));
+  return presentMotion(ambient, bodies);
 }
 
 void replaceDef(AmbientBody& ambient, AttachDef def, AmbientBodies& bodies) {
@@ -157,25 +162,28 @@ Immersed::Access Immersed::require(const char* function) const {
                                     : ": this Immersed was removed from its Fluid"));
 }
 
+Immersed::Access Immersed::requireChangeable(const char* function) const {
+  Access access = require(function);
+  access.bodies->requireChangeable(function);
+  return access;
+}
+
 bool Immersed::isValid() const noexcept { return lock().ambient; }
 
 void Immersed::setMedium(const Medium& medium) const {
-  const Access access = require("setMedium");
-  access.bodies->requireChangeable("setMedium");
+  const Access access = requireChangeable("setMedium");
   if (changeMedium(*access.ambient, medium, *access.bodies)) wake(*access.ambient);
 }
 
 void Immersed::setFluidBody(std::shared_ptr<const FluidBody> fluid_body,
                             const std::optional<FrameOffset>& fluid_frame) const {
-  const Access access = require("setFluidBody");
-  access.bodies->requireChangeable("setFluidBody");
+  const Access access = requireChangeable("setFluidBody");
   changeFluidBody(*access.ambient, std::move(fluid_body), fluid_frame, *access.bodies);
   wake(*access.ambient);
 }
 
 void Immersed::setFactors(double added_mass, double loads) const {
-  const Access access = require("setFactors");
-  access.bodies->requireChangeable("setFactors");
+  const Access access = requireChangeable("setFactors");
   AttachDef def = *access.ambient->def;
   if (added_mass == def.added_mass_factor && loads == def.load_factor) return;
   def.added_mass_factor = added_mass;
@@ -205,21 +213,18 @@ Matrix6 Immersed::inertia() const {
 
 double Immersed::kineticEnergy() const {
   const Access access = require("kineticEnergy");
-  if (!access.ambient->body) computeLinkPosesNow(access.bodies->trees.treeOf(*access.ambient));
-  return kineticEnergyNow(*access.ambient, presentMotion(*access.ambient, *access.bodies));
+  return kineticEnergyNow(*access.ambient, presentVelocity(*access.ambient, *access.bodies));
 }
 
 AmbientCounters Immersed::counters() const { return require("counters").ambient->counters; }
 
 void Immersed::readWrench(bool is_read) const {
-  const Access access = require("readWrench");
-  access.bodies->requireChangeable("readWrench");
+  const Access access = requireChangeable("readWrench");
   AmbientBody& ambient = *access.ambient;
   if (is_read == (ambient.sensor != nullptr)) return;
   ambient.sensor = is_read ? std::make_shared<WrenchSensor>() : nullptr;
   if (!is_read) return;
-  if (!access.ambient->body) computeLinkPosesNow(access.bodies->trees.treeOf(*access.ambient));
-  ambient.sensor->wrench = wrenchNow(ambient, presentMotion(*access.ambient, *access.bodies));
+  ambient.sensor->wrench = wrenchNow(ambient, presentVelocity(*access.ambient, *access.bodies));
 }
 
 FluidWrench Immersed::wrench() const {
@@ -242,8 +247,7 @@ std::vector<HoldWater> Immersed::holds() const {
 }
 
 void Immersed::setWater(int hold, double volume) const {
-  const Access access = require("setWater");
-  access.bodies->requireChangeable("setWater");
+  const Access access = requireChangeable("setWater");
   AmbientBody& ambient = *access.ambient;
   HoldState& state = holdOf("setWater", ambient, hold);
   checkWater("setWater: " + nameOf(*ambient.def), hold, volume,
@@ -257,8 +261,7 @@ void Immersed::setWater(int hold, double volume) const {
 }
 
 void Immersed::pump(int hold, double rate) const {
-  const Access access = require("pump");
-  access.bodies->requireChangeable("pump");
+  const Access access = requireChangeable("pump");
   HoldState& state = holdOf("pump", *access.ambient, hold);
   if (!std::isfinite(rate))
     throw std::invalid_argument("pump: the rate [m^3/s] is " + std::to_string(rate) +
@@ -268,8 +271,7 @@ void Immersed::pump(int hold, double rate) const {
 }
 
 void Immersed::setOpening(int hold, int opening, bool is_open) const {
-  const Access access = require("setOpening");
-  access.bodies->requireChangeable("setOpening");
+  const Access access = requireChangeable("setOpening");
   const AmbientBody& ambient = *access.ambient;
   holdOf("setOpening", ambient, hold);
   const int found = findOpening(*ambient.vessel, hold, opening);
@@ -282,8 +284,7 @@ void Immersed::setOpening(int hold, int opening, bool is_open) const {
 }
 
 int Immersed::addOpening(int hold, const Vector3& place, const Vector3& normal, double area) const {
-  const Access access = require("addOpening");
-  access.bodies->requireChangeable("addOpening");
+  const Access access = requireChangeable("addOpening");
   const AmbientBody& ambient = *access.ambient;
   holdOf("addOpening", ambient, hold);
   checkHole(*ambient.def, place, normal, area);
@@ -300,18 +301,6 @@ int Immersed::addOpening(int hold, const Vector3& place, const Vector3& normal, 
                                    [&](const AddedHole& other) { return other.hold == hold; });
   const auto own = vessel.shape->holds[static_cast<std::size_t>(hold)].openings.size();
   return static_cast<int>(own) + static_cast<int>(added) - 1;
-}
-
-void Immersed::applyImpulse(const Wrench& impulse) const {
-  const Access access = require("applyImpulse");
-  const AmbientTrees& trees = access.bodies->trees;
-  if (access.ambient->body) {
-    applyImpulseToBody(*access.ambient, impulse);
-  } else {
-    applyImpulseToLink(trees, trees.treeOf(*access.ambient), trees.linkOf(*access.ambient).link,
-                       impulse);
-  }
-  wake(*access.ambient);
 }
 
 bool Immersed::remove() const {

@@ -1,8 +1,7 @@
-#include "bullet_ambient/bullet/world/tree_now.h"
-
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 
+#include <list>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -15,10 +14,32 @@
 #include "bullet_ambient/force/surface/hydrostatics.h"
 #include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/impulse.h"
+#include "bullet_ambient/motion/links/link_dynamics.h"
 #include "bullet_ambient/motion/rows/row_velocity.h"
 #include "bullet_ambient/robot_dynamics.h"
 
 AMBIENT_BEGIN
+namespace {
+
+// Copy of the present pose and velocity of a btMultiBody, and of the fluid around its links.
+class TreeNow {
+ public:
+  TreeNow(const AmbientTrees& trees, const btMultiBody& body);
+
+  // Returns the equations of motion of the tree at its pose. The TreeNow must outlive them.
+  LinkDynamics dynamics() const;
+  // Adds the surface loads at the present velocity to the applied forces of the links.
+  void applyLoads();
+
+  Coordinates velocity;
+
+ private:
+  void immerse(AmbientLink& ambient, const btMultiBody& body, const Vector3& gravity);
+
+  LinkTree tree_;
+  std::list<BodyModel> models_;  // tree_ holds pointers to them
+  TreePose pose_;
+};
 
 TreeNow::TreeNow(const AmbientTrees& trees, const btMultiBody& body) : tree_(makeLinkTree(body)) {
   const Vector3 gravity =
@@ -64,6 +85,9 @@ void TreeNow::immerse(AmbientLink& ambient, const btMultiBody& body, const Vecto
   addFlowAlong(ambient.ambient, ambient.now.state.orientation, link.surroundings);
 }
 
+// Returns the velocity change of a body per unit impulse at its centre of mass, 6x6 in world axes:
+// K^-1, or with locked axes K_eff^-1 of docs/theory.md eq. (30). Takes the present mass, pose and
+// waterline.
 Matrix6 inverseInertia(AmbientBody& ambient) {
   const btRigidBody& body = *ambient.body;
   const InverseMass mass = inverseMassOf(body);
@@ -76,6 +100,8 @@ Matrix6 inverseInertia(AmbientBody& ambient) {
   return lockedInverse(rotateAxes(model.inertia, R), factors);
 }
 
+// Adds the velocity change by an impulse at the centre of mass to the velocity of a body. A body
+// without fluid responds with its dry mass.
 void applyImpulseToBody(AmbientBody& ambient, const Wrench& impulse) {
   btRigidBody& body = *ambient.body;
   if (!ambient.isInFluid() || body.isStaticOrKinematicObject()) {
@@ -83,10 +109,11 @@ void applyImpulseToBody(AmbientBody& ambient, const Wrench& impulse) {
     body.applyTorqueImpulse(toBullet(impulse.torque));
     return;
   }
-  const Twist change = Twist::fromVector(inverseInertia(ambient) * impulse.vector());
-  addVelocity(body, change);
+  addVelocity(body, Twist::fromVector(inverseInertia(ambient) * impulse.vector()));
 }
 
+// Adds the change H^-1 J^T impulse to the velocities of a tree. `impulse` acts at the centre of
+// mass of `link` (Bullet's number).
 void applyImpulseToLink(const AmbientTrees& trees, const AmbientTree& tree, int link,
                         const Wrench& impulse) {
   const TreeNow now(trees, *tree.multi_body);
@@ -104,8 +131,6 @@ void applyImpulseToLink(const AmbientTrees& trees, const AmbientTree& tree, int 
   addVelocity(*tree.multi_body, change);
 }
 
-namespace {
-
 // Stock: each axis scaled by its factor, as applyImpulse() has it.
 btMatrix3x3 dryInverseMass(const btRigidBody& body, const btVector3& r) {
   btMatrix3x3 result;
@@ -121,6 +146,18 @@ btMatrix3x3 dryInverseMass(const btRigidBody& body, const btVector3& r) {
 }
 
 }  // namespace
+
+void Immersed::applyImpulse(const Wrench& impulse) const {
+  const Access access = require("applyImpulse");
+  const AmbientTrees& trees = access.bodies->trees;
+  if (access.ambient->body) {
+    applyImpulseToBody(*access.ambient, impulse);
+  } else {
+    applyImpulseToLink(trees, trees.treeOf(*access.ambient), trees.linkOf(*access.ambient).link,
+                       impulse);
+  }
+  wake(*access.ambient);
+}
 
 btMatrix3x3 inverseEffectiveMass(const Fluid& fluid, const btRigidBody& body,
                                  const btVector3& relative_position) {

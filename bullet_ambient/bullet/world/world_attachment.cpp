@@ -7,17 +7,18 @@
 
 #include <algorithm>
 #include <exception>
+#include <map>
 #include <optional>
 #include <set>
 #include <sstream>
 #include <stdexcept>
-#include <unordered_map>
 #include <utility>
 
 #include "bullet_ambient/attach_world.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/bullet/members/attach.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
+#include "bullet_ambient/bullet/world/fluid_action.h"
 
 AMBIENT_BEGIN
 namespace {
@@ -77,10 +78,6 @@ bool isEmpty(const btCollisionShape& shape) {
 
 bool hasShape(const btCollisionObject& object) {
   return object.getCollisionShape() && !isEmpty(*object.getCollisionShape());
-}
-
-const btMultiBodyLinkCollider* colliderOf(const btMultiBody& body, int link) {
-  return link < 0 ? body.getBaseCollider() : body.getLinkCollider(link);
 }
 
 // Counts bodies that were just attached, for one report of all.
@@ -195,18 +192,16 @@ const AmbientBody* WorldAttachment::attach(const Candidate& candidate,
 }
 
 std::vector<btCollisionObject*> WorldAttachment::seeAll(const btCollisionWorld& world) {
-  std::unordered_map<const btCollisionObject*, Seen> before;
-  for (const Seen& seen : seen_) before.emplace(seen.object, seen);
+  const std::map<const btCollisionObject*, int> before(seen_.begin(), seen_.end());
   seen_.clear();
   std::vector<btCollisionObject*> strangers;
   const btCollisionObjectArray& objects = world.getCollisionObjectArray();
   for (int i = 0; i < objects.size(); ++i) {
     if (const auto* collider = btMultiBodyLinkCollider::upcast(objects[i]))
       if (collider->m_multiBody) giveInstanceNumber(*collider->m_multiBody);
-    const Seen seen{objects[i], instanceOf(*objects[i])};
-    const auto known = before.find(seen.object);
-    const bool is_known = known != before.end() && known->second.instance == seen.instance;
-    seen_.push_back(is_known ? known->second : seen);
+    seen_.emplace_back(objects[i], instanceOf(*objects[i]));
+    const auto known = before.find(objects[i]);
+    const bool is_known = known != before.end() && known->second == seen_.back().second;
     strangers.push_back(is_known ? nullptr : objects[i]);
   }
   return strangers;
@@ -270,19 +265,19 @@ AttachReport WorldAttachment::attachNew(btCollisionWorld& world) {
 }
 
 // Removals swap the world's array, and a new body may stand where a destroyed one did.
-bool WorldAttachment::hasMetAll(const btCollisionWorld& world) const noexcept {
+bool WorldAttachment::hasSeenAll(const btCollisionWorld& world) const noexcept {
   const btCollisionObjectArray& objects = world.getCollisionObjectArray();
   if (static_cast<std::size_t>(objects.size()) != seen_.size()) return false;
   for (int i = 0; i < objects.size(); ++i) {
-    const Seen& seen = seen_[static_cast<std::size_t>(i)];
-    if (seen.object != objects[i] || seen.instance != instanceOf(*objects[i])) return false;
+    const auto& [object, instance] = seen_[static_cast<std::size_t>(i)];
+    if (object != objects[i] || instance != instanceOf(*objects[i])) return false;
   }
   return true;
 }
 
 void WorldAttachment::update(btCollisionWorld& world) noexcept {
   try {
-    if (hasMetAll(world)) return;
+    if (hasSeenAll(world)) return;
     for (const AttachReport::Refusal& refusal : attachNew(world).refused)
       bodies_.warnings.report("bullet_ambient: " + refusal.reason);
   } catch (...) {

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <random>
 
-#include "bullet_ambient/bullet/rows/quick_rows.h"
+#include "bullet_ambient/bullet/rows/constraint_rows.h"
 #include "tests/bullet_ambient/bullet/contact/arbitrary_contacts.h"
 
 namespace ambient::test {

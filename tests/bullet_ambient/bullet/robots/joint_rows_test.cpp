@@ -12,7 +12,7 @@
 #include <memory>
 #include <utility>
 
-#include "bullet_ambient/bullet/links/multibody_rows.h"
+#include "bullet_ambient/bullet/rows/constraint_rows.h"
 #include "tests/bullet_ambient/bullet/robots/link_reference.h"
 #include "tests/bullet_ambient/bullet/robots/robot_world.h"
 
