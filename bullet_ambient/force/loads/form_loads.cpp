@@ -10,16 +10,13 @@
 namespace ambient {
 namespace {
 
-/// Loads whose parts a derived class computes at once.
-class ViscousLoads : public SurfaceLoads {
+/// Loads of a law with viscosity, of which a derived class computes pressure and layers at once.
+class ViscousLoads : public LoadsOnPart {
  public:
-  Wrench load(const Twist& x) const noexcept override { return partsOn(x, nullptr).total(); }
-  Wrench wetLoad(const Twist& x, const WetPart& wet) const noexcept override {
-    return partsOn(x, &wet).total();
-  }
-  FaceLoads parts(const Twist& x) const noexcept override { return partsOn(x, nullptr); }
-  FaceLoads wetParts(const Twist& x, const WetPart& wet) const noexcept override {
-    return partsOn(x, &wet);
+  FaceLoads partsOn(const Twist& x, const WetPart* wet) const noexcept override {
+    const Parts parts = compute(x, wet);
+    if (!resistance_) return {parts.pressure, {}};
+    return {parts.pressure, parts.layer + resistance_->load(parts.growth, x)};
   }
   SplitLoad split(const Twist& x, const WetPart* wet) const noexcept override {
     const Parts parts = compute(x, wet);
@@ -34,7 +31,7 @@ class ViscousLoads : public SurfaceLoads {
     Wrench pressure, layer;
     Growth growth;
   };
-  /// Computes the parts on the whole body, or on the part of it in the fluid.
+
   virtual Parts compute(const Twist& x, const WetPart* wet) const noexcept = 0;
 
   /// C becomes C times the share of the body in the fluid.
@@ -44,13 +41,6 @@ class ViscousLoads : public SurfaceLoads {
   }
 
   const Resistance* resistance_ = nullptr;  ///< of the derived class; null: no friction
-
- private:
-  FaceLoads partsOn(const Twist& x, const WetPart* wet) const noexcept {
-    const Parts parts = compute(x, wet);
-    if (!resistance_) return {parts.pressure, {}};
-    return {parts.pressure, parts.layer + resistance_->load(parts.growth, x)};
-  }
 };
 
 ViscousFluid fluidOf(const LoadSettings& settings) {
@@ -62,36 +52,32 @@ ViscousFluid fluidOf(const LoadSettings& settings) {
 /// its rest, and those on its wings are added, eq. (160).
 class FormLoads final : public ViscousLoads {
  public:
-  FormLoads(std::shared_ptr<const SurfaceLoads> on_faces, const LoadTables::Faces& faces,
-            const LoadTables::Body& body, const LoadSettings& settings, double stall_lag)
+  FormLoads(FaceSum on_faces, const LoadTables::Body& body, const LoadSettings& settings,
+            double stall_lag, std::optional<LoadsOnWings> wings)
       : on_faces_(std::move(on_faces)),
+        wings_(std::move(wings)),
         shape_(LoadTables(body).shape()),
-        drag_(*body, *faces,
+        drag_(*body, *allFaces(body),
               [&](const Vector3& frontal) {
-                return LoadTables(body).ownDrag(faces, Matrix3::Identity(), frontal);
+                return LoadTables(body).ownDrag(allFaces(body), Matrix3::Identity(), frontal);
               }),
-        lift_(*body, *shape_, stall_lag),
+        lift_(wings_ ? FormLift(LiftedPart{}, *shape_, 0) : FormLift(*body, *shape_, stall_lag)),
         density_(settings.density),
         centre_(body->centre_of_volume),
         still_axis_(axisOfRevolution(*body)),
         is_round_(!still_axis_.isZero(0)) {
     if (!(settings.viscosity > 0) || !body->viscous.isKnown()) return;
     Vector3 own_drag{0, 0, 0};
-    if (!body->viscous.separation.smooth_base.isZero(0)) own_drag = LoadTables(body).ownDrag(faces);
+    if (!body->viscous.separation.smooth_base.isZero(0))
+      own_drag = LoadTables(body).ownDrag(allFaces(body));
     law_.emplace(*body, shape_->shape, own_drag, fluidOf(settings));
     if (settings.skin_friction) resistance_ = &law_->resistance();
   }
 
-  /// Adds wings, which lift with the rest in place of the body as a whole.
-  void add(LoadsOnWings wings) {
-    wings_ = std::make_unique<const LoadsOnWings>(std::move(wings));
-    lift_ = FormLift(LiftedPart{}, *shape_, 0);
-  }
-
   int faces() const noexcept override {
-    int faces = on_faces_->faces();
+    int faces = on_faces_.faces();
     if (wings_)
-      for (const auto& wing : wings_->on_faces) faces += wing->faces();
+      for (const FaceSum& wing : wings_->on_faces) faces += wing.faces();
     return faces;
   }
   double wakeShare() const noexcept override { return shape_->wakeShare(); }
@@ -121,24 +107,24 @@ class FormLoads final : public ViscousLoads {
   }
 
  private:
+  /// Those of all parts.
+  LoadTables::Faces allFaces(const LoadTables::Body& body) const {
+    return wings_ ? LoadTables::Faces(body, &body->form.faces) : on_faces_.table();
+  }
   /// Pressure on the faces. That on a body of revolution neither sees its spin nor changes it,
   /// docs/theory.md eq. (66b).
   Wrench onFaces(const Twist& x, const WetPart* wet) const noexcept {
-    if (!is_round_) return sumOnFaces(x, wet);
+    if (!is_round_) return on_faces_.sumOn(x, wet);
     const Vector3 spin = still_axis_.dot(x.angular) * still_axis_;
-    Wrench load = sumOnFaces({x.angular - spin, x.linear + spin.cross(centre_)}, wet);
+    Wrench load = on_faces_.sumOn({x.angular - spin, x.linear + spin.cross(centre_)}, wet);
     load.torque -= still_axis_.dot(load.torque - centre_.cross(load.force)) * still_axis_;
     return load;
-  }
-  Wrench sumOnFaces(const Twist& x, const WetPart* wet) const noexcept {
-    return wet ? on_faces_->wetLoad(x, *wet) : on_faces_->load(x);
   }
   Wrench withWings(Wrench load, const Twist& x, const WetPart* wet) const noexcept {
     if (!wings_) return load;
     for (std::size_t i = 0; i < wings_->on_faces.size(); ++i) {
-      const SurfaceLoads& wing = *wings_->on_faces[i];
       const Twist seen = wings_->lift.seenBy(i, x, wet);
-      const Wrench on_wing = wet ? wing.wetLoad(seen, *wet) : wing.load(seen);
+      const Wrench on_wing = wings_->on_faces[i].sumOn(seen, wet);
       load += on_wing + wings_->lift.bySection(i, seen, density_, wet, on_wing);
     }
     return load;
@@ -157,16 +143,16 @@ class FormLoads final : public ViscousLoads {
     return atCentre({turning * (load.torque - centre_.cross(load.force)), moving * load.force});
   }
 
-  std::shared_ptr<const SurfaceLoads> on_faces_;
+  FaceSum on_faces_;
+  std::optional<LoadsOnWings> wings_;  ///< they lift with the rest in place of the body as a whole
   LoadTables::Shape shape_;
   DragScale drag_;
   FormLift lift_;
   double density_;
   Vector3 centre_;
-  Vector3 still_axis_;                         ///< of a body of revolution, unit; else 0
-  bool is_round_;                              ///< there is such an axis
-  std::optional<ViscousLaw> law_;              ///< none: no viscosity
-  std::unique_ptr<const LoadsOnWings> wings_;  ///< null: the body is one part
+  Vector3 still_axis_;             ///< of a body of revolution, unit; else 0
+  bool is_round_;                  ///< there is such an axis
+  std::optional<ViscousLaw> law_;  ///< none: no viscosity
 };
 
 /// Form law on a ball in closed form, docs/theory.md eq. (119); on the part of it that is in the
@@ -223,14 +209,34 @@ class BallLoads final : public ViscousLoads {
 
 }  // namespace
 
-std::shared_ptr<const SurfaceLoads> makeFormLoads(std::shared_ptr<const SurfaceLoads> on_faces,
-                                                  const LoadTables::Faces& faces,
-                                                  const LoadTables::Body& body,
+FaceSum::FaceSum(const LoadTables::Body& body, LoadTables::Faces faces,
+                 const LoadSettings& settings, LoadPrecision precision)
+    : faces_(std::move(faces)), reference_length_(std::sqrt(body->area)), settings_(settings) {
+  if (precision == LoadPrecision::kSingle)
+    packed_ = LoadTables(body).packedFaces(faces_, settings.shape);
+}
+
+Wrench FaceSum::sumOn(const Twist& x, const WetPart* wet) const noexcept {
+  const SurfacePlane* const plane = wet ? &wet->plane : nullptr;
+  if (isInSingle(wet)) return computeFaceLoad(*packed_, reference_length_, x, settings_, plane);
+  return computeFaceLoads(*faces_, reference_length_, x, settings_, plane).total();
+}
+
+FaceLoads FaceSum::partsOn(const Twist& x, const WetPart* wet) const noexcept {
+  const SurfacePlane* const plane = wet ? &wet->plane : nullptr;
+  if (!isInSingle(wet)) return computeFaceLoads(*faces_, reference_length_, x, settings_, plane);
+  // Friction is what the sum lacks without it.
+  LoadSettings smooth = settings_;
+  smooth.skin_friction = false;
+  const Wrench pressure = computeFaceLoad(*packed_, reference_length_, x, smooth, plane);
+  return {pressure, sumOn(x, wet) + -1.0 * pressure};
+}
+
+std::shared_ptr<const SurfaceLoads> makeFormLoads(FaceSum on_faces, const LoadTables::Body& body,
                                                   const LoadSettings& settings, double stall_lag,
                                                   std::optional<LoadsOnWings> wings) {
-  auto loads = std::make_shared<FormLoads>(std::move(on_faces), faces, body, settings, stall_lag);
-  if (wings) loads->add(*std::move(wings));
-  return loads;
+  return std::make_shared<FormLoads>(std::move(on_faces), body, settings, stall_lag,
+                                     std::move(wings));
 }
 
 std::shared_ptr<const SurfaceLoads> makeBallLoads(std::shared_ptr<const SurfaceLoads> on_unit,
