@@ -3,23 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <sstream>
-#include <stdexcept>
 #include <utility>
 
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/force/loads/form_loads.h"
+#include "bullet_ambient/force/medium/input_checks.h"
 
 namespace ambient {
 namespace {
 
 template <class... Parts>
 [[noreturn]] void refuseFoil(std::size_t index, const Parts&... parts) {
-  std::ostringstream line;
-  line << "foil " << index << ": its ";
-  (line << ... << parts);
-  throw std::invalid_argument(line.str());
+  refuseInput("foil ", index, ": its ", parts...);
 }
 
 void checkPolar(const std::vector<FoilPoint>& polar, std::size_t index) {

@@ -3,21 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "bullet_ambient/base/elementary.h"
+#include "bullet_ambient/force/medium/input_checks.h"
 
 namespace ambient {
 namespace {
-
-[[noreturn]] void rejectLayers(const std::string& what, double value, const char* limit) {
-  std::ostringstream sentence;
-  sentence << what << " is " << value << "; must be " << limit;
-  throw std::invalid_argument(sentence.str());
-}
 
 double interpolated(const DensityLevel& low, const DensityLevel& high, double height) noexcept {
   const double part = (height - low.height) / (high.height - low.height);
@@ -49,14 +43,14 @@ DensityLayers::DensityLayers(std::vector<DensityLevel> levels, const Vector3& up
   if (!(up.norm() > 0) || !up.allFinite())
     throw std::invalid_argument("the direction up of the layers has no length, or is not finite");
   if (levels_.empty()) throw std::invalid_argument("the layers have no level; must have one");
+  const InputChecks check;
   for (std::size_t i = 0; i < levels_.size(); ++i) {
     const std::string which = "of level " + std::to_string(i) + " of the layers";
     const DensityLevel& level = levels_[i];
-    if (!std::isfinite(level.height)) rejectLayers("height [m] " + which, level.height, "finite");
-    if (i > 0 && level.height < levels_[i - 1].height)
-      rejectLayers("height [m] " + which, level.height, "at least that of the level before");
-    if (!(level.density >= 0) || !std::isfinite(level.density))
-      rejectLayers("density [kg/m^3] " + which, level.density, "zero or positive and finite");
+    check.finite("height [m] " + which, level.height);
+    check.require(i == 0 || level.height >= levels_[i - 1].height, "height [m] " + which,
+                  level.height, "at least that of the level before");
+    check.notNegative("density [kg/m^3] " + which, level.density);
   }
 }
 
@@ -75,8 +69,7 @@ std::shared_ptr<const DensityLayers> layers(std::vector<DensityLevel> levels, co
 
 Medium standardAtmosphere(double height) {
   constexpr double kLowest = -5000, kHighest = 86000, kEarth = 6356766;
-  if (!(height >= kLowest && height <= kHighest))
-    rejectLayers("height in the standard atmosphere [m]", height, "from -5000 to 86000");
+  InputChecks{}.within("height in the standard atmosphere [m]", height, kLowest, kHighest);
   const double geopotential = kEarth * height / (kEarth + height);
   const AirLayer* base = kAir;
   double pressure = 101325;
@@ -93,8 +86,8 @@ Medium standardAtmosphere(double height) {
 
 std::shared_ptr<const DensityLayers> airLayers(double lowest, double highest, const Vector3& up) {
   constexpr double kStep = 100;
-  if (!(highest > lowest))
-    rejectLayers("highest level of the air [m]", highest, "above the lowest");
+  InputChecks{}.require(highest > lowest, "highest level of the air [m]", highest,
+                        "above the lowest");
   const double density = standardAtmosphere(highest).density;  // refuses before the loop
   std::vector<DensityLevel> levels;
   for (double height = lowest; height < highest; height += kStep)

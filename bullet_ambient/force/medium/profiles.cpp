@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/force/medium/flow_checks.h"
+#include "bullet_ambient/force/medium/input_checks.h"
 
 namespace ambient {
 namespace {
@@ -29,16 +28,15 @@ FlowField operator+(FlowField a, FlowField b) {
 }
 
 FlowField windProfile(const WindProfile& wind) {
-  const FlowChecks check{"wind profile"};
+  const InputChecks check{"wind profile"};
   const Vector3 up = check.direction("up", wind.up);
   const Vector3 velocity =
       check.finite("velocity [m/s]", wind.velocity) - wind.velocity.dot(up) * up;
-  check.require(wind.height > 0 && std::isfinite(wind.height), "height [m]", wind.height,
-                "positive and finite");
+  check.positive("height [m]", wind.height);
   check.require(wind.roughness >= 0 && wind.roughness < wind.height, "roughness [m]",
                 wind.roughness, "from 0 to below the height");
-  check.require(wind.exponent >= 0 && wind.exponent <= 1, "exponent", wind.exponent, "from 0 to 1");
-  check.require(std::isfinite(wind.ground), "ground [m]", wind.ground, "finite");
+  check.within("exponent", wind.exponent, 0, 1);
+  check.finite("ground [m]", wind.ground);
   const double ground = wind.ground, roughness = wind.roughness, height = wind.height;
   if (roughness > 0)
     return [=, over = Vector3(velocity / portable::log(height / roughness))](const Vector3& point_W,
@@ -56,9 +54,9 @@ FlowField windProfile(const WindProfile& wind) {
 }
 
 FlowField currentProfile(std::vector<CurrentLevel> levels, double surface, const Vector3& upward) {
-  const FlowChecks check{"current profile"};
+  const InputChecks check{"current profile"};
   const Vector3 up = check.direction("up", upward);
-  check.require(std::isfinite(surface), "surface [m]", surface, "finite");
+  check.finite("surface [m]", surface);
   check.require(!levels.empty(), "number of levels", 0, "at least 1");
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const std::string which = " of level " + std::to_string(i);
@@ -84,11 +82,10 @@ FlowField currentProfile(std::vector<CurrentLevel> levels, double surface, const
 }
 
 FlowField discreteGust(const DiscreteGust& gust) {
-  const FlowChecks check{"discrete gust"};
+  const InputChecks check{"discrete gust"};
   check.finite("velocity [m/s]", gust.velocity);
-  check.require(std::isfinite(gust.start), "start [s]", gust.start, "finite");
-  check.require(gust.rise > 0 && std::isfinite(gust.rise), "rise [s]", gust.rise,
-                "positive and finite");
+  check.finite("start [s]", gust.start);
+  check.positive("rise [s]", gust.rise);
   check.require(gust.hold >= 0, "hold [s]", gust.hold, "zero or positive");
   return [gust](const Vector3&, double time) {
     const double since = time - gust.start, until = 2 * gust.rise + gust.hold - since;

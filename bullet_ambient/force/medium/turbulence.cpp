@@ -10,7 +10,7 @@
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/philox.h"
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/force/medium/flow_checks.h"
+#include "bullet_ambient/force/medium/input_checks.h"
 #include "bullet_ambient/spatial/rotation.h"
 
 namespace ambient {
@@ -269,13 +269,11 @@ DrydenScales drydenScales(const DrydenGusts& gusts) {
 }
 
 FlowField drydenGusts(const DrydenGusts& gusts) {
-  const FlowChecks check{"Dryden gusts"};
+  const InputChecks check{"Dryden gusts"};
   check.require(gusts.height >= 3.048 && std::isfinite(gusts.height), "height [m]", gusts.height,
                 "at least 3.048 and finite");
-  check.require(gusts.speed > 0 && std::isfinite(gusts.speed), "speed [m/s]", gusts.speed,
-                "positive and finite");
-  check.require(gusts.intensity >= 0 && std::isfinite(gusts.intensity), "intensity [m/s]",
-                gusts.intensity, "zero or positive and finite");
+  check.positive("speed [m/s]", gusts.speed);
+  check.notNegative("intensity [m/s]", gusts.intensity);
   const Vector3 up = check.direction("up", gusts.up);
   Matrix3 axes;
   axes.col(0) = check.direction("the horizontal part of the direction",
@@ -286,22 +284,17 @@ FlowField drydenGusts(const DrydenGusts& gusts) {
 }
 
 FlowField gaussMarkovGusts(const GaussMarkovGusts& gusts) {
-  const FlowChecks check{"Gauss-Markov gusts"};
-  for (const double sigma : gusts.intensity)
-    check.require(sigma >= 0 && std::isfinite(sigma), "intensity [m/s]", sigma,
-                  "zero or positive and finite");
-  check.require(gusts.time > 0 && std::isfinite(gusts.time), "time [s]", gusts.time,
-                "positive and finite");
+  const InputChecks check{"Gauss-Markov gusts"};
+  for (const double sigma : gusts.intensity) check.notNegative("intensity [m/s]", sigma);
+  check.positive("time [s]", gusts.time);
   return everywhere(
       {{Vector3::Constant(gusts.time), gusts.intensity}, 1, Matrix3::Identity(), 3, gusts.seed});
 }
 
 FlowField turbulence(const Turbulence& turbulence) {
-  const FlowChecks check{"turbulence"};
-  check.require(turbulence.length > 0 && std::isfinite(turbulence.length), "length [m]",
-                turbulence.length, "positive and finite");
-  check.require(turbulence.intensity >= 0 && std::isfinite(turbulence.intensity), "intensity [m/s]",
-                turbulence.intensity, "zero or positive and finite");
+  const InputChecks check{"turbulence"};
+  check.positive("length [m]", turbulence.length);
+  check.notNegative("intensity [m/s]", turbulence.intensity);
   check.require(turbulence.smallest >= 0 && turbulence.smallest <= turbulence.length,
                 "smallest wavelength [m]", turbulence.smallest, "from 0 to the length");
   check.finite("velocity that carries it [m/s]", turbulence.carried);
