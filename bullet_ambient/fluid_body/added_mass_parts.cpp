@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
-#include "bullet_ambient/fluid_body/block_order.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
@@ -13,6 +13,34 @@ namespace {
 
 constexpr std::size_t kParts = PartBlock::kParts;
 constexpr std::uint32_t kImages = 8;
+
+using Order = std::vector<std::uint32_t>;
+
+Eigen::Index widestAxis(const std::vector<Vector6>& coordinates, Order::iterator begin,
+                        Order::iterator end) {
+  Vector6 low = coordinates[*begin], high = low;
+  for (auto at = begin; at != end; ++at) {
+    low = low.cwiseMin(coordinates[*at]);
+    high = high.cwiseMax(coordinates[*at]);
+  }
+  Eigen::Index axis = 0;
+  (high - low).maxCoeff(&axis);
+  return axis;
+}
+
+void sortInBlocks(const std::vector<Vector6>& coordinates, std::ptrdiff_t block_size,
+                  Order::iterator begin, Order::iterator end) {
+  const std::ptrdiff_t blocks = (end - begin + block_size - 1) / block_size;
+  if (blocks <= 1) return std::sort(begin, end);
+  const auto middle = begin + (blocks + 1) / 2 * block_size;
+  const Eigen::Index axis = widestAxis(coordinates, begin, end);
+  std::nth_element(begin, middle, end, [&](std::uint32_t a, std::uint32_t b) {
+    const double x = coordinates[a][axis], y = coordinates[b][axis];
+    return x < y || (x == y && a < b);
+  });
+  sortInBlocks(coordinates, block_size, begin, middle);
+  sortInBlocks(coordinates, block_size, middle, end);
+}
 
 /// Neighbours in one half of a block: the water covers them together.
 std::vector<std::uint32_t> orderByPlace(const std::vector<AddedMassPart>& parts) {
@@ -220,6 +248,14 @@ AddedMassParts AddedMassParts::scaled(double factor) const {
     result.places_.push_back(kImages * numbers[place / kImages] + place % kImages);
   result.pack(parts);
   return result;
+}
+
+std::vector<std::uint32_t> orderInBlocks(const std::vector<Vector6>& coordinates,
+                                         std::size_t block_size) {
+  Order order(coordinates.size());
+  std::iota(order.begin(), order.end(), 0u);
+  sortInBlocks(coordinates, static_cast<std::ptrdiff_t>(block_size), order.begin(), order.end());
+  return order;
 }
 
 }  // namespace ambient

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/fnv1a.h"
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/spatial/inertia.h"
@@ -343,6 +344,17 @@ std::uint64_t contentHash(const FluidBody& body) {
   }
   appendWings(body, bytes);
   return fnv1a64(bytes);
+}
+
+double boxTurning(double a, double b) noexcept {
+  constexpr double kPi5 = kPi * kPi * kPi * kPi * kPi;
+  const double ratio = std::sqrt(std::max(a, b) / std::min(a, b));
+  const double decay = portable::exp(-kPi * ratio);
+  const double tanh = (1 - decay) / (1 + decay);  // of half of that
+  const double part = 1 + ratio * ratio;
+  const double share =
+      std::isfinite(ratio) ? 1 - 4 / part + 768 / kPi5 * (tanh + 0.0045) / (ratio * part) : 1;
+  return (a + b) / 12 * share;
 }
 
 }  // namespace ambient

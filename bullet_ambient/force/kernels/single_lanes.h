@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bullet_ambient/base/lanes.h"
-#include "bullet_ambient/force/kernels/load_sums.h"
+#include "bullet_ambient/force/kernels/single_sums.h"
 #include "bullet_ambient/force/law/skin_friction.h"
 
 // Arithmetic of floats with products that are rounded once, and sums over lanes, for sources that
@@ -58,28 +58,13 @@ inline Floats positivePart(Floats x) { return _mm256_max_ps(x, Floats{}); }
 inline Floats positivePart(Floats x) { return x > 0.0f ? x : Floats{}; }
 #endif
 
-/// Operations of PlainArithmetic (law/wing_pressure.h), with sums of products rounded once.
+/// Operations of PlainArithmetic (law/face_pressure.h), with sums of products rounded once.
 struct FusedArithmetic {
   using Real = Floats;
   static Floats plus(Floats c, Floats a, Floats b) { return plusProduct(c, a, b); }
   static Floats less(Floats c, Floats a, Floats b) { return lessProduct(c, a, b); }
   static Floats positive(Floats x) { return positivePart(x); }
 };
-
-/// Returns 1 / sqrt(x) for normal x > 0 with a relative error of 8e-7, without a division; finite
-/// for x = 0.
-inline Floats inverseRoot(Floats x) {
-  Ints bits;
-  __builtin_memcpy(&bits, &x, sizeof bits);
-  bits = 0x5f376908 - (bits >> 1);
-  Floats r;
-  __builtin_memcpy(&r, &bits, sizeof r);
-  const Floats half = 0.5f * x;
-  // Newton's steps with slightly more than 3/2: with 3/2 the result is always too small (Moroz et
-  // al. 2018).
-  r = r * lessProduct(Floats{} + 1.50087896f, half * r, r);
-  return r * lessProduct(Floats{} + 1.5000006f, half * r, r);
-}
 
 using Vectors = VectorsOf<Floats>;
 

@@ -5,7 +5,6 @@
 #include "bullet_ambient/base/instruction_set.h"
 #include "bullet_ambient/force/kernels/single_lanes.h"
 #include "bullet_ambient/force/law/face_pressure.h"
-#include "bullet_ambient/force/law/wet_share.h"
 
 // Compiled once per instruction set; AMBIENT_KERNEL() adds its name to that of the function.
 

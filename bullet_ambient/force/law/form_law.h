@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bullet_ambient/fluid_body/body_parts.h"
-#include "bullet_ambient/force/law/wing_pressure.h"
+#include "bullet_ambient/force/law/face_pressure.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
 
 namespace ambient {

@@ -13,13 +13,22 @@
 #include "bullet_ambient/force/kernels/single_sums.h"
 #include "bullet_ambient/force/law/face_pressure.h"
 #include "bullet_ambient/force/law/form_law.h"
-#include "bullet_ambient/force/law/share_in_pool.h"
 #include "bullet_ambient/force/law/skin_friction.h"
-#include "bullet_ambient/force/law/wet_share.h"
 #include "bullet_ambient/force/medium/surface_plane.h"
 #include "bullet_ambient/spatial/inertia.h"
 
 namespace ambient {
+
+double shareInPool(const PoolSides& sides, const Vector3& centroid, const Vector3& normal,
+                   double radius_sq) noexcept {
+  double share = 1;
+  for (int i = 0; i < sides.count; ++i) {
+    const PoolSides::Side& side = sides.of[i];
+    share *= wetShareOf(side.normal.dot(side.point - centroid), side.normal.dot(normal), radius_sq,
+                        [](double x) { return std::sqrt(x); });
+  }
+  return share;
+}
 
 namespace {
 

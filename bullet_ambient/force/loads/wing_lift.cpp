@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/force/law/share_in_pool.h"
+#include "bullet_ambient/force/loads/face_loads.h"
 
 namespace ambient {
 namespace {
