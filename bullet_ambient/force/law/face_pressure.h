@@ -118,18 +118,6 @@ inline Real windwardPressure(const Real& normal_speed, const Real& speed,
   return normal_speed > zero ? pressure : zero;
 }
 
-/// Complete q of eq. (43): windwardPressure() on the windward side, suction on the lee side.
-template <class Real>
-inline Real formPressure(const Real& normal_speed, const Real& speed,
-                         const FormFactors<Real>& factors) {
-  return windwardPressure(normal_speed, speed, factors) -
-         (factors.by_lee * normal_speed) * normal_speed;
-}
-
-// Laws of the pressure on a face, for all sums over faces and for single faces. Each law has
-//   of(face)
-// which returns the FacePressure of a FaceState. withPressure() must list the law, too.
-
 /// Motion of a face, and further quantities as functions, which only laws that need them call.
 /// `Real`: a number or a vector of numbers.
 template <class Real, class Speed, class Factors, class Wing>
@@ -151,68 +139,46 @@ struct FacePressure {
   Real total, lift;
 };
 
-/// Pressure of the slip, docs/theory.md eq. (14).
-struct PublishedPressure {
-  static constexpr bool kPressesLee =
-      false;  ///< true: faces on the lee side, which the flow has left, feel pressure
-  static constexpr bool kIsSlender = false;  ///< `speed` is speedAcross()
-  static constexpr bool kLifts = false;
-  static constexpr bool kIsPart = false;      ///< of a wing of a body that has several parts
-  static constexpr bool kHasFriction = true;  ///< of faces; the angle of separation may be larger
-                                              ///< than pi/2
-  using Windward = PublishedPressure;  ///< the law at a right angle without the lee side, which is
-                                       ///< summed separately
-
-  template <class Real, class... Functions>
-  static FacePressure<Real> of(const FaceState<Real, Functions...>& face) {
-    return {face.strength, Real{}};
-  }
-};
-
-/// FormPressure without its lee, which is a quadratic form of the motion, addQuadraticPart().
-template <bool kSlender>
-struct WindwardFormPressure : PublishedPressure {
-  static constexpr bool kIsSlender = kSlender;
-  static constexpr bool kHasFriction = false;
-
-  template <class Real, class... Functions>
-  static FacePressure<Real> of(const FaceState<Real, Functions...>& face) {
-    return {face.area * windwardPressure(face.normal_speed, face.speed(), face.factors()), Real{}};
-  }
-};
-
-/// Form law of eq. (43) and (44) for blocks; `kSlender`: for smooth slender bodies that are no
-/// wings.
-template <bool kSlender>
-struct FormPressure {
-  static constexpr bool kPressesLee = true;
-  static constexpr bool kIsSlender = kSlender;
-  static constexpr bool kLifts = false;
-  static constexpr bool kIsPart = false;
-  static constexpr bool kHasFriction = false;
-  using Windward = WindwardFormPressure<kSlender>;
-
-  template <class Real, class... Functions>
-  static FacePressure<Real> of(const FaceState<Real, Functions...>& face) {
-    const Real pressure = face.area * formPressure(face.normal_speed, face.speed(), face.factors());
-    return {pressure, Real{}};
-  }
-};
-
-/// Form law of eq. (43) to (43d) for wings. `kLee`: with the lee side, which addQuadraticPart() can
-/// sum for a whole body; `kSlender`: for wings that are slender, too; `kPart`: for one part of a
-/// body.
-template <bool kLee, bool kSlender, bool kPart = false>
-struct WingPressure {
+/// Law of the pressure on a face, for all sums over faces and for single faces: that of the slip,
+/// docs/theory.md eq. (14), or with `kForm` the form law, (43) and (44), with `kWing` (43) to
+/// (43d). kSlender: `speed` is speedAcross(); kPart: of a wing of a body that has several parts;
+/// kLee: faces on the lee side, which the flow has left, feel pressure.
+template <bool kForm, bool kWing = false, bool kSlender = false, bool kPart = false,
+          bool kLee = kForm>
+struct FaceLaw {
   static constexpr bool kPressesLee = kLee;
   static constexpr bool kIsSlender = kSlender;
-  static constexpr bool kLifts = true;
+  static constexpr bool kLifts = kWing;
   static constexpr bool kIsPart = kPart;
-  static constexpr bool kHasFriction = false;
-  using Windward = WingPressure<false, kSlender, kPart>;
+  /// Of faces; the angle of separation may be larger than pi/2.
+  static constexpr bool kHasFriction = !kForm;
+  /// The law at a right angle without its lee side, which is a quadratic form of the motion of a
+  /// whole body, addQuadraticPart().
+  using Windward = FaceLaw<kForm, kWing, kSlender, kPart, false>;
 
   template <class Real, class... Functions>
   static FacePressure<Real> of(const FaceState<Real, Functions...>& face) {
+    if constexpr (kWing)
+      return ofWing<Real>(face);
+    else if constexpr (kForm)
+      return {face.area * formPressure(face), Real{}};
+    else
+      return {face.strength, Real{}};
+  }
+
+ private:
+  template <class Face>
+  static auto formPressure(const Face& face) {
+    const auto factors = face.factors();
+    const auto windward = windwardPressure(face.normal_speed, face.speed(), factors);
+    if constexpr (!kLee)
+      return windward;
+    else
+      return windward - (factors.by_lee * face.normal_speed) * face.normal_speed;
+  }
+
+  template <class Real, class Face>
+  static FacePressure<Real> ofWing(const Face& face) {
     return face.wing([&](const auto& flow, const auto& numbers) {
       using Sum = typename std::decay_t<decltype(flow)>::Arithmetic;
       const AttachedFlow<Real> attached = attachedFlow(face.normal_speed, flow, numbers);
@@ -231,7 +197,6 @@ struct WingPressure {
     });
   }
 
- private:
   template <class Face, class Flow>
   static auto speedOf(const Face& face, const Flow& flow) {
     if constexpr (kSlender) return face.speed();
@@ -243,11 +208,11 @@ struct WingPressure {
 /// a block and for the published law.
 template <class Number, class Sum>
 auto withPressure(PressureLaw law, const WingFactors<Number>* wing, const Sum& sum) {
-  if (law != PressureLaw::kForm) return sum(PublishedPressure{});
-  if (!wing) return sum(FormPressure<false>{});
-  if (!wing->is_wing) return sum(FormPressure<true>{});
-  if (wing->is_part) return sum(WingPressure<true, false, true>{});
-  return wing->is_slender ? sum(WingPressure<true, true>{}) : sum(WingPressure<true, false>{});
+  if (law != PressureLaw::kForm) return sum(FaceLaw<false>{});
+  if (!wing) return sum(FaceLaw<true>{});
+  if (!wing->is_wing) return sum(FaceLaw<true, false, true>{});
+  if (wing->is_part) return sum(FaceLaw<true, true, false, true>{});
+  return wing->is_slender ? sum(FaceLaw<true, true, true>{}) : sum(FaceLaw<true, true>{});
 }
 
 }  // namespace ambient
