@@ -179,8 +179,7 @@ class TablesSlot {
 
 /// Faces that carry the fluid loads, as a structure of arrays with one entry per face.
 /// Frame: fluid body frame F. Normals and centroids determine the slip matrix of the paper's
-/// appendix (3F x 6), U_i = -(I - n n^T) [-[c]x, I], which is not stored. computeSlipMatrix()
-/// computes it.
+/// appendix (3F x 6), U_i = -(I - n n^T) [-[c]x, I], which is not stored.
 struct FaceTable {
   SharedList<double> normal_x, normal_y, normal_z;         ///< unit normals into the fluid
   std::vector<double> centroid_x, centroid_y, centroid_z;  ///< barycentres [m]
@@ -352,10 +351,6 @@ struct FluidBody {
   std::vector<std::uint8_t> part_of_triangle;
   TablesSlot tables;  ///< of the loads; a fluid body that loads were made of must not change
 };
-
-/// Slip matrix U (3F x 6) of docs/theory.md eq. (12), for the relative twist x in F: U x stacks the
-/// slip velocities [m/s] of fully attached flow at all faces. Padilla et al. 2025, appendix A.2.
-Eigen::Matrix<double, Eigen::Dynamic, 6> computeSlipMatrix(const FaceTable& faces);
 
 /// Sizes of the bounding box of the body's surface along the axes of F [m]; 0 without a surface.
 Vector3 extentsOf(const FluidBody& body);
