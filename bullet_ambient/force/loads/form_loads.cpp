@@ -89,8 +89,8 @@ class FormLoads final : public ViscousLoads {
     const Vector3 &w = x.angular, v = x.at(centre_);
     if (!law_) {
       const Wrench faces = drag_.scaled(withWings(onFaces(x, wet), x, wet), x);
-      Parts parts{faces + share * atCentre(lift_.load(w, v, density_)), {}, {}};
-      if (wings_) parts.pressure += wings_->lift.load(x, density_, {}, wet);
+      Parts parts{faces + share * lift_.load(w, v, density_).aboutOrigin(centre_), {}, {}};
+      if (wings_) parts.pressure += wings_->lift.load(x, density_, 1, 1, wet);
       return parts;
     }
     const ViscousLaw::Scalars s = law_->scalars(x);
@@ -98,10 +98,10 @@ class FormLoads final : public ViscousLoads {
     const Wrench on_faces = drag_.scaled(withWings(pressure(s, x, v, wet), x, wet), x);
     Wrench whole = lift_.load(w, v, density_, s.munk);
     if (law_->isSmooth()) whole += law_->smoothLoad(s, w, v);
-    Parts parts{s.pressure * on_faces + share * atCentre(whole), {}, {}};
-    if (wings_) parts.pressure += wings_->lift.load(x, density_, {s.munk, s.pressure}, wet);
+    Parts parts{s.pressure * on_faces + share * whole.aboutOrigin(centre_), {}, {}};
+    if (wings_) parts.pressure += wings_->lift.load(x, density_, s.munk, s.pressure, wet);
     if (!resistance_) return parts;
-    if (law_->isSmooth()) parts.layer = share * atCentre({Vector3::Zero(), law_->layerForce(s, v)});
+    if (law_->isSmooth()) parts.layer = share * Wrench::ofForceAt(law_->layerForce(s, v), centre_);
     parts.growth = inWater(law_->growth(s, share > 0 ? -power(on_faces, x) / share : 0), wet);
     return parts;
   }
@@ -129,9 +129,6 @@ class FormLoads final : public ViscousLoads {
     }
     return load;
   }
-  Wrench atCentre(const Wrench& about) const noexcept {
-    return {about.torque + centre_.cross(about.force), about.force};
-  }
   /// F_P of eq. (111): S P(S x), with S about the centre of volume in the axes q_j. `v`: there.
   Wrench pressure(const ViscousLaw::Scalars& s, const Twist& x, const Vector3& v,
                   const WetPart* wet) const noexcept {
@@ -140,7 +137,8 @@ class FormLoads final : public ViscousLoads {
     Twist seen{turning * x.angular, moving * v};
     seen.linear -= seen.angular.cross(centre_);
     const Wrench load = onFaces(seen, wet);
-    return atCentre({turning * (load.torque - centre_.cross(load.force)), moving * load.force});
+    return Wrench{turning * (load.torque - centre_.cross(load.force)), moving * load.force}
+        .aboutOrigin(centre_);
   }
 
   FaceSum on_faces_;
