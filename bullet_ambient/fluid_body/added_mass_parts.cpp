@@ -42,15 +42,6 @@ void sortInBlocks(const std::vector<Vector6>& coordinates, std::ptrdiff_t block_
   sortInBlocks(coordinates, block_size, middle, end);
 }
 
-/// Neighbours in one half of a block: the water covers them together.
-std::vector<std::uint32_t> orderByPlace(const std::vector<AddedMassPart>& parts) {
-  std::vector<Vector6> places;
-  places.reserve(parts.size());
-  for (const AddedMassPart& part : parts)
-    places.push_back(stack({0, 0, 0}, part.centre.allFinite() ? part.centre : Vector3::Zero()));
-  return orderInBlocks(places, kParts / 2);
-}
-
 /// Returns the largest distance from the centre, along any direction, of the Gauss points of a part
 /// [m]; a little more, against rounding.
 double reachOf(const AddedMassPart& part) {
@@ -177,8 +168,12 @@ AddedMassParts::AddedMassParts(const std::vector<AddedMassPart>& parts)
 void AddedMassParts::pack(const std::vector<AddedMassPart>& parts) {
   std::vector<std::uint32_t> places(parts.size());
   blocks_.assign((parts.size() + kParts - 1) / kParts, {});  // all zero
+  // Neighbours in one half of a block: the water covers them together.
+  std::vector<Vector3> centres;
+  for (const AddedMassPart& part : parts)
+    centres.push_back(part.centre.allFinite() ? part.centre : Vector3::Zero());
   std::uint32_t next = 0;
-  for (const std::uint32_t part : orderByPlace(parts)) places[part] = next++;
+  for (const std::uint32_t part : orderInBlocks(centres, kParts / 2)) places[part] = next++;
   for (std::uint32_t& place : places_) place = kImages * places[place / kImages] + place % kImages;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const AddedMassPart& part = parts[i];
@@ -256,6 +251,14 @@ std::vector<std::uint32_t> orderInBlocks(const std::vector<Vector6>& coordinates
   std::iota(order.begin(), order.end(), 0u);
   sortInBlocks(coordinates, static_cast<std::ptrdiff_t>(block_size), order.begin(), order.end());
   return order;
+}
+
+std::vector<std::uint32_t> orderInBlocks(const std::vector<Vector3>& places,
+                                         std::size_t block_size) {
+  std::vector<Vector6> coordinates;
+  coordinates.reserve(places.size());
+  for (const Vector3& place : places) coordinates.push_back(stack({0, 0, 0}, place));
+  return orderInBlocks(coordinates, block_size);
 }
 
 }  // namespace ambient

@@ -58,5 +58,7 @@ class AddedMassParts {
 /// block ascend. The last block may be smaller. Cost: O(N log N).
 std::vector<std::uint32_t> orderInBlocks(const std::vector<Vector6>& coordinates,
                                          std::size_t block_size);
+std::vector<std::uint32_t> orderInBlocks(const std::vector<Vector3>& places,
+                                         std::size_t block_size);
 
 }  // namespace ambient

@@ -295,10 +295,9 @@ std::vector<Vector3> partOf(const std::vector<Vector3>& corners, const HullSymme
   return part;
 }
 
-using Triangle = HullTriangle;
-
-std::vector<Triangle> trianglesOf(const Surface& surface, const std::vector<std::int32_t>& hull) {
-  std::vector<Triangle> triangles;
+std::vector<HullTriangle> trianglesOf(const Surface& surface,
+                                      const std::vector<std::int32_t>& hull) {
+  std::vector<HullTriangle> triangles;
   for (std::size_t i = 0; i < hull.size(); i += 3)
     triangles.push_back({vertexOf(surface, hull[i]), vertexOf(surface, hull[i + 1]),
                          vertexOf(surface, hull[i + 2])});
@@ -306,9 +305,9 @@ std::vector<Triangle> trianglesOf(const Surface& surface, const std::vector<std:
 }
 
 // Returns the corners of all triangles without duplicates.
-std::vector<Vector3> cornersOf(const std::vector<Triangle>& triangles) {
+std::vector<Vector3> cornersOf(const std::vector<HullTriangle>& triangles) {
   std::vector<std::array<double, 3>> places;
-  for (const Triangle& t : triangles)
+  for (const HullTriangle& t : triangles)
     for (const Vector3& p : t) places.push_back({p.x(), p.y(), p.z()});
   std::sort(places.begin(), places.end());
   places.erase(std::unique(places.begin(), places.end()), places.end());
@@ -317,15 +316,12 @@ std::vector<Vector3> cornersOf(const std::vector<Triangle>& triangles) {
   return corners;
 }
 
-template <class Thing, class Place>
-std::vector<Thing> inBlocks(const std::vector<Thing>& things, std::size_t size,
-                            const Place& placeOf) {
-  std::vector<Vector6> coordinates;
-  coordinates.reserve(things.size());
-  for (const Thing& thing : things) coordinates.push_back(stack({0, 0, 0}, placeOf(thing)));
+template <class Thing>
+std::vector<Thing> inBlocks(const std::vector<Thing>& things, const std::vector<Vector3>& places,
+                            std::size_t size) {
   std::vector<Thing> sorted;
   sorted.reserve(things.size());
-  for (const std::uint32_t i : orderInBlocks(coordinates, size)) sorted.push_back(things[i]);
+  for (const std::uint32_t i : orderInBlocks(places, size)) sorted.push_back(things[i]);
   return sorted;
 }
 
@@ -345,10 +341,10 @@ Box boxAround(const Vector3* points, std::size_t count) {
   return {(low + high) / 2, ((high - low) / 2).array() + kRounding * size};
 }
 
-Vector3 areaNormal(const Triangle& t) { return (t[1] - t[0]).cross(t[2] - t[0]) / 2; }
+Vector3 areaNormal(const HullTriangle& t) { return (t[1] - t[0]).cross(t[2] - t[0]) / 2; }
 
 /// Adds to N = sum A n, M = sum A n c^T, Q_jkl = sum int n_j z_k z_l dA; docs/theory.md eq. (57).
-void add(const Triangle& t, HullMoments& moments) {
+void add(const HullTriangle& t, HullMoments& moments) {
   const Vector3 normal = areaNormal(t);
   const Vector3 c = (t[0] + t[1] + t[2]) / 3;
   const Matrix3 second = (t[0] * t[0].transpose() + t[1] * t[1].transpose() +
@@ -363,7 +359,7 @@ void add(const Triangle& t, HullMoments& moments) {
   }
 }
 
-HullBlock blockOf(const Triangle* triangles, std::size_t count) {
+HullBlock blockOf(const HullTriangle* triangles, std::size_t count) {
   AMBIENT_ASSERT(count > 0 && count <= HullBlock::kTriangles);
   HullBlock block = {};
   for (std::size_t i = 0; i < count; ++i)
@@ -377,20 +373,20 @@ HullBlock blockOf(const Triangle* triangles, std::size_t count) {
   return block;
 }
 
-HullWhole wholeOf(const std::vector<Triangle>& triangles) {
+HullWhole wholeOf(const std::vector<HullTriangle>& triangles) {
   HullWhole whole = {};
   const Box box = boxAround(triangles.front().data(), 3 * triangles.size());
   for (int axis = 0; axis < 3; ++axis) {
     whole.centre[axis] = box.centre[axis];
     whole.half[axis] = box.half[axis];
   }
-  for (const Triangle& triangle : triangles) add(triangle, whole.moments);
+  for (const HullTriangle& triangle : triangles) add(triangle, whole.moments);
   return whole;
 }
 
-double volumeOf(const std::vector<Triangle>& triangles) {
+double volumeOf(const std::vector<HullTriangle>& triangles) {
   double volume = 0;
-  for (const Triangle& t : triangles) volume += t[0].dot(t[1].cross(t[2])) / 6;
+  for (const HullTriangle& t : triangles) volume += t[0].dot(t[1].cross(t[2])) / 6;
   return volume;
 }
 
@@ -399,31 +395,29 @@ double volumeOf(const std::vector<Triangle>& triangles) {
 PackedHull::PackedHull(const FluidBody& body) {
   if (body.surface.triangles.empty()) return;
   requirePrepared(body);
-  const std::vector<Triangle> triangles = trianglesOf(body.surface, body.form.hull);
+  const std::vector<HullTriangle> triangles = trianglesOf(body.surface, body.form.hull);
   if (body.volume > 0) symmetry_ = symmetryOf(body);
   packPoints(partOf(cornersOf(triangles), symmetry_));
   if (!(body.volume > 0)) return;
   const double volume = volumeOf(triangles);
   if (volume > 0) volume_factor_ = body.volume / volume;
   AMBIENT_ASSERT(volume_factor_ > 0 && std::isfinite(volume_factor_));
-  const std::vector<Triangle> part = partOf(triangles, symmetry_);
+  const std::vector<HullTriangle> part = partOf(triangles, symmetry_);
   if (symmetry_.axis >= 0) whole_ = std::make_shared<const HullWhole>(wholeOf(part));
-  packInBlocks(part);
+  packTriangles(part);
 }
 
 PackedHull::PackedHull(const Surface& surface) {
-  const std::vector<Triangle> triangles = trianglesOf(surface, surface.triangles);
+  const std::vector<HullTriangle> triangles = trianglesOf(surface, surface.triangles);
   packPoints(cornersOf(triangles));
-  packInBlocks(triangles);
+  packTriangles(triangles);
 }
 
-void PackedHull::packInBlocks(const std::vector<Triangle>& triangles) {
-  packTriangles(inBlocks(triangles, HullBlock::kTriangles,
-                         [](const Triangle& t) { return Vector3(t[0] + t[1] + t[2]); }));
-}
-
-void PackedHull::packTriangles(const std::vector<Triangle>& triangles) {
+void PackedHull::packTriangles(const std::vector<HullTriangle>& unsorted) {
   constexpr std::size_t kTriangles = HullBlock::kTriangles, kBlocks = HullBoxes::kBlocks;
+  std::vector<Vector3> places;
+  for (const HullTriangle& t : unsorted) places.push_back(t[0] + t[1] + t[2]);
+  const std::vector<HullTriangle> triangles = inBlocks(unsorted, places, kTriangles);
   const std::size_t count = (triangles.size() + kTriangles - 1) / kTriangles;
   blocks_.reserve(count);
   boxes_.resize((count + kBlocks - 1) / kBlocks);  // all zero
@@ -442,8 +436,7 @@ void PackedHull::packTriangles(const std::vector<Triangle>& triangles) {
 
 void PackedHull::packPoints(const std::vector<Vector3>& points) {
   constexpr std::size_t kPoints = HullPoints::kPoints;
-  const std::vector<Vector3> sorted =
-      inBlocks(points, kPoints, [](const Vector3& place) { return place; });
+  const std::vector<Vector3> sorted = inBlocks(points, points, kPoints);
   points_.reserve((sorted.size() + kPoints - 1) / kPoints);
   for (std::size_t begin = 0; begin < sorted.size(); begin += kPoints) {
     const std::size_t count = std::min(kPoints, sorted.size() - begin);

@@ -77,8 +77,7 @@ class PackedHull {
   double volumeFactor() const { return volume_factor_; }
 
  private:
-  void packInBlocks(const std::vector<HullTriangle>& triangles);
-  void packTriangles(const std::vector<HullTriangle>& triangles);
+  void packTriangles(const std::vector<HullTriangle>& unsorted);
   void packPoints(const std::vector<Vector3>& points);
 
   std::vector<HullBlock> blocks_;

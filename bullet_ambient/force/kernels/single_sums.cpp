@@ -170,7 +170,7 @@ struct RunMotion {
 };
 
 /// Flow at kFloatWidth faces of a block.
-struct FaceFlow {
+struct LaneFlow {
   Vectors velocity;     ///< u
   Floats normal_speed;  ///< n.u
   Floats slip_sq;       ///< |t|^2
@@ -209,7 +209,7 @@ inline void findSides(const FaceBoxes* boxes, int size, const SingleCut& cut,
 /// Returns the flow at kFloatWidth faces of a block with the given areas, docs/theory.md eq. (12)
 /// to (15), (43) to (44). Adds q_L A mu of wings to `pitch`.
 template <class Law, bool kRightAngle>
-[[gnu::always_inline]] inline FaceFlow flowOn(const RunMotion& run, int block, const Floats& area,
+[[gnu::always_inline]] inline LaneFlow flowOn(const RunMotion& run, int block, const Floats& area,
                                               Floats& pitch) {
   const int lane = run.lane;
   const FaceBlock& geometry = run.faces.blocks[block];
@@ -260,7 +260,7 @@ inline const FaceBlock& reread(const FaceBlock& block) {
 
 /// Returns the force on faces by pressure and friction, eq. (15) to (17), without -rho/2.
 template <class Law>
-[[gnu::always_inline]] inline Vectors forceOf(const FaceFlow& flow, const Vectors& n,
+[[gnu::always_inline]] inline Vectors forceOf(const LaneFlow& flow, const Vectors& n,
                                               const SingleMotion& motion) {
   const Floats along = (flow.strength * motion.friction) * slipPower(flow.slip_sq);
   if (Law::kLifts)
@@ -290,7 +290,7 @@ void sumRun(const FaceBlocks& faces, const Chosen& chosen, const SingleMotion& m
     const FaceBlock& block = faces.blocks[number];
     const Floats area = wetArea(run, block, side);
     if (side == 0 && !anyOf(area > 0.0f)) continue;
-    const FaceFlow flow = flowOn<Law, kRightAngle>(run, number, area, pitch);
+    const LaneFlow flow = flowOn<Law, kRightAngle>(run, number, area, pitch);
     const FaceBlock& again = Law::kLifts ? reread(block) : block;
     if (kFriction) {
       const Vectors f = forceOf<Law>(flow, load(again.normal, lane), motion);

@@ -88,7 +88,7 @@ double wholePower(double base, int exponent) {
 }
 
 template <std::size_t kCount>
-double sumOf(const Term (&terms)[kCount], const WageningenScrew& screw, double advance) {
+double sumOfTerms(const Term (&terms)[kCount], const WageningenScrew& screw, double advance) {
   double sum = 0;
   for (const Term& term : terms)
     sum += term.factor * wholePower(advance, term.s) * wholePower(screw.pitch_ratio, term.t) *
@@ -110,7 +110,8 @@ double advanceWithoutThrust(const std::vector<PropellerPoint>& points) {
 }  // namespace
 
 PropellerPoint wageningenPoint(const WageningenScrew& screw, double advance) {
-  return {advance, sumOf(kThrustTerms, screw, advance), sumOf(kTorqueTerms, screw, advance)};
+  return {advance, sumOfTerms(kThrustTerms, screw, advance),
+          sumOfTerms(kTorqueTerms, screw, advance)};
 }
 
 double inducedVelocity(double thrust, double advance, double mass_per_length) noexcept {

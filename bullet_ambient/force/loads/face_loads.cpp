@@ -34,7 +34,8 @@ namespace {
 
 /// Returns the share of a face below the plane and between the sides of its water, docs/theory.md
 /// eq. (59).
-double wetShare(const FaceTable& faces, std::size_t face, const SurfacePlane& plane) noexcept {
+double wetShareOfFace(const FaceTable& faces, std::size_t face,
+                      const SurfacePlane& plane) noexcept {
   const Vector3 centroid = faces.centroid(face), normal = faces.normal(face);
   const double radius_sq = faces.area[face] / kPi;
   const double share = wetShareOf(plane.depth(centroid), plane.normal.dot(normal), radius_sq,
@@ -126,7 +127,7 @@ FaceLoads computeFaceLoads(const FaceTable& faces, double reference_length,
   AMBIENT_ASSERT(!settings.shape || settings.law == PressureLaw::kForm);
   FaceLoads loads;
   for (std::size_t i = 0; i < faces.size(); ++i) {
-    const double share = plane ? wetShare(faces, i, *plane) : 1;
+    const double share = plane ? wetShareOfFace(faces, i, *plane) : 1;
     if (!(share > 0)) continue;
     const FaceFlow flow = computeFaceFlow(faces, i, reference_length, relative_twist, settings);
     const Vector3 c = faces.centroid(i);

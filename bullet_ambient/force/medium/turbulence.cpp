@@ -151,14 +151,14 @@ class KarmanWaves {
     Vector3 e{0, 0, 0}, f{0, 0, 0};  // across it, unit; f = +- along x e
     double first = 0;                // wave number of its first wave [1/m]
   };
-  struct Wave {
+  struct Mode {
     double cosine = 0, sine = 0;  // of its phase at the origin at time 0, times its amplitude [m/s]
   };
   void turnCube(int cube, double first, std::uint64_t seed);
 
   Vector3 carried_;
   std::array<Direction, kDirections> directions_;
-  std::array<std::array<Wave, kDirections>, kShellsOfCube> waves_{};
+  std::array<std::array<Mode, kDirections>, kShellsOfCube> waves_{};
 };
 
 // Returns the share of the energy of von Karman's spectrum from x on, over a shell.
@@ -225,7 +225,7 @@ FlowSample KarmanWaves::sample(const Vector3& point_W, double time) const noexce
   std::array<double, kDirections> by_e{}, by_f{}, change_e{}, change_f{};
   for (std::size_t shell = 0; shell < kShellsOfCube; ++shell) {
     for (std::size_t i = 0; i < kDirections; ++i) {
-      const Wave& wave = waves_[shell][i];
+      const Mode& wave = waves_[shell][i];
       const double c = wave.cosine * cosine[i] - wave.sine * sine[i];
       const double s = wave.cosine * sine[i] + wave.sine * cosine[i];
       by_e[i] += c;

@@ -123,30 +123,26 @@ double enhancement(double gamma, double frequency_ratio) {
   return portable::pow(gamma, portable::exp(-x * x / (2 * width * width)));
 }
 
-/// Energy of the spectrum in equal cells of u, on which it is smooth and bounded.
-class EnergyCells {
- public:
-  explicit EnergyCells(double gamma) {
-    for (std::size_t i = 0; i < kCount; ++i) {
-      const double middle = (static_cast<double>(i) + 0.5) / kCount;
-      total_ += cells_[i] = enhancement(gamma, frequencyRatio(middle));
-    }
+/// Returns u of docs/theory.md eq. (82) at the middles of parts with equal energies, by the energy
+/// in equal cells of u, on which it is smooth and bounded.
+std::vector<double> middlesOfEqualEnergies(double gamma, int parts) {
+  constexpr std::size_t kCells = 4096;
+  std::vector<double> cells(kCells);
+  double total = 0;
+  for (std::size_t i = 0; i < kCells; ++i) {
+    const double middle = (static_cast<double>(i) + 0.5) / kCells;
+    total += cells[i] = enhancement(gamma, frequencyRatio(middle));
   }
-
-  /// Returns u below which the given share of the energy lies. @pre share >= that of the last call
-  double at(double share) {
-    const double energy = share * total_;
-    while (cell_ + 1 < kCount && below_ + cells_[cell_] < energy) below_ += cells_[cell_++];
-    return (static_cast<double>(cell_) + (energy - below_) / cells_[cell_]) / kCount;
+  std::vector<double> middles;
+  std::size_t cell = 0;
+  double below = 0;  // energy of the cells before that
+  for (int part = 0; part < parts; ++part) {
+    const double energy = (part + 0.5) / parts * total;
+    while (cell + 1 < kCells && below + cells[cell] < energy) below += cells[cell++];
+    middles.push_back((static_cast<double>(cell) + (energy - below) / cells[cell]) / kCells);
   }
-
- private:
-  static constexpr std::size_t kCount = 4096;
-  std::array<double, kCount> cells_{};
-  double total_ = 0;
-  double below_ = 0;  // energy of the cells before cell_
-  std::size_t cell_ = 0;
-};
+  return middles;
+}
 
 }  // namespace
 
@@ -155,11 +151,10 @@ std::vector<WaveComponent> wavesOf(const WaveSpectrum& spectrum) {
   const double count = spectrum.components;
   // sum of a^2 / 2 = H_s^2 / 16
   const double amplitude = spectrum.significant_height / 4 * std::sqrt(2 / count);
-  EnergyCells energy(spectrum.peak_enhancement);
   std::mt19937_64 bits(spectrum.seed);
   std::vector<WaveComponent> waves;
-  for (int i = 0; i < spectrum.components; ++i) {
-    const double ratio = frequencyRatio(energy.at((i + 0.5) / count));
+  for (const double u : middlesOfEqualEnergies(spectrum.peak_enhancement, spectrum.components)) {
+    const double ratio = frequencyRatio(u);
     // Not by std::uniform_real_distribution, which differs between libraries.
     const double phase = 2 * kPi * uniformOf(bits());
     waves.push_back({amplitude, spectrum.peak_period / ratio, spectrum.direction, phase});

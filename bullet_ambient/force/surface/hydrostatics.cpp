@@ -15,12 +15,13 @@
 namespace ambient {
 namespace {
 
-HullPlane planeOf(const SurfacePlane& plane, const PlaneAxes& axes) {
+HullPlane hullPlaneOf(const SurfacePlane& plane, const PlaneAxes& axes) {
   const Vector3 &s = plane.normal, &e = axes.first, &f = axes.second;
   return {{s.x(), s.y(), s.z()}, {{e.x(), e.y(), e.z()}, {f.x(), f.y(), f.z()}}, plane.height};
 }
 
-Waterplane waterplaneOf(const HullSums& sums, const SurfacePlane& plane, const PlaneAxes& axes) {
+Waterplane waterhullPlaneOf(const HullSums& sums, const SurfacePlane& plane,
+                            const PlaneAxes& axes) {
   const double area = sums.area;
   if (!(area > 0)) return {};
   const double x = sums.first[0] / area, y = sums.first[1] / area;
@@ -61,12 +62,12 @@ WetVolume computeWetVolume(const PackedHull& hull, const SurfacePlane& plane) no
   const PlaneAxes axes(plane.normal);
   const HullSums sums = plane.sides_F
                             ? sumBetweenSides(hull.blocks(), plane)
-                            : kHullKernels.fastest()->sums(hull.blocks(), planeOf(plane, axes));
+                            : kHullKernels.fastest()->sums(hull.blocks(), hullPlaneOf(plane, axes));
   const Vector3 moment = sums.moment[0] * axes.first + sums.moment[1] * axes.second +
                          (plane.height * sums.volume - sums.depth) * plane.normal;
   const double factor = hull.volumeFactor();
   WetVolume wet{factor * sums.volume, factor * moment, factor * sums.depth,
-                waterplaneOf(sums, plane, axes)};
+                waterhullPlaneOf(sums, plane, axes)};
   AMBIENT_ASSERT(factor > 0);
   AMBIENT_ASSERT(!(wet.waterplane.area < 0) && isSymmetric(wet.waterplane.spread, 1e-9));
   wet.waterplane.area *= factor;

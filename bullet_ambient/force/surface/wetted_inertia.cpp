@@ -191,7 +191,7 @@ class WettedSphere final : public WettedInertia {
 };
 
 /// Plane with the reach kappa H of the weights; kappa fades to 0 at a deep body, eq. (61).
-PartPlane planeOf(const Immersion& at) {
+PartPlane partPlaneOf(const Immersion& at) {
   constexpr double kReach = 0.06;
   const double x = std::clamp(at.submergence() / at.size(), 0.0, 2.0);
   const double fade = (9 / (1 + x * x * x) - 1) / 8;
@@ -257,7 +257,7 @@ class WettedTable final : public WettedParts {
   InertiaGradient gradientAt(const Immersion& raised, const Twist& twist) const noexcept override;
 
   /// Cubic interpolation: index of the first of four nodes, weights of value and slope.
-  struct Weights {
+  struct NodeWeights {
     int first;
     double of_value[4], of_slope[4];
   };
@@ -272,7 +272,7 @@ class WettedTable final : public WettedParts {
   /// Share of the wet volume that is between the sides of the pool; 1 where it has none.
   double shareInPool(const Immersion& at) const noexcept;
   Matrix6 inertiaOf(const Touch& touch) const noexcept;
-  Weights weightsAt(double immersion) const noexcept;
+  NodeWeights weightsAt(double immersion) const noexcept;
   Matrix6 interpolate(const Vector3& normal, int first, const double (&weights)[4]) const noexcept;
 
   std::shared_ptr<const FluidBody> body_;
@@ -290,7 +290,7 @@ WettedParts::WettedParts(const FluidBody& body, std::shared_ptr<const AddedMassP
 Matrix6 WettedParts::inertiaAt(const Immersion& at) const noexcept {
   PartInertia sum{};
   forBlocksInPool(parts_->blocks(), at.plane.sides_F, [&](const PartBlocks& blocks) {
-    const PartInertia more = kPartKernels.fastest()->inertia(blocks, planeOf(at));
+    const PartInertia more = kPartKernels.fastest()->inertia(blocks, partPlaneOf(at));
     for (int i = 0; i < PartBlock::kEntries; ++i) sum.entries[i] += more.entries[i];
   });
   Matrix6 K = wetShare(at, volume_) * defect_;
@@ -314,7 +314,7 @@ InertiaGradient WettedParts::gradientAt(const Immersion& at, const Twist& twist)
       products[entry++] = (row == column ? 1 : 2) * x[row] * x[column];
   InertiaGradient sum;
   forBlocksInPool(parts_->blocks(), at.plane.sides_F, [&](const PartBlocks& blocks) {
-    const PartGradient g = kPartKernels.fastest()->gradient(blocks, planeOf(at), products);
+    const PartGradient g = kPartKernels.fastest()->gradient(blocks, partPlaneOf(at), products);
     sum.by_height += 0.5 * g.by_height;
     sum.by_normal += 0.5 * Vector3(g.by_normal[0], g.by_normal[1], g.by_normal[2]);
   });
@@ -355,13 +355,13 @@ WettedTable::Touch WettedTable::touchAt(const Immersion& immersion) const noexce
 
 // Cubic between two nodes. Slope at a node: that of the parabola through the node and its two
 // neighbours; first node: slope of the chord; last node: 0. @pre immersion >= first node
-WettedTable::Weights WettedTable::weightsAt(double immersion) const noexcept {
+WettedTable::NodeWeights WettedTable::weightsAt(double immersion) const noexcept {
   AMBIENT_ASSERT(!(immersion < nodes_.front() * (1 - 1e-9)));
   const auto next = std::upper_bound(nodes_.begin() + 1, nodes_.end() - 1, immersion);
   const auto k = static_cast<int>(next - nodes_.begin()) - 1;
   const double width = nodes_[k + 1] - nodes_[k];
   const double t = std::clamp((immersion - nodes_[k]) / width, 0.0, 1.0), u = 1 - t;
-  Weights weights{k - 1, {0, u * u * (1 + 2 * t), t * t * (1 + 2 * u), 0}, {}};
+  NodeWeights weights{k - 1, {0, u * u * (1 + 2 * t), t * t * (1 + 2 * u), 0}, {}};
   weights.of_slope[1] = -6 * t * u / width;
   weights.of_slope[2] = -weights.of_slope[1];
   const auto addSlope = [&](int i, double to_value, double to_slope) {
@@ -413,7 +413,7 @@ double WettedTable::shareInPool(const Immersion& at) const noexcept {
 
 Matrix6 WettedTable::inertiaOf(const Touch& touch) const noexcept {
   const Immersion& at = touch.at;
-  const Weights weights = weightsAt(immersionOf(at));
+  const NodeWeights weights = weightsAt(immersionOf(at));
   return touch.factor *
          (WettedParts::inertiaAt(at) +
           shareInPool(at) * interpolate(at.plane.normal, weights.first, weights.of_value));
@@ -432,7 +432,7 @@ InertiaGradient WettedTable::gradientAt(const Immersion& at, const Twist& twist)
     return {by_height, -by_height * placeOfChange(at.wet)};
   }
   InertiaGradient gradient = WettedParts::gradientAt(at, twist);
-  const Weights weights = weightsAt(immersionOf(at));
+  const NodeWeights weights = weightsAt(immersionOf(at));
   const Matrix6 slope = interpolate(at.plane.normal, weights.first, weights.of_slope);
   const double by_height = 0.5 * shareInPool(at) * x.dot(slope * x) / at.size();
   gradient.by_height += by_height;
