@@ -227,15 +227,57 @@ void forBlocksInPool(const PartBlocks& parts, const PoolSides* sides_F, const Vi
   }
 }
 
+double immersionOf(const Immersion& at) { return at.draught() / at.size(); }
+
+/// Point whose depth the added mass depends on: centroid of the waterplane, else of the wet volume.
+Vector3 placeOfChange(const WetVolume& wet) {
+  return wet.waterplane.area > 0 ? wet.waterplane.centroid : Vector3(wet.moment / wet.volume);
+}
+
 /// Added mass at the surface by the parts of the added mass in unbounded fluid, weighted by their
 /// depth; docs/theory.md eq. (60), (61).
 class WettedParts : public WettedInertia {
  public:
-  WettedParts(const FluidBody& body, std::shared_ptr<const AddedMassParts> parts);
+  WettedParts(const FluidBody& body, std::shared_ptr<const AddedMassParts> parts)
+      : WettedInertia(body.added_mass),
+        parts_(std::move(parts)),
+        defect_(body.added_mass - parts_->sum()),
+        volume_(body.volume) {}
 
  protected:
-  Matrix6 inertiaAt(const Immersion& raised) const noexcept override;
-  InertiaGradient gradientAt(const Immersion& raised, const Twist& twist) const noexcept override;
+  Matrix6 inertiaAt(const Immersion& at) const noexcept override {
+    PartInertia sum{};
+    forBlocksInPool(parts_->blocks(), at.plane.sides_F, [&](const PartBlocks& blocks) {
+      const PartInertia more = kPartKernels.fastest()->inertia(blocks, partPlaneOf(at));
+      for (int i = 0; i < PartBlock::kEntries; ++i) sum.entries[i] += more.entries[i];
+    });
+    Matrix6 K = wetShare(at, volume_) * defect_;
+    int entry = 0;
+    for (int row = 0; row < 6; ++row) {
+      K(row, row) += sum.entries[entry++];
+      for (int column = row + 1; column < 6; ++column, ++entry) {
+        K(row, column) += sum.entries[entry];
+        K(column, row) = K(row, column);
+      }
+    }
+    return K;
+  }
+
+  InertiaGradient gradientAt(const Immersion& at, const Twist& twist) const noexcept override {
+    const Vector6 x = twist.vector();
+    double products[PartBlock::kEntries];
+    int entry = 0;
+    for (int row = 0; row < 6; ++row)
+      for (int column = row; column < 6; ++column)
+        products[entry++] = (row == column ? 1 : 2) * x[row] * x[column];
+    InertiaGradient sum;
+    forBlocksInPool(parts_->blocks(), at.plane.sides_F, [&](const PartBlocks& blocks) {
+      const PartGradient g = kPartKernels.fastest()->gradient(blocks, partPlaneOf(at), products);
+      sum.by_height += 0.5 * g.by_height;
+      sum.by_normal += 0.5 * Vector3(g.by_normal[0], g.by_normal[1], g.by_normal[2]);
+    });
+    return sum;
+  }
 
  private:
   std::shared_ptr<const AddedMassParts> parts_;
@@ -249,12 +291,37 @@ class WettedTable final : public WettedParts {
  public:
   /// @pre the body has a waterline table; `parts` and `hull` belong to the body
   WettedTable(std::shared_ptr<const FluidBody> body, std::shared_ptr<const AddedMassParts> parts,
-              std::shared_ptr<const PackedHull> hull);
+              std::shared_ptr<const PackedHull> hull)
+      : WettedParts(*body, std::move(parts)),
+        body_(std::move(body)),
+        hull_(std::move(hull)),
+        lattice_(body_->waterline.subdivisions),
+        nodes_(body_->waterline.immersions) {
+    AMBIENT_ASSERT(hull_ && !nodes_.empty() && nodes_.front() > 0 &&
+                   nodes_.back() < WaterlineTable::kDeep);
+    nodes_.push_back(WaterlineTable::kDeep);
+  }
 
  private:
-  Matrix6 inertiaAt(const Immersion& raised) const noexcept override;
+  Matrix6 inertiaAt(const Immersion& at) const noexcept override { return inertiaOf(touchAt(at)); }
+
   /// Gradient; the correction counts as a function of the depth of the waterplane's centroid only.
-  InertiaGradient gradientAt(const Immersion& raised, const Twist& twist) const noexcept override;
+  InertiaGradient gradientAt(const Immersion& at, const Twist& twist) const noexcept override {
+    if (!(at.wet.volume > 0)) return {};
+    const Vector6 x = twist.vector();
+    const Touch touch = touchAt(at);
+    if (touch.slope > 0) {
+      const double by_height = 0.5 * touch.slope / touch.factor * x.dot(inertiaOf(touch) * x);
+      return {by_height, -by_height * placeOfChange(at.wet)};
+    }
+    InertiaGradient gradient = WettedParts::gradientAt(at, twist);
+    const NodeWeights weights = weightsAt(immersionOf(at));
+    const Matrix6 slope = interpolate(at.plane.normal, weights.first, weights.of_slope);
+    const double by_height = 0.5 * shareInPool(at) * x.dot(slope * x) / at.size();
+    gradient.by_height += by_height;
+    gradient.by_normal -= by_height * placeOfChange(at.wet);
+    return gradient;
+  }
 
   /// Cubic interpolation: index of the first of four nodes, weights of value and slope.
   struct NodeWeights {
@@ -268,177 +335,90 @@ class WettedTable final : public WettedParts {
     double factor = 1;  ///< factor on the added mass at `at`
     double slope = 0;   ///< d factor / d height of the plane [1/m]; 0: deeper than the first node
   };
-  Touch touchAt(const Immersion& at) const noexcept;
+  Touch touchAt(const Immersion& immersion) const noexcept {
+    Touch touch{immersion};
+    const double draught = nodes_.front() * immersion.size(),
+                 immersion_ratio = immersion.draught() / draught;
+    if (!(immersion_ratio < 1)) return touch;
+    touch.at.plane.height = immersion.low + draught;
+    touch.at.wet = computeWetVolume(*hull_, touch.at.plane);
+    touch.factor = immersion_ratio * immersion_ratio;
+    touch.slope = 2 * immersion_ratio / draught;
+    return touch;
+  }
+
   /// Share of the wet volume that is between the sides of the pool; 1 where it has none.
-  double shareInPool(const Immersion& at) const noexcept;
-  Matrix6 inertiaOf(const Touch& touch) const noexcept;
-  NodeWeights weightsAt(double immersion) const noexcept;
-  Matrix6 interpolate(const Vector3& normal, int first, const double (&weights)[4]) const noexcept;
+  double shareInPool(const Immersion& at) const noexcept {
+    if (!at.plane.sides_F) return 1;
+    SurfacePlane open = at.plane;
+    open.sides_F = nullptr;
+    const double whole = computeWetVolume(*hull_, open).volume;
+    return whole > 0 ? std::clamp(at.wet.volume / whole, 0.0, 1.0) : 0;
+  }
+
+  Matrix6 inertiaOf(const Touch& touch) const noexcept {
+    const Immersion& at = touch.at;
+    const NodeWeights weights = weightsAt(immersionOf(at));
+    return touch.factor *
+           (WettedParts::inertiaAt(at) +
+            shareInPool(at) * interpolate(at.plane.normal, weights.first, weights.of_value));
+  }
+
+  // Cubic between two nodes. Slope at a node: that of the parabola through the node and its two
+  // neighbours; first node: slope of the chord; last node: 0. @pre immersion >= first node
+  NodeWeights weightsAt(double immersion) const noexcept {
+    AMBIENT_ASSERT(!(immersion < nodes_.front() * (1 - 1e-9)));
+    const auto next = std::upper_bound(nodes_.begin() + 1, nodes_.end() - 1, immersion);
+    const auto k = static_cast<int>(next - nodes_.begin()) - 1;
+    const double width = nodes_[k + 1] - nodes_[k];
+    const double t = std::clamp((immersion - nodes_[k]) / width, 0.0, 1.0), u = 1 - t;
+    NodeWeights weights{k - 1, {0, u * u * (1 + 2 * t), t * t * (1 + 2 * u), 0}, {}};
+    weights.of_slope[1] = -6 * t * u / width;
+    weights.of_slope[2] = -weights.of_slope[1];
+    const auto addSlope = [&](int i, double to_value, double to_slope) {
+      double slopes[3] = {0, -1, 1};
+      const int node = k + i;
+      const double after = nodes_[node + 1] - nodes_[node];
+      if (node > 0) {
+        const double before = nodes_[node] - nodes_[node - 1], both = before + after;
+        slopes[0] = -after / (before * both);
+        slopes[1] = (after - before) / (before * after);
+        slopes[2] = before / (after * both);
+      } else {
+        slopes[1] = -1 / after;
+        slopes[2] = 1 / after;
+      }
+      for (int j = 0; j < 3; ++j) {
+        weights.of_value[i + j] += to_value * slopes[j];
+        weights.of_slope[i + j] += to_slope * slopes[j];
+      }
+    };
+    addSlope(0, width * t * u * u, u * (u - 2 * t));
+    if (k + 2 < static_cast<int>(nodes_.size())) addSlope(1, -width * t * t * u, t * (t - 2 * u));
+    return weights;
+  }
+
+  Matrix6 interpolate(const Vector3& normal, int first, const double (&weights)[4]) const noexcept {
+    const std::vector<Matrix6>& corrections = body_->waterline.corrections;
+    const std::size_t count = nodes_.size() - 1;  // the last one has no correction
+    AMBIENT_ASSERT(isUnit(normal));
+    const OctahedralLattice::Corners corners = lattice_.cornersAround(normal);
+    Matrix6 sum = Matrix6::Zero();
+    for (int corner = 0; corner < 3; ++corner)
+      for (int i = 0; i < 4; ++i) {
+        const int node = first + i;
+        if (node < 0 || node >= static_cast<int>(count)) continue;
+        sum +=
+            corners.weight[corner] * weights[i] * corrections[corners.node[corner] * count + node];
+      }
+    return sum;
+  }
 
   std::shared_ptr<const FluidBody> body_;
   std::shared_ptr<const PackedHull> hull_;
   OctahedralLattice lattice_;
   std::vector<double> nodes_;  ///< immersions of the table, then kDeep
 };
-
-WettedParts::WettedParts(const FluidBody& body, std::shared_ptr<const AddedMassParts> parts)
-    : WettedInertia(body.added_mass),
-      parts_(std::move(parts)),
-      defect_(body.added_mass - parts_->sum()),
-      volume_(body.volume) {}
-
-Matrix6 WettedParts::inertiaAt(const Immersion& at) const noexcept {
-  PartInertia sum{};
-  forBlocksInPool(parts_->blocks(), at.plane.sides_F, [&](const PartBlocks& blocks) {
-    const PartInertia more = kPartKernels.fastest()->inertia(blocks, partPlaneOf(at));
-    for (int i = 0; i < PartBlock::kEntries; ++i) sum.entries[i] += more.entries[i];
-  });
-  Matrix6 K = wetShare(at, volume_) * defect_;
-  int entry = 0;
-  for (int row = 0; row < 6; ++row) {
-    K(row, row) += sum.entries[entry++];
-    for (int column = row + 1; column < 6; ++column, ++entry) {
-      K(row, column) += sum.entries[entry];
-      K(column, row) = K(row, column);
-    }
-  }
-  return K;
-}
-
-InertiaGradient WettedParts::gradientAt(const Immersion& at, const Twist& twist) const noexcept {
-  const Vector6 x = twist.vector();
-  double products[PartBlock::kEntries];
-  int entry = 0;
-  for (int row = 0; row < 6; ++row)
-    for (int column = row; column < 6; ++column)
-      products[entry++] = (row == column ? 1 : 2) * x[row] * x[column];
-  InertiaGradient sum;
-  forBlocksInPool(parts_->blocks(), at.plane.sides_F, [&](const PartBlocks& blocks) {
-    const PartGradient g = kPartKernels.fastest()->gradient(blocks, partPlaneOf(at), products);
-    sum.by_height += 0.5 * g.by_height;
-    sum.by_normal += 0.5 * Vector3(g.by_normal[0], g.by_normal[1], g.by_normal[2]);
-  });
-  return sum;
-}
-
-double immersionOf(const Immersion& at) { return at.draught() / at.size(); }
-
-/// Point whose depth the added mass depends on: centroid of the waterplane, else of the wet volume.
-Vector3 placeOfChange(const WetVolume& wet) {
-  return wet.waterplane.area > 0 ? wet.waterplane.centroid : Vector3(wet.moment / wet.volume);
-}
-
-WettedTable::WettedTable(std::shared_ptr<const FluidBody> body,
-                         std::shared_ptr<const AddedMassParts> parts,
-                         std::shared_ptr<const PackedHull> hull)
-    : WettedParts(*body, std::move(parts)),
-      body_(std::move(body)),
-      hull_(std::move(hull)),
-      lattice_(body_->waterline.subdivisions),
-      nodes_(body_->waterline.immersions) {
-  AMBIENT_ASSERT(hull_ && !nodes_.empty() && nodes_.front() > 0 &&
-                 nodes_.back() < WaterlineTable::kDeep);
-  nodes_.push_back(WaterlineTable::kDeep);
-}
-
-WettedTable::Touch WettedTable::touchAt(const Immersion& immersion) const noexcept {
-  Touch touch{immersion};
-  const double draught = nodes_.front() * immersion.size(),
-               immersion_ratio = immersion.draught() / draught;
-  if (!(immersion_ratio < 1)) return touch;
-  touch.at.plane.height = immersion.low + draught;
-  touch.at.wet = computeWetVolume(*hull_, touch.at.plane);
-  touch.factor = immersion_ratio * immersion_ratio;
-  touch.slope = 2 * immersion_ratio / draught;
-  return touch;
-}
-
-// Cubic between two nodes. Slope at a node: that of the parabola through the node and its two
-// neighbours; first node: slope of the chord; last node: 0. @pre immersion >= first node
-WettedTable::NodeWeights WettedTable::weightsAt(double immersion) const noexcept {
-  AMBIENT_ASSERT(!(immersion < nodes_.front() * (1 - 1e-9)));
-  const auto next = std::upper_bound(nodes_.begin() + 1, nodes_.end() - 1, immersion);
-  const auto k = static_cast<int>(next - nodes_.begin()) - 1;
-  const double width = nodes_[k + 1] - nodes_[k];
-  const double t = std::clamp((immersion - nodes_[k]) / width, 0.0, 1.0), u = 1 - t;
-  NodeWeights weights{k - 1, {0, u * u * (1 + 2 * t), t * t * (1 + 2 * u), 0}, {}};
-  weights.of_slope[1] = -6 * t * u / width;
-  weights.of_slope[2] = -weights.of_slope[1];
-  const auto addSlope = [&](int i, double to_value, double to_slope) {
-    double slopes[3] = {0, -1, 1};
-    const int node = k + i;
-    const double after = nodes_[node + 1] - nodes_[node];
-    if (node > 0) {
-      const double before = nodes_[node] - nodes_[node - 1], both = before + after;
-      slopes[0] = -after / (before * both);
-      slopes[1] = (after - before) / (before * after);
-      slopes[2] = before / (after * both);
-    } else {
-      slopes[1] = -1 / after;
-      slopes[2] = 1 / after;
-    }
-    for (int j = 0; j < 3; ++j) {
-      weights.of_value[i + j] += to_value * slopes[j];
-      weights.of_slope[i + j] += to_slope * slopes[j];
-    }
-  };
-  addSlope(0, width * t * u * u, u * (u - 2 * t));
-  if (k + 2 < static_cast<int>(nodes_.size())) addSlope(1, -width * t * t * u, t * (t - 2 * u));
-  return weights;
-}
-
-Matrix6 WettedTable::interpolate(const Vector3& normal, int first,
-                                 const double (&weights)[4]) const noexcept {
-  const std::vector<Matrix6>& corrections = body_->waterline.corrections;
-  const std::size_t count = nodes_.size() - 1;  // the last one has no correction
-  AMBIENT_ASSERT(isUnit(normal));
-  const OctahedralLattice::Corners corners = lattice_.cornersAround(normal);
-  Matrix6 sum = Matrix6::Zero();
-  for (int corner = 0; corner < 3; ++corner)
-    for (int i = 0; i < 4; ++i) {
-      const int node = first + i;
-      if (node < 0 || node >= static_cast<int>(count)) continue;
-      sum += corners.weight[corner] * weights[i] * corrections[corners.node[corner] * count + node];
-    }
-  return sum;
-}
-
-double WettedTable::shareInPool(const Immersion& at) const noexcept {
-  if (!at.plane.sides_F) return 1;
-  SurfacePlane open = at.plane;
-  open.sides_F = nullptr;
-  const double whole = computeWetVolume(*hull_, open).volume;
-  return whole > 0 ? std::clamp(at.wet.volume / whole, 0.0, 1.0) : 0;
-}
-
-Matrix6 WettedTable::inertiaOf(const Touch& touch) const noexcept {
-  const Immersion& at = touch.at;
-  const NodeWeights weights = weightsAt(immersionOf(at));
-  return touch.factor *
-         (WettedParts::inertiaAt(at) +
-          shareInPool(at) * interpolate(at.plane.normal, weights.first, weights.of_value));
-}
-
-Matrix6 WettedTable::inertiaAt(const Immersion& at) const noexcept {
-  return inertiaOf(touchAt(at));
-}
-
-InertiaGradient WettedTable::gradientAt(const Immersion& at, const Twist& twist) const noexcept {
-  if (!(at.wet.volume > 0)) return {};
-  const Vector6 x = twist.vector();
-  const Touch touch = touchAt(at);
-  if (touch.slope > 0) {
-    const double by_height = 0.5 * touch.slope / touch.factor * x.dot(inertiaOf(touch) * x);
-    return {by_height, -by_height * placeOfChange(at.wet)};
-  }
-  InertiaGradient gradient = WettedParts::gradientAt(at, twist);
-  const NodeWeights weights = weightsAt(immersionOf(at));
-  const Matrix6 slope = interpolate(at.plane.normal, weights.first, weights.of_slope);
-  const double by_height = 0.5 * shareInPool(at) * x.dot(slope * x) / at.size();
-  gradient.by_height += by_height;
-  gradient.by_normal -= by_height * placeOfChange(at.wet);
-  return gradient;
-}
 
 /// Added mass times the wet share of the volume: approximation for a body without parts.
 class WettedShare final : public WettedInertia {
