@@ -320,13 +320,17 @@ std::shared_ptr<const FluidBody> unitSphere() {
   return sphere;
 }
 
-PlaneInRadii::PlaneInRadii(const SurfacePlane& plane_at_centre, const Vector3& centre,
-                           double radius) noexcept
-    : plane(plane_at_centre) {
-  plane.height /= radius;
+SurfaceElsewhere::SurfaceElsewhere(const SurfacePlane& there, const FrameOffset& pose,
+                                   double unit) noexcept
+    : plane(there) {
+  plane.height /= unit;
   if (!plane.sides_F) return;
-  sides = *plane.sides_F;
-  for (int i = 0; i < sides.count; ++i) sides.of[i].point = (sides.of[i].point - centre) / radius;
+  sides.count = plane.sides_F->count;
+  for (int i = 0; i < sides.count; ++i) {
+    const PoolSides::Side& side = plane.sides_F->of[i];
+    sides.of[i] = {pose.rotation.transpose() * side.normal,
+                   pose.rotation.transpose() * (side.point - pose.translation) / unit};
+  }
   plane.sides_F = &sides;
 }
 

@@ -110,11 +110,13 @@ class DragScale {
 /// take the loads on their wet part from these, whatever faces they have. Made once per process.
 std::shared_ptr<const FluidBody> unitSphere();
 
-/// Surface of the fluid at a sphere of a radius [m] and a centre in F [m], with lengths in radii
-/// about the centre. `plane_at_centre` is in a frame at the centre with the axes of F.
-struct PlaneInRadii {
-  PlaneInRadii(const SurfacePlane& plane_at_centre, const Vector3& centre, double radius) noexcept;
-  PlaneInRadii(const PlaneInRadii&) = delete;  // plane points to sides
+/// Surface of the fluid in another frame, with the sides of its pool.
+struct SurfaceElsewhere {
+  /// @param plane in that frame, but for its sides
+  /// @param pose of that frame in F [m]
+  /// @param unit of length in the result [m]
+  SurfaceElsewhere(const SurfacePlane& plane, const FrameOffset& pose, double unit = 1) noexcept;
+  SurfaceElsewhere(const SurfaceElsewhere&) = delete;  // plane points to sides
 
   SurfacePlane plane;
   PoolSides sides;

@@ -164,19 +164,11 @@ Wrench Foils::load(std::size_t index, const Twist& x, double density,
                    const WetPart* wet) const noexcept {
   const Placed& placed = placed_[index];
   const Twist seen = placed.pose.toF(x);
+  std::optional<SurfaceElsewhere> surface;
   std::optional<WetPart> part;
-  PoolSides sides;
   if (wet) {
-    part = WetPart{seenFrom(wet->plane, placed.pose), wet->share};
-    if (const PoolSides* of = part->plane.sides_F) {
-      sides.count = of->count;
-      for (int i = 0; i < of->count; ++i) {
-        const Matrix3 to_foil = placed.pose.rotation.transpose();
-        sides.of[i] = {to_foil * of->of[i].normal,
-                       to_foil * (of->of[i].point - placed.pose.translation)};
-      }
-      part->plane.sides_F = &sides;
-    }
+    surface.emplace(seenFrom(wet->plane, placed.pose), placed.pose);
+    part = WetPart{surface->plane, wet->share};
   }
   Wrench sum;
   if (placed.law) sum = part ? placed.law->wetLoad(seen, *part) : placed.law->load(seen);

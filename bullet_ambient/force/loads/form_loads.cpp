@@ -181,7 +181,7 @@ class BallLoads final : public ViscousLoads {
     const BallLoad ball = computeBallLoad(radius_, fluid_, x);
     Parts parts{ball.pressure, ball.layer, inWater(ball.growth, wet)};
     if (wet) {
-      const PlaneInRadii surface(wet->plane, centre_, radius_);
+      const SurfaceElsewhere surface(wet->plane, {Matrix3::Identity(), centre_}, radius_);
       const Wrench on_faces =
           on_unit_->wetLoad({radius_ * x.angular, x.linear}, {surface.plane, wet->share});
       const double scale =

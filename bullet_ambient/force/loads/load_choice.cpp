@@ -51,12 +51,12 @@ class SphereLoads final : public LoadsOnPart {
 
   Wrench sumOn(const Twist& x, const WetPart* wet) const noexcept override {
     if (!wet) return partsOn(x, nullptr).total();
-    const PlaneInRadii surface(wet->plane, centre_, radius_);
+    const SurfaceElsewhere surface(wet->plane, {Matrix3::Identity(), centre_}, radius_);
     return enlarged(on_unit_->wetLoad(inRadii(x), {surface.plane, wet->share}));
   }
   FaceLoads partsOn(const Twist& x, const WetPart* wet) const noexcept override {
     if (!wet) return enlarged(on_unit_->parts(inRadii(x)));
-    const PlaneInRadii surface(wet->plane, centre_, radius_);
+    const SurfaceElsewhere surface(wet->plane, {Matrix3::Identity(), centre_}, radius_);
     return enlarged(on_unit_->wetParts(inRadii(x), {surface.plane, wet->share}));
   }
   int faces() const noexcept override { return on_unit_->faces(); }
