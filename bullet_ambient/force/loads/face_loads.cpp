@@ -149,33 +149,6 @@ double ownDrag(const FaceTable& faces, const ShapeFactors& shape, const Vector3&
   return frontal_area > 0 ? force / frontal_area : 0;
 }
 
-DragScale::DragScale(const FluidBody& body, const FaceTable& faces,
-                     const std::function<Vector3(const Vector3& frontal)>& own_drag)
-    : is_measured_(!body.drag.isZero(0)), centre_(body.centre_of_volume), length_sq_(body.area) {
-  if (!is_measured_) return;
-  Vector3 frontal{0, 0, 0};
-  for (int axis = 0; axis < 3; ++axis)
-    for (std::size_t i = 0; i < faces.size(); ++i)
-      frontal[axis] += 0.5 * faces.area[i] * std::abs(faces.normal(i)[axis]);
-  const Vector3 drag = own_drag(frontal);
-  AMBIENT_ASSERT(drag.allFinite());
-  for (int axis = 0; axis < 3; ++axis)
-    if (drag[axis] > 0) scales_[axis] = body.drag[axis] / drag[axis];
-}
-
-Wrench DragScale::scaled(const Wrench& load, const Twist& x) const noexcept {
-  if (!is_measured_) return load;
-  const Vector3 v = x.at(centre_), along = v.cwiseAbs2();
-  const double turning = length_sq_ * x.angular.squaredNorm();
-  const double sum = along.sum() + turning;
-  if (!(sum > 0)) return load;
-  const double factor = (scales_.dot(along) + scales_.mean() * turning) / sum;
-  const double power = load.torque.dot(x.angular) + load.force.dot(x.linear);
-  const double more = (factor - 1) * power / sum;
-  const Vector3 force = more * v;
-  return load + Wrench{more * length_sq_ * x.angular + centre_.cross(force), force};
-}
-
 namespace {
 
 /// 2^exponent, exponent in [-1022, 1023].

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
@@ -85,26 +84,6 @@ FaceLoads computeFaceLoads(const FaceTable& faces, double reference_length,
 Wrench computeFaceLoad(const PackedFaces& faces, double reference_length,
                        const Twist& relative_twist, const LoadSettings& settings,
                        const SurfacePlane* plane = nullptr) noexcept;
-
-/// Scales the form law to measured drag coefficients, docs/theory.md eq. (51): the part of the
-/// loads on faces that brakes the motion gets a positive factor, so that it still takes energy.
-/// Lift stays. Frame F.
-class DragScale {
- public:
-  /// `own_drag`: returns the law's own coefficients along the axes of F on frontal areas; called
-  /// where drag is measured, with half of the projected areas of `faces`. Cost O(F).
-  DragScale(const FluidBody& body, const FaceTable& faces,
-            const std::function<Vector3(const Vector3& frontal)>& own_drag);
-
-  /// Returns `load`, the load on the faces in a twist relative to the flow, with its drag scaled.
-  Wrench scaled(const Wrench& load, const Twist& relative_twist) const noexcept;
-
- private:
-  bool is_measured_;
-  Vector3 scales_{1, 1, 1};  ///< sigma_j: measured coefficient over the law's own
-  Vector3 centre_;           ///< centre of volume [m]
-  double length_sq_;         ///< area in eq. (51) [m^2]
-};
 
 /// Faces spread over the sphere of radius 1 m about the origin, symmetric in all axes. All spheres
 /// take the loads on their wet part from these, whatever faces they have. Made once per process.

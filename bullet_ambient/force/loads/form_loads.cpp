@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/force/law/form_law.h"
 #include "bullet_ambient/force/law/viscous_law.h"
 #include "bullet_ambient/force/loads/face_loads.h"
@@ -47,6 +48,47 @@ ViscousFluid fluidOf(const LoadSettings& settings) {
   return {settings.density, settings.viscosity, settings.roughness};
 }
 
+/// Scales the form law to measured drag coefficients, docs/theory.md eq. (51): the part of the
+/// loads on faces that brakes the motion gets a positive factor, so that it still takes energy.
+/// Lift stays. Frame F.
+class DragScale {
+ public:
+  /// Cost O(F) where drag is measured. `faces`: those of all parts.
+  DragScale(const LoadTables::Body& body, const LoadTables::Faces& faces)
+      : is_measured_(!body->drag.isZero(0)),
+        centre_(body->centre_of_volume),
+        length_sq_(body->area) {
+    if (!is_measured_) return;
+    Vector3 frontal{0, 0, 0};  // half of the projected areas
+    for (int axis = 0; axis < 3; ++axis)
+      for (std::size_t i = 0; i < faces->size(); ++i)
+        frontal[axis] += 0.5 * faces->area[i] * std::abs(faces->normal(i)[axis]);
+    const Vector3 drag = LoadTables(body).ownDrag(faces, Matrix3::Identity(), frontal);
+    AMBIENT_ASSERT(drag.allFinite());
+    for (int axis = 0; axis < 3; ++axis)
+      if (drag[axis] > 0) scales_[axis] = body->drag[axis] / drag[axis];
+  }
+
+  /// Returns `load`, the load on the faces in a twist relative to the flow, with its drag scaled.
+  Wrench scaled(const Wrench& load, const Twist& x) const noexcept {
+    if (!is_measured_) return load;
+    const Vector3 v = x.at(centre_), along = v.cwiseAbs2();
+    const double turning = length_sq_ * x.angular.squaredNorm();
+    const double sum = along.sum() + turning;
+    if (!(sum > 0)) return load;
+    const double factor = (scales_.dot(along) + scales_.mean() * turning) / sum;
+    const double more = (factor - 1) * power(load, x) / sum;
+    const Vector3 force = more * v;
+    return load + Wrench{more * length_sq_ * x.angular + centre_.cross(force), force};
+  }
+
+ private:
+  bool is_measured_;
+  Vector3 scales_{1, 1, 1};  ///< sigma_j: measured coefficient over the law's own
+  Vector3 centre_;           ///< centre of volume [m]
+  double length_sq_;         ///< area in eq. (51) [m^2]
+};
+
 /// Form law: loads on faces, their drag scaled by DragScale, plus FormLift on the body as a whole;
 /// with viscosity by ViscousLaw, docs/theory.md eq. (113). Of a body with wings these are loads on
 /// its rest, and those on its wings are added, eq. (160).
@@ -57,11 +99,11 @@ class FormLoads final : public ViscousLoads {
       : on_faces_(std::move(on_faces)),
         wings_(std::move(wings)),
         shape_(LoadTables(body).shape()),
-        drag_(*body, *allFaces(body),
-              [&](const Vector3& frontal) {
-                return LoadTables(body).ownDrag(allFaces(body), Matrix3::Identity(), frontal);
-              }),
-        lift_(wings_ ? FormLift(LiftedPart{}, *shape_, 0) : FormLift(*body, *shape_, stall_lag)),
+        drag_(body, allFaces(body)),
+        lift_(wings_ ? LiftedPart{}
+                     : LiftedPart{body->added_mass.bottomRightCorner<3, 3>(), body->volume,
+                                  body->area, body->centre_of_volume},
+              *shape_, stall_lag),
         density_(settings.density),
         centre_(body->centre_of_volume),
         still_axis_(axisOfRevolution(*body)),
