@@ -73,51 +73,28 @@ bool isBefore(const Vector3& a, const Vector3& b) {
   return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
 }
 
-/// Parts by their centres.
-class PartFinder {
- public:
-  /// @pre the centres are finite
-  explicit PartFinder(const std::vector<AddedMassPart>& parts) {
-    sorted_.reserve(parts.size());
-    for (const AddedMassPart& part : parts) sorted_.push_back(&part);
-    std::sort(sorted_.begin(), sorted_.end(), [](const AddedMassPart* a, const AddedMassPart* b) {
-      return isBefore(a->centre, b->centre);
-    });
-  }
-
-  /// Returns the number of parts that equal the image of one.
-  std::ptrdiff_t count(const AddedMassPart& part, int turned) const {
-    const Vector3 centre = mirrored(part.centre, turned);
-    auto at = std::lower_bound(
-        sorted_.begin(), sorted_.end(), centre,
-        [](const AddedMassPart* a, const Vector3& place) { return isBefore(a->centre, place); });
-    if (at == sorted_.end() || (*at)->centre != centre) return 0;
-    const AddedMassPart image = imageOf(part, turned);
-    std::ptrdiff_t count = 0;
-    for (; at != sorted_.end() && (*at)->centre == centre; ++at) count += areEqual(**at, image);
-    return count;
-  }
-
- private:
-  static Vector3 mirrored(Vector3 centre, int turned) {
-    for (int axis = 0; axis < 3; ++axis) centre[axis] *= signIn(turned, 1 << axis);
-    return centre;
-  }
-
-  std::vector<const AddedMassPart*> sorted_;
-};
-
 /// Returns the axes whose mirrors map the parts onto themselves.
 int mirrorsOf(const std::vector<AddedMassPart>& parts) {
   constexpr std::size_t kMost = 256;  // more of one centre would have a quadratic cost
   const auto isFinite = [](const AddedMassPart& part) { return part.centre.allFinite(); };
   if (parts.size() > kMost || !std::all_of(parts.begin(), parts.end(), isFinite)) return 0;
-  const PartFinder finder(parts);
+  std::vector<const AddedMassPart*> sorted;  // by their centres
+  for (const AddedMassPart& part : parts) sorted.push_back(&part);
+  const auto precedes = [](const AddedMassPart* a, const AddedMassPart* b) {
+    return isBefore(a->centre, b->centre);
+  };
+  std::sort(sorted.begin(), sorted.end(), precedes);
+  const auto countImages = [&](const AddedMassPart& part, int turned) {
+    const AddedMassPart image = imageOf(part, turned);
+    const auto [begin, end] = std::equal_range(sorted.begin(), sorted.end(), &image, precedes);
+    return std::count_if(begin, end,
+                         [&](const AddedMassPart* other) { return areEqual(*other, image); });
+  };
   int mirrors = 0;
   for (const int turned : {1, 2, 4})
     if (std::all_of(parts.begin(), parts.end(), [&](const AddedMassPart& part) {
-          const auto images = finder.count(part, turned);
-          return images > 0 && images == finder.count(part, 0);  // 0: it is not finite
+          const auto images = countImages(part, turned);
+          return images > 0 && images == countImages(part, 0);  // 0: it is not finite
         }))
       mirrors |= turned;
   return mirrors;
