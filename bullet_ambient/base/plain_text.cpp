@@ -1,5 +1,10 @@
 #include "bullet_ambient/base/plain_text.h"
 
+#include <cstdio>
+#include <cstdlib>
+
+#include "bullet_ambient/base/ambient_assert.h"
+
 namespace ambient {
 namespace {
 
@@ -33,5 +38,10 @@ std::string withLineEnds(const std::string& text, const char* line_end) {
 std::string plainText(const std::string& text) { return withLineEnds(text, "\n"); }
 
 std::string plainLine(const std::string& text) { return withLineEnds(text, "\\n"); }
+
+void failAssert(const char* condition, const char* file, int line) noexcept {
+  std::fprintf(stderr, "bullet_ambient: %s:%d: this must hold: %s\n", file, line, condition);
+  std::abort();
+}
 
 }  // namespace ambient

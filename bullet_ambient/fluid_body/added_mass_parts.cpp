@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
-#include "bullet_ambient/fluid_body/block_order.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
@@ -14,13 +14,32 @@ namespace {
 constexpr std::size_t kParts = PartBlock::kParts;
 constexpr std::uint32_t kImages = 8;
 
-/// Neighbours in one half of a block: the water covers them together.
-std::vector<std::uint32_t> orderByPlace(const std::vector<AddedMassPart>& parts) {
-  std::vector<Vector6> places;
-  places.reserve(parts.size());
-  for (const AddedMassPart& part : parts)
-    places.push_back(stack({0, 0, 0}, part.centre.allFinite() ? part.centre : Vector3::Zero()));
-  return orderInBlocks(places, kParts / 2);
+using Order = std::vector<std::uint32_t>;
+
+Eigen::Index widestAxis(const std::vector<Vector6>& coordinates, Order::iterator begin,
+                        Order::iterator end) {
+  Vector6 low = coordinates[*begin], high = low;
+  for (auto at = begin; at != end; ++at) {
+    low = low.cwiseMin(coordinates[*at]);
+    high = high.cwiseMax(coordinates[*at]);
+  }
+  Eigen::Index axis = 0;
+  (high - low).maxCoeff(&axis);
+  return axis;
+}
+
+void sortInBlocks(const std::vector<Vector6>& coordinates, std::ptrdiff_t block_size,
+                  Order::iterator begin, Order::iterator end) {
+  const std::ptrdiff_t blocks = (end - begin + block_size - 1) / block_size;
+  if (blocks <= 1) return std::sort(begin, end);
+  const auto middle = begin + (blocks + 1) / 2 * block_size;
+  const Eigen::Index axis = widestAxis(coordinates, begin, end);
+  std::nth_element(begin, middle, end, [&](std::uint32_t a, std::uint32_t b) {
+    const double x = coordinates[a][axis], y = coordinates[b][axis];
+    return x < y || (x == y && a < b);
+  });
+  sortInBlocks(coordinates, block_size, begin, middle);
+  sortInBlocks(coordinates, block_size, middle, end);
 }
 
 /// Returns the largest distance from the centre, along any direction, of the Gauss points of a part
@@ -54,51 +73,28 @@ bool isBefore(const Vector3& a, const Vector3& b) {
   return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
 }
 
-/// Parts by their centres.
-class PartFinder {
- public:
-  /// @pre the centres are finite
-  explicit PartFinder(const std::vector<AddedMassPart>& parts) {
-    sorted_.reserve(parts.size());
-    for (const AddedMassPart& part : parts) sorted_.push_back(&part);
-    std::sort(sorted_.begin(), sorted_.end(), [](const AddedMassPart* a, const AddedMassPart* b) {
-      return isBefore(a->centre, b->centre);
-    });
-  }
-
-  /// Returns the number of parts that equal the image of one.
-  std::ptrdiff_t count(const AddedMassPart& part, int turned) const {
-    const Vector3 centre = mirrored(part.centre, turned);
-    auto at = std::lower_bound(
-        sorted_.begin(), sorted_.end(), centre,
-        [](const AddedMassPart* a, const Vector3& place) { return isBefore(a->centre, place); });
-    if (at == sorted_.end() || (*at)->centre != centre) return 0;
-    const AddedMassPart image = imageOf(part, turned);
-    std::ptrdiff_t count = 0;
-    for (; at != sorted_.end() && (*at)->centre == centre; ++at) count += areEqual(**at, image);
-    return count;
-  }
-
- private:
-  static Vector3 mirrored(Vector3 centre, int turned) {
-    for (int axis = 0; axis < 3; ++axis) centre[axis] *= signIn(turned, 1 << axis);
-    return centre;
-  }
-
-  std::vector<const AddedMassPart*> sorted_;
-};
-
 /// Returns the axes whose mirrors map the parts onto themselves.
 int mirrorsOf(const std::vector<AddedMassPart>& parts) {
   constexpr std::size_t kMost = 256;  // more of one centre would have a quadratic cost
   const auto isFinite = [](const AddedMassPart& part) { return part.centre.allFinite(); };
   if (parts.size() > kMost || !std::all_of(parts.begin(), parts.end(), isFinite)) return 0;
-  const PartFinder finder(parts);
+  std::vector<const AddedMassPart*> sorted;  // by their centres
+  for (const AddedMassPart& part : parts) sorted.push_back(&part);
+  const auto precedes = [](const AddedMassPart* a, const AddedMassPart* b) {
+    return isBefore(a->centre, b->centre);
+  };
+  std::sort(sorted.begin(), sorted.end(), precedes);
+  const auto countImages = [&](const AddedMassPart& part, int turned) {
+    const AddedMassPart image = imageOf(part, turned);
+    const auto [begin, end] = std::equal_range(sorted.begin(), sorted.end(), &image, precedes);
+    return std::count_if(begin, end,
+                         [&](const AddedMassPart* other) { return areEqual(*other, image); });
+  };
   int mirrors = 0;
   for (const int turned : {1, 2, 4})
     if (std::all_of(parts.begin(), parts.end(), [&](const AddedMassPart& part) {
-          const auto images = finder.count(part, turned);
-          return images > 0 && images == finder.count(part, 0);  // 0: it is not finite
+          const auto images = countImages(part, turned);
+          return images > 0 && images == countImages(part, 0);  // 0: it is not finite
         }))
       mirrors |= turned;
   return mirrors;
@@ -149,8 +145,12 @@ AddedMassParts::AddedMassParts(const std::vector<AddedMassPart>& parts)
 void AddedMassParts::pack(const std::vector<AddedMassPart>& parts) {
   std::vector<std::uint32_t> places(parts.size());
   blocks_.assign((parts.size() + kParts - 1) / kParts, {});  // all zero
+  // Neighbours in one half of a block: the water covers them together.
+  std::vector<Vector3> centres;
+  for (const AddedMassPart& part : parts)
+    centres.push_back(part.centre.allFinite() ? part.centre : Vector3::Zero());
   std::uint32_t next = 0;
-  for (const std::uint32_t part : orderByPlace(parts)) places[part] = next++;
+  for (const std::uint32_t part : orderInBlocks(centres, kParts / 2)) places[part] = next++;
   for (std::uint32_t& place : places_) place = kImages * places[place / kImages] + place % kImages;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const AddedMassPart& part = parts[i];
@@ -220,6 +220,22 @@ AddedMassParts AddedMassParts::scaled(double factor) const {
     result.places_.push_back(kImages * numbers[place / kImages] + place % kImages);
   result.pack(parts);
   return result;
+}
+
+std::vector<std::uint32_t> orderInBlocks(const std::vector<Vector6>& coordinates,
+                                         std::size_t block_size) {
+  Order order(coordinates.size());
+  std::iota(order.begin(), order.end(), 0u);
+  sortInBlocks(coordinates, static_cast<std::ptrdiff_t>(block_size), order.begin(), order.end());
+  return order;
+}
+
+std::vector<std::uint32_t> orderInBlocks(const std::vector<Vector3>& places,
+                                         std::size_t block_size) {
+  std::vector<Vector6> coordinates;
+  coordinates.reserve(places.size());
+  for (const Vector3& place : places) coordinates.push_back(stack({0, 0, 0}, place));
+  return orderInBlocks(coordinates, block_size);
 }
 
 }  // namespace ambient

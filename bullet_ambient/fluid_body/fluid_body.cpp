@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/fnv1a.h"
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/spatial/inertia.h"
@@ -26,53 +27,40 @@ void scale(FaceTable& faces, double factor) {
   scale(faces.area, factor * factor);
 }
 
-template <class Number, class Shape>
-std::array<Number*, FormShape::kNumbers> numbersOf(Shape& shape) {
-  std::array<Number*, FormShape::kNumbers> all{&shape.wing, &shape.edges, &shape.aspect,
-                                               &shape.chord};
-  std::size_t at = 4;
-  for (auto* vector : {&shape.facing, &shape.span, &shape.slender, &shape.pitching, &shape.centre})
-    for (Number& number : *vector) all[at++] = &number;
-  return all;
-}
+/// Places of numbers in the order in which they were added, those of a matrix by columns.
+template <std::size_t kCount>
+struct Places {
+  std::array<double*, kCount> of;
+  std::size_t next = 0;
 
-template <class Number, class Form>
-std::array<Number*, ViscousForm::kNumbers> viscousNumbersOf(Form& form) {
-  std::array<Number*, ViscousForm::kNumbers> all;
-  std::size_t at = 0;
-  const auto add = [&](auto& matrix) {
-    for (Eigen::Index i = 0; i < matrix.size(); ++i) all[at++] = matrix.data() + i;
-  };
-  add(form.resistance);
-  add(form.centre_of_reaction);
-  add(form.separation.axes);
-  for (auto& way : form.separation.ways)
-    for (Number* number :
+  void add(double& number) { of[next++] = &number; }
+  void add(SeparationWay& way) {
+    for (double* number :
          {&way.wake_laminar, &way.wake_bubble, &way.wake_turbulent, &way.wake_rough, &way.thickness,
           &way.friction_laminar, &way.friction_bubble, &way.friction_turbulent})
-      all[at++] = number;
-  add(form.separation.smooth_base);
-  all[at++] = &form.surface.diameter;
-  add(form.surface.frontal);
-  add(form.surface.moments);
-  add(form.surface.gyration);
-  all[at] = &form.sharp_share;
-  return all;
+      add(*number);
+  }
+  template <class List>
+  void add(List& list) {
+    const auto size = static_cast<std::size_t>(list.size());
+    for (std::size_t i = 0; i < size; ++i) add(list.data()[i]);
+  }
+};
+
+template <std::size_t kCount, class... Parts>
+std::array<double*, kCount> placesOf(Parts&... parts) {
+  Places<kCount> places;
+  (places.add(parts), ...);
+  return places.of;
 }
 
-template <class Number, class Part>
-std::array<Number*, Wing::kNumbers> wingNumbersOf(Part& wing) {
-  std::array<Number*, Wing::kNumbers> all;
-  std::size_t at = 0;
-  const auto add = [&](auto& vector) {
-    for (Number& number : vector) all[at++] = &number;
-  };
-  add(wing.facing);
-  add(wing.span_axis);
-  add(wing.centre);
-  for (Number* number : {&wing.span, &wing.chord, &wing.thickness, &wing.aspect, &wing.body_lift})
-    all[at++] = number;
-  return all;
+/// Returns numbers() of a part that does not change.
+template <class Part>
+std::array<const double*, Part::kNumbers> constNumbersOf(const Part& part) {
+  const auto places = const_cast<Part&>(part).numbers();
+  std::array<const double*, Part::kNumbers> numbers;
+  std::copy(places.begin(), places.end(), numbers.begin());
+  return numbers;
 }
 
 void scale(Wing& wing, double factor) {
@@ -126,10 +114,12 @@ double FormShape::pitchingArm(const Vector3& normal, const Vector3& place) const
   return pitching.dot((place - centre).cross(normal));
 }
 
-std::array<double*, FormShape::kNumbers> FormShape::numbers() { return numbersOf<double>(*this); }
+std::array<double*, FormShape::kNumbers> FormShape::numbers() {
+  return placesOf<kNumbers>(wing, edges, aspect, chord, facing, span, slender, pitching, centre);
+}
 
 std::array<const double*, FormShape::kNumbers> FormShape::numbers() const {
-  return numbersOf<const double>(*this);
+  return constNumbersOf(*this);
 }
 
 double Wing::plateMass() const {
@@ -138,31 +128,20 @@ double Wing::plateMass() const {
   return kPi / 4 * chord * chord * span * std::min(1.0, aspect) * of_strip;
 }
 
-std::array<double*, Wing::kNumbers> Wing::numbers() { return wingNumbersOf<double>(*this); }
-
-std::array<const double*, Wing::kNumbers> Wing::numbers() const {
-  return wingNumbersOf<const double>(*this);
+std::array<double*, Wing::kNumbers> Wing::numbers() {
+  return placesOf<kNumbers>(facing, span_axis, centre, span, chord, thickness, aspect, body_lift);
 }
 
+std::array<const double*, Wing::kNumbers> Wing::numbers() const { return constNumbersOf(*this); }
+
 std::array<double*, ViscousForm::kNumbers> ViscousForm::numbers() {
-  return viscousNumbersOf<double>(*this);
+  return placesOf<kNumbers>(resistance, centre_of_reaction, separation.axes, separation.ways,
+                            separation.smooth_base, surface.diameter, surface.frontal,
+                            surface.moments, surface.gyration, sharp_share);
 }
 
 std::array<const double*, ViscousForm::kNumbers> ViscousForm::numbers() const {
-  return viscousNumbersOf<const double>(*this);
-}
-
-Eigen::Matrix<double, Eigen::Dynamic, 6> computeSlipMatrix(const FaceTable& faces) {
-  const auto face_count = static_cast<Eigen::Index>(faces.size());
-  Eigen::Matrix<double, Eigen::Dynamic, 6> slip(3 * face_count, 6);
-  for (Eigen::Index i = 0; i < face_count; ++i) {
-    const Vector3 n = faces.normal(static_cast<std::size_t>(i));
-    const Vector3 c = faces.centroid(static_cast<std::size_t>(i));
-    const Matrix3 tangential = Matrix3::Identity() - n * n.transpose();
-    slip.block<3, 3>(3 * i, 0) = tangential * crossMatrix(c);  // u_s = -P (v + w x c)
-    slip.block<3, 3>(3 * i, 3) = -tangential;
-  }
-  return slip;
+  return constNumbersOf(*this);
 }
 
 Vector3 axisOfRevolution(const FluidBody& body) {
@@ -271,78 +250,102 @@ void requirePrepared(const FluidBody& body) {
 
 namespace {
 
-void appendWings(const FluidBody& body, std::string& bytes) {
-  if (body.wings.empty()) return;
-  const auto append = [&bytes](const double* values, std::size_t count) {
-    bytes.append(reinterpret_cast<const char*>(values), count * sizeof(double));
-  };
-  for (const Wing& wing : body.wings) {
-    for (const double* number : wing.numbers()) append(number, 1);
-    bytes += wing.is_joined ? '\1' : '\0';
-    if (wing.nose == 0 && wing.camber == 0) continue;
-    append(&wing.camber, 1);
-    append(&wing.nose, 1);
+/// Bytes of what a hash is made of.
+class HashedBytes {
+ public:
+  template <class Number>
+  void addNumber(const Number& number) {
+    bytes_.append(reinterpret_cast<const char*>(&number), sizeof number);
   }
-  for (const double* number : body.form.rest.numbers()) append(number, 1);
-  append(body.form.wing_shares.data(), body.form.wing_shares.size());
-  bytes.append(body.form.part_of_face.begin(), body.form.part_of_face.end());
-  bytes.append(body.part_of_triangle.begin(), body.part_of_triangle.end());
+  /// Adds the entries of a list or a matrix.
+  template <class List>
+  void addAll(const List& list) {
+    const auto size = static_cast<std::size_t>(list.size()) * sizeof *list.data();
+    bytes_.append(reinterpret_cast<const char*>(list.data()), size);
+  }
+  template <class Part>
+  void addNumbersOf(const Part& part) {
+    for (const double* number : part.numbers()) addNumber(*number);
+  }
+  void addFaces(const FaceTable& faces) {
+    for (const std::vector<double>* column : faces.columns()) addAll(*column);
+    addAll(faces.sharpness);
+  }
+  std::uint64_t hash() const { return fnv1a64(bytes_); }
+
+ private:
+  std::string bytes_;
+};
+
+void addHolds(const std::vector<Hold>& holds, HashedBytes& bytes) {
+  for (const Hold& hold : holds) {
+    bytes.addAll(hold.surface.vertices);
+    bytes.addAll(hold.surface.triangles);
+    for (const HoldOpening& opening : hold.openings) {
+      bytes.addAll(opening.outline);
+      bytes.addAll(opening.lid);
+      bytes.addNumber(opening.to);
+    }
+  }
+}
+
+void addWings(const FluidBody& body, HashedBytes& bytes) {
+  if (body.wings.empty()) return;
+  for (const Wing& wing : body.wings) {
+    bytes.addNumbersOf(wing);
+    bytes.addNumber(wing.is_joined);
+    if (wing.nose == 0 && wing.camber == 0) continue;
+    bytes.addNumber(wing.camber);
+    bytes.addNumber(wing.nose);
+  }
+  bytes.addNumbersOf(body.form.rest);
+  bytes.addAll(body.form.wing_shares);
+  bytes.addAll(body.form.part_of_face);
+  bytes.addAll(body.part_of_triangle);
 }
 
 }  // namespace
 
 std::uint64_t contentHash(const FluidBody& body) {
-  std::string bytes;
-  const auto append = [&bytes](const double* values, std::size_t count) {
-    bytes.append(reinterpret_cast<const char*>(values), count * sizeof(double));
-  };
-  append(body.added_mass.data(), 36);
-  append(&body.volume, 1);
-  append(&body.area, 1);
-  append(body.centre_of_volume.data(), 3);
-  const auto appendFaces = [&append](const FaceTable& faces) {
-    for (const std::vector<double>* column : faces.columns())
-      append(column->data(), column->size());
-    append(faces.sharpness.data(), faces.sharpness.size());
-  };
-  appendFaces(body.faces);
-  if (body.form.faces.size() > 0)
-    for (const double* number : body.form.shape.numbers()) append(number, 1);
-  appendFaces(body.form.faces);
+  HashedBytes bytes;
+  bytes.addAll(body.added_mass);
+  bytes.addNumber(body.volume);
+  bytes.addNumber(body.area);
+  bytes.addAll(body.centre_of_volume);
+  bytes.addFaces(body.faces);
+  if (body.form.faces.size() > 0) bytes.addNumbersOf(body.form.shape);
+  bytes.addFaces(body.form.faces);
   if (body.viscous.isKnown()) {
-    for (const double* number : body.viscous.numbers()) append(number, 1);
-    bytes += body.viscous.is_primitive ? '\1' : '\0';
+    bytes.addNumbersOf(body.viscous);
+    bytes.addNumber(body.viscous.is_primitive);
   }
-  for (const FormLevel& level : body.form_levels) appendFaces(level.faces);
-  if (!body.drag.isZero(0)) append(body.drag.data(), 3);
-  if (body.sphere_radius > 0) append(&body.sphere_radius, 1);
-  append(body.surface.vertices.data(), body.surface.vertices.size());
-  bytes.append(reinterpret_cast<const char*>(body.surface.triangles.data()),
-               body.surface.triangles.size() * sizeof(std::int32_t));
-  bytes.append(reinterpret_cast<const char*>(body.form.hull.data()),
-               body.form.hull.size() * sizeof(std::int32_t));
+  for (const FormLevel& level : body.form_levels) bytes.addFaces(level.faces);
+  if (!body.drag.isZero(0)) bytes.addAll(body.drag);
+  if (body.sphere_radius > 0) bytes.addNumber(body.sphere_radius);
+  bytes.addAll(body.surface.vertices);
+  bytes.addAll(body.surface.triangles);
+  bytes.addAll(body.form.hull);
   for (const AddedMassPart& part : body.added_mass_parts.all()) {
-    append(part.centre.data(), 3);
-    append(part.spread.data(), 6);
-    append(part.inertia.data(), 36);
+    bytes.addAll(part.centre);
+    bytes.addAll(part.spread);
+    bytes.addAll(part.inertia);
   }
-  append(body.waterline.immersions.data(), body.waterline.immersions.size());
-  for (const Matrix6& correction : body.waterline.corrections) append(correction.data(), 36);
-  const auto appendTriangles = [&](const std::vector<double>& places,
-                                   const std::vector<std::int32_t>& triangles) {
-    append(places.data(), places.size());
-    bytes.append(reinterpret_cast<const char*>(triangles.data()),
-                 triangles.size() * sizeof(std::int32_t));
-  };
-  for (const Hold& hold : body.holds) {
-    appendTriangles(hold.surface.vertices, hold.surface.triangles);
-    for (const HoldOpening& opening : hold.openings) {
-      appendTriangles(opening.outline, opening.lid);
-      bytes.append(reinterpret_cast<const char*>(&opening.to), sizeof opening.to);
-    }
-  }
-  appendWings(body, bytes);
-  return fnv1a64(bytes);
+  bytes.addAll(body.waterline.immersions);
+  for (const Matrix6& correction : body.waterline.corrections) bytes.addAll(correction);
+  addHolds(body.holds, bytes);
+  addWings(body, bytes);
+  return bytes.hash();
+}
+
+double boxTurning(double a, double b) noexcept {
+  constexpr double kPi5 = kPi * kPi * kPi * kPi * kPi;
+  const double ratio = std::sqrt(std::max(a, b) / std::min(a, b));
+  const double decay = portable::exp(-kPi * ratio);
+  const double tanh = (1 - decay) / (1 + decay);  // of half of that
+  const double part = 1 + ratio * ratio;
+  const double share =
+      std::isfinite(ratio) ? 1 - 4 / part + 768 / kPi5 * (tanh + 0.0045) / (ratio * part) : 1;
+  return (a + b) / 12 * share;
 }
 
 }  // namespace ambient

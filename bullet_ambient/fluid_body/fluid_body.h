@@ -1,17 +1,57 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bullet_ambient/fluid_body/added_mass_parts.h"
-#include "bullet_ambient/fluid_body/shared_list.h"
 #include "bullet_ambient/spatial/vector_types.h"
 
 namespace ambient {
+
+/// List of numbers. Copies share their memory until one of them is to be changed, own().
+template <class Number>
+class SharedList {
+ public:
+  using List = std::vector<Number>;
+
+  SharedList() = default;
+  SharedList(List numbers) {
+    if (!numbers.empty()) list_ = std::make_shared<List>(std::move(numbers));
+  }
+  SharedList(std::initializer_list<Number> numbers) : SharedList(List(numbers)) {}
+  template <class Iterator>
+  SharedList(Iterator begin, Iterator end) : SharedList(List(begin, end)) {}
+
+  operator const List&() const { return get(); }
+  const List& get() const {
+    static const List kNone;
+    return list_ ? *list_ : kNone;
+  }
+  /// Returns the list to change it; no copy sees that.
+  List& own() {
+    if (!list_ || list_.use_count() > 1) list_ = std::make_shared<List>(get());
+    return *list_;
+  }
+
+  std::size_t size() const { return get().size(); }
+  bool empty() const { return get().empty(); }
+  const Number* data() const { return get().data(); }
+  const Number& operator[](std::size_t i) const { return (*list_)[i]; }
+  auto begin() const { return get().begin(); }
+  auto end() const { return get().end(); }
+  friend bool operator==(const SharedList& a, const SharedList& b) { return a.get() == b.get(); }
+  friend bool operator!=(const SharedList& a, const SharedList& b) { return !(a == b); }
+
+ private:
+  std::shared_ptr<List> list_;  ///< null: empty
+};
 
 /// Triangles of a shape in F: for drawing, hydrostatics and the form law.
 struct Surface {
@@ -38,6 +78,11 @@ struct Hold {
   Matrix3 turning_inertia = Matrix3::Zero();
   std::vector<HoldOpening> openings;  ///< each once: one between two holds is the first hold's
 };
+
+/// Inertia of the fluid in a closed box as it resists turning, per mass, docs/theory.md eq. (133)
+/// [m^2].
+/// @param a,b squares of the sides across the axis [m^2]
+double boxTurning(double a, double b) noexcept;
 
 /// Flow past a body that moves one way, as boundary layers change it; docs/theory.md eq. (97) to
 /// (99). On its frontal area and D_A, without unit. The first four of a state of the layers:
@@ -134,8 +179,7 @@ class TablesSlot {
 
 /// Faces that carry the fluid loads, as a structure of arrays with one entry per face.
 /// Frame: fluid body frame F. Normals and centroids determine the slip matrix of the paper's
-/// appendix (3F x 6), U_i = -(I - n n^T) [-[c]x, I], which is not stored. computeSlipMatrix()
-/// computes it.
+/// appendix (3F x 6), U_i = -(I - n n^T) [-[c]x, I], which is not stored.
 struct FaceTable {
   SharedList<double> normal_x, normal_y, normal_z;         ///< unit normals into the fluid
   std::vector<double> centroid_x, centroid_y, centroid_z;  ///< barycentres [m]
@@ -307,10 +351,6 @@ struct FluidBody {
   std::vector<std::uint8_t> part_of_triangle;
   TablesSlot tables;  ///< of the loads; a fluid body that loads were made of must not change
 };
-
-/// Slip matrix U (3F x 6) of docs/theory.md eq. (12), for the relative twist x in F: U x stacks the
-/// slip velocities [m/s] of fully attached flow at all faces. Padilla et al. 2025, appendix A.2.
-Eigen::Matrix<double, Eigen::Dynamic, 6> computeSlipMatrix(const FaceTable& faces);
 
 /// Sizes of the bounding box of the body's surface along the axes of F [m]; 0 without a surface.
 Vector3 extentsOf(const FluidBody& body);

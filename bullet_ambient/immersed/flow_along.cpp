@@ -5,7 +5,8 @@
 #include <limits>
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
-#include "bullet_ambient/force/surface/layered_buoyancy.h"
+#include "bullet_ambient/force/medium/profiles.h"
+#include "bullet_ambient/force/surface/hydrostatics.h"
 #include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/immersed/fluid_regions.h"
 #include "bullet_ambient/spatial/rotation.h"

@@ -37,6 +37,10 @@ struct Wrench {
   static Wrench ofForceAt(const Vector3& force, const Vector3& position) {
     return {position.cross(force), force};
   }
+  /// The wrench about the frame's origin, if this one is about `position` [m]; in the same axes.
+  Wrench aboutOrigin(const Vector3& position) const {
+    return {torque + position.cross(force), force};
+  }
   Vector6 vector() const { return stack(torque, force); }
   Wrench& operator+=(const Wrench& other) {
     torque += other.torque;

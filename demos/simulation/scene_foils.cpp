@@ -100,7 +100,7 @@ Wrench SceneFoils::washOn(const Placed& placed, const Thrusters& thrusters, std:
   const Twist washed{x.angular, x.linear - wash.velocity * away};
   Wrench sum = placed.foils->load(placed.index, washed, share * state.density, nullptr);
   sum -= placed.foils->load(placed.index, x, share * state.density, nullptr);
-  return {sum.torque + placed.origin.cross(sum.force), sum.force};
+  return sum.aboutOrigin(placed.origin);
 }
 
 }  // namespace ambient

@@ -10,7 +10,7 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/force/surface/wetted_parts.h"
+#include "bullet_ambient/force/surface/wetted_inertia.h"
 #include "bullet_ambient/spatial/cholesky.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"

@@ -8,7 +8,7 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/plain_text.h"
-#include "bullet_ambient/force/surface/wetted_parts.h"
+#include "bullet_ambient/force/surface/wetted_inertia.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "preprocess/base/output_file.h"
 #include "preprocess/polar/polar.h"

@@ -17,7 +17,7 @@
 #include "bullet_ambient/fluid_body/added_mass_parts.h"
 #include "bullet_ambient/fluid_body/octahedral_lattice.h"
 #include "bullet_ambient/fluid_body/packed/packed_shape.h"
-#include "bullet_ambient/force/surface/wetted_parts.h"
+#include "bullet_ambient/force/surface/wetted_inertia.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "preprocess/base/matrices.h"
 #include "preprocess/base/parallel_for.h"
@@ -273,6 +273,13 @@ Vector6 panelFactors(const FluidBody& body, const TriangleMesh& mesh, int panels
   throw std::runtime_error(text.str());
 }
 
+/// Returns the body with the parts of its added mass alone, which its table corrects.
+std::shared_ptr<const FluidBody> withoutTable(FluidBody body) {
+  body.waterline = {};
+  body.sphere_radius = 0;
+  return std::make_shared<const FluidBody>(std::move(body));
+}
+
 class WaterlineSolver {
  public:
   WaterlineSolver(const FluidBody& body, int panels)
@@ -281,7 +288,7 @@ class WaterlineSolver {
         mesh_(coarseSurfaceOf(body, panels)),
         factors_(panelFactors(body, mesh_, panels)),
         hull_(body),
-        parts_(body, std::make_shared<AddedMassParts>(body.added_mass_parts)) {}
+        by_parts_(makeWettedInertia(withoutTable(body))) {}
 
   /// Where the flow has no solution on the panels that the surface cuts, takes the correction at
   /// the next immersion that has one, 0.3 % of the height away at most.
@@ -305,7 +312,7 @@ class WaterlineSolver {
       return std::nullopt;
     }
     if (!flow.allFinite()) return std::nullopt;
-    return flow - parts_.unraisedInertia(at);
+    return flow - by_parts_->unraisedInertia(at);
   }
 
   /// Panels are the finer the less of the body is wet.
@@ -322,7 +329,7 @@ class WaterlineSolver {
   TriangleMesh mesh_;
   Vector6 factors_;
   PackedHull hull_;
-  WettedParts parts_;
+  std::shared_ptr<const WettedInertia> by_parts_;
 };
 
 /// A node of the lattice whose flow is solved, and the turn that maps its direction to another's.

@@ -1,6 +1,6 @@
 #include <benchmark/benchmark.h>
 
-#include "bullet_ambient/force/surface/layered_buoyancy.h"
+#include "bullet_ambient/force/surface/hydrostatics.h"
 #include "bullet_ambient/wind.h"
 #include "tests/support/bodies/hull_bodies.h"
 

@@ -268,7 +268,7 @@ void gatherReactions(const Vessel& vessel) {
     if (around.is_dry || moving.link || !isAwake(moving) || !last || !last->memory.has_load) return;
     const Wrench& drag = last->memory.load_W;
     const Vector3 arm = moving.centre - centre;
-    state.reaction_W -= Wrench{drag.torque + arm.cross(drag.force), drag.force};
+    state.reaction_W -= drag.aboutOrigin(arm);
     const Twist& of_vessel = vessel.now.twist_W;
     const Vector3 past =
         nowOf(moving).twist_W.linear - of_vessel.linear - of_vessel.angular.cross(arm);

@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <sstream>
 #include <stdexcept>
 #include <system_error>
 
@@ -13,6 +14,15 @@
 namespace ambient {
 
 namespace {
+
+/// @param source names the file
+template <class... Parts>
+[[noreturn]] void fail(const std::string& source, const Parts&... parts) {
+  std::ostringstream line;
+  line << source << ": ";
+  (line << ... << parts);
+  throw std::runtime_error(plainLine(line.str()));
+}
 
 template <class Matrix, class Struct>
 Matrix unpackMatrix(const Struct& packed) {
@@ -69,17 +79,16 @@ Surface unpack(const file::Surface& packed) {
 
 /// @param what has the numbers, for messages
 template <std::size_t kCount>
-void unpackNumbers(const flatbuffers::Vector<double>& packed, const std::string& what,
-                   const std::array<double*, kCount>& numbers) {
+void unpackNumbers(const flatbuffers::Vector<double>& packed, const std::string& source,
+                   const char* what, const std::array<double*, kCount>& numbers) {
   if (packed.size() != kCount)
-    throw std::runtime_error(what + " has " + std::to_string(packed.size()) +
-                             " numbers, but must have " + std::to_string(kCount));
+    fail(source, what, " has ", packed.size(), " numbers, but must have ", kCount);
   for (std::size_t i = 0; i < kCount; ++i) *numbers[i] = elementOf(packed, i);
 }
 
 SurfaceForm unpack(const file::SurfaceForm& packed, const std::string& source) {
   SurfaceForm form;
-  unpackNumbers(*packed.shape(), source + ": its form", form.shape.numbers());
+  unpackNumbers(*packed.shape(), source, "its form", form.shape.numbers());
   form.faces = unpack(*packed.faces());
   form.faces.sharpness = unpackVector(*packed.sharpness());
   form.hull = unpackVector(*packed.hull());
@@ -88,7 +97,7 @@ SurfaceForm unpack(const file::SurfaceForm& packed, const std::string& source) {
 
 ViscousForm unpack(const file::ViscousForm& packed, const std::string& source) {
   ViscousForm form;
-  unpackNumbers(*packed.numbers(), source + ": its viscous form", form.numbers());
+  unpackNumbers(*packed.numbers(), source, "its viscous form", form.numbers());
   form.is_primitive = packed.is_primitive();
   return form;
 }
@@ -106,9 +115,8 @@ Matrix6 readSymmetric(const Next& next) {
 std::vector<AddedMassPart> unpackParts(const flatbuffers::Vector<float>& packed,
                                        const std::string& source) {
   if (packed.size() % AddedMassPart::kNumbers != 0)
-    throw std::runtime_error(
-        source + ": the parts of its added mass are " + std::to_string(packed.size()) +
-        " numbers, but must be a multiple of " + std::to_string(AddedMassPart::kNumbers));
+    fail(source, "the parts of its added mass are ", packed.size(),
+         " numbers, but must be a multiple of ", int{AddedMassPart::kNumbers});
   std::vector<AddedMassPart> parts(packed.size() / AddedMassPart::kNumbers);
   std::size_t at = 0;
   const auto next = [&] { return static_cast<double>(elementOf(packed, at++)); };
@@ -123,9 +131,8 @@ std::vector<AddedMassPart> unpackParts(const flatbuffers::Vector<float>& packed,
 WaterlineTable unpack(const file::WaterlineTable& packed, const std::string& source) {
   const flatbuffers::Vector<float>& numbers = *packed.corrections();
   if (numbers.size() % kSymmetricNumbers != 0)
-    throw std::runtime_error(source + ": the corrections of its waterline table are " +
-                             std::to_string(numbers.size()) +
-                             " numbers, but must be a multiple of 21");
+    fail(source, "the corrections of its waterline table are ", numbers.size(),
+         " numbers, but must be a multiple of ", kSymmetricNumbers);
   WaterlineTable table{packed.subdivisions(), unpackVector(*packed.immersions()), {}};
   std::size_t at = 0;
   const auto next = [&] { return static_cast<double>(elementOf(numbers, at++)); };
@@ -150,7 +157,7 @@ Hold unpack(const file::Hold& packed) {
 Wing unpack(const file::Wing& packed, const std::string& source) {
   Wing wing;
   wing.name = packed.name()->str();
-  unpackNumbers(*packed.numbers(), source + ": a wing", wing.numbers());
+  unpackNumbers(*packed.numbers(), source, "a wing", wing.numbers());
   wing.is_joined = packed.is_joined();
   wing.camber = packed.camber();
   wing.nose = packed.nose();
@@ -164,7 +171,7 @@ void unpackWings(const file::FluidBody& packed, const std::string& source, Fluid
   if (!packed.wing_form()) return;
   const file::WingForm& form = *packed.wing_form();
   body.form.part_of_face = unpackVector(*form.part_of_face());
-  unpackNumbers(*form.rest(), source + ": the rest beside its wings", body.form.rest.numbers());
+  unpackNumbers(*form.rest(), source, "the rest beside its wings", body.form.rest.numbers());
   body.form.wing_shares = unpackVector(*form.wing_shares());
 }
 
@@ -210,8 +217,7 @@ FluidBody decodeFluidBody(std::string_view bytes, const std::string& source) {
   const std::string_view payload = bytes.substr(kFileHeaderSize);
   checkPayloadSize(header, payload.size(), source);
   if (fnv1a64(payload) != header.payload_checksum)
-    throw std::runtime_error(source + ": damaged: the checksum of its " +
-                             std::to_string(payload.size()) + " byte payload does not match");
+    fail(source, "damaged: the checksum of its ", payload.size(), " byte payload does not match");
 
   std::vector<double> aligned;
   const char* data = payload.data();
@@ -223,9 +229,7 @@ FluidBody decodeFluidBody(std::string_view bytes, const std::string& source) {
   const auto* buffer = reinterpret_cast<const std::uint8_t*>(data);
   flatbuffers::Verifier verifier(buffer, payload.size());
   if (!file::VerifyFluidBodyBuffer(verifier))
-    throw std::runtime_error(source +
-                             ": damaged: its payload is not a fluid body of format version " +
-                             std::to_string(header.version));
+    fail(source, "damaged: its payload is not a fluid body of format version ", header.version);
   FluidBody body = unpack(*file::GetFluidBody(buffer), source);
   checkFluidBody(body, source);
   return body;
@@ -243,57 +247,47 @@ std::uint64_t littleEndian(std::string_view bytes) {
 }  // namespace
 
 FileHeader decodeFileHeader(std::string_view bytes, const std::string& source) {
-  const auto fail = [&](const std::string& what) {
-    throw std::runtime_error(source + ": " + what);
-  };
-  if (bytes.empty()) fail("the file is empty");
+  if (bytes.empty()) fail(source, "the file is empty");
   if (bytes.substr(0, kFileMagic.size()) != kFileMagic.substr(0, bytes.size()))
-    fail("not a .ambient file: it does not begin with the mark of one");
+    fail(source, "not a .ambient file: it does not begin with the mark of one");
   if (bytes.size() < kFileHeaderSize)
-    fail("truncated: " + std::to_string(bytes.size()) + " bytes, but the header alone has " +
-         std::to_string(kFileHeaderSize));
+    fail(source, "truncated: ", bytes.size(), " bytes, but the header alone has ", kFileHeaderSize);
 
   FileHeader header;
   header.version = static_cast<std::uint32_t>(littleEndian(bytes.substr(8, 4)));
   header.payload_size = littleEndian(bytes.substr(16, 8));
   header.payload_checksum = littleEndian(bytes.substr(24, 8));
   if (header.version > kFormatVersion)
-    fail("format version " + std::to_string(header.version) +
-         " is newer than this program reads, limit " + std::to_string(kFormatVersion));
+    fail(source, "format version ", header.version, " is newer than this program reads, limit ",
+         kFormatVersion);
   if (header.version == 0 || littleEndian(bytes.substr(12, 4)) != 0)
-    fail("damaged: its header is not valid");
+    fail(source, "damaged: its header is not valid");
   return header;
 }
 
 void checkPayloadSize(const FileHeader& header, std::uint64_t present, const std::string& source) {
   if (header.payload_size > kPayloadLimit)
-    throw std::runtime_error(source + ": damaged: a payload of " +
-                             std::to_string(header.payload_size) + " bytes is announced, limit " +
-                             std::to_string(kPayloadLimit));
+    fail(source, "damaged: a payload of ", header.payload_size, " bytes is announced, limit ",
+         kPayloadLimit);
   if (present != header.payload_size)
-    throw std::runtime_error(
-        source + (present < header.payload_size ? ": truncated: " : ": damaged: ") +
-        std::to_string(present) + " bytes follow the header, which announces " +
-        std::to_string(header.payload_size));
+    fail(source, present < header.payload_size ? "truncated: " : "damaged: ", present,
+         " bytes follow the header, which announces ", header.payload_size);
 }
 
 namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(const fs::path& file, const std::string& what) {
-  throw std::runtime_error(plainLine(file.string() + ": " + what));
-}
-
-std::uint64_t sizeOfRegularFile(const fs::path& file) {
+std::uint64_t sizeOfRegularFile(const fs::path& path) {
+  const std::string file = path.string();
   std::error_code error;
-  const fs::file_status status = fs::status(file, error);
+  const fs::file_status status = fs::status(path, error);
   if (status.type() == fs::file_type::not_found) fail(file, "no such file");
-  if (error) fail(file, "cannot be read: " + error.message());
+  if (error) fail(file, "cannot be read: ", error.message());
   if (fs::is_directory(status)) fail(file, "is a directory, not a .ambient file");
   if (!fs::is_regular_file(status)) fail(file, "is not a regular file");
-  const std::uint64_t size = fs::file_size(file, error);
-  if (error) fail(file, "cannot be read: " + error.message());
+  const std::uint64_t size = fs::file_size(path, error);
+  if (error) fail(file, "cannot be read: ", error.message());
   return size;
 }
 
@@ -301,7 +295,7 @@ std::string readBytes(const fs::path& file) {
   const std::uint64_t size = sizeOfRegularFile(file);
   errno = 0;
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) fail(file, std::string("cannot be opened: ") + std::strerror(errno));
+  if (!stream) fail(file.string(), "cannot be opened: ", std::strerror(errno));
 
   std::string bytes(static_cast<std::size_t>(std::min<std::uint64_t>(size, kFileHeaderSize)), '\0');
   const auto read = [&](std::size_t from) {

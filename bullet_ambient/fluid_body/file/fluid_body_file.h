@@ -59,8 +59,6 @@ FluidBody decodeFluidBody(std::string_view bytes, const std::string& source);
 /// @throws std::runtime_error with one sentence that begins with `source`.
 void checkFluidBody(const FluidBody& body, const std::string& source);
 
-struct FluidBody;
-
 /// Reads a .ambient file like readFluidBody(); the result is shared by all bodies of the shape.
 /// @throws std::runtime_error as readFluidBody().
 std::shared_ptr<const FluidBody> loadFluidBody(const std::string& file);

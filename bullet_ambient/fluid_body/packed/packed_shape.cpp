@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/fluid_body/block_order.h"
+#include "bullet_ambient/fluid_body/added_mass_parts.h"
 #include "bullet_ambient/fluid_body/form_factors.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
 
@@ -147,10 +149,155 @@ void PackedFaces::setBox(std::size_t block) {
 
 namespace {
 
-using Triangle = HullTriangle;
+constexpr double kHullRounding = 1e-10;  // of the size
 
-std::vector<Triangle> trianglesOf(const Surface& surface, const std::vector<std::int32_t>& hull) {
-  std::vector<Triangle> triangles;
+/// Vertices of a surface by their places, in steps of its rounding, and its triangles by them.
+class Lattice {
+ public:
+  explicit Lattice(const Surface& surface) : surface_(surface) {
+    double size = 0;
+    for (const double x : surface.vertices) size = std::max(size, std::abs(x));
+    const double inverse_step = size > 0 ? 1 / (kHullRounding * size) : 0;
+    for (std::size_t i = 0; i + 2 < surface.vertices.size(); i += 3) {
+      const double* x = &surface.vertices[i];
+      places_.push_back({std::llround(x[0] * inverse_step), std::llround(x[1] * inverse_step),
+                         std::llround(x[2] * inverse_step)});
+      sorted_.emplace_back(places_.back(), static_cast<std::int32_t>(i / 3));
+    }
+    std::sort(sorted_.begin(), sorted_.end());
+    const std::vector<std::int32_t> first = images({}, 0);  // of those at one place
+    own_ = trianglesBy(first);
+  }
+
+  /// Returns true if the image of each triangle is one of them.
+  bool maps(const HullSymmetry& symmetry, int image) const {
+    const std::vector<std::int32_t> numbers = images(symmetry, image);
+    return !numbers.empty() && trianglesBy(numbers) == own_;
+  }
+
+ private:
+  using Place = std::array<std::int64_t, 3>;
+  using Corners = std::array<std::int32_t, 3>;
+
+  /// Numbers of the vertices at the places of the images of all; empty: one of them has none.
+  std::vector<std::int32_t> images(const HullSymmetry& symmetry, int image) const {
+    std::vector<std::int32_t> numbers;
+    numbers.reserve(places_.size());
+    for (const Place& place : places_) {
+      const Place wanted = symmetry.imageOf(place, image);
+      const auto found =
+          std::lower_bound(sorted_.begin(), sorted_.end(), std::pair(wanted, std::int32_t{0}));
+      if (found == sorted_.end() || found->first != wanted) return {};
+      numbers.push_back(found->second);
+    }
+    return numbers;
+  }
+
+  /// Corners of all triangles, each from its lowest number on, in order.
+  std::vector<Corners> trianglesBy(const std::vector<std::int32_t>& numbers) const {
+    std::vector<Corners> triangles;
+    triangles.reserve(surface_.triangles.size() / 3);
+    for (std::size_t i = 0; i + 2 < surface_.triangles.size(); i += 3) {
+      const auto at = [&](std::size_t k) {
+        return numbers[static_cast<std::size_t>(surface_.triangles[i + k])];
+      };
+      Corners corners{at(0), at(1), at(2)};
+      std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+      triangles.push_back(corners);
+    }
+    std::sort(triangles.begin(), triangles.end());
+    return triangles;
+  }
+
+  const Surface& surface_;
+  std::vector<Place> places_;
+  std::vector<std::pair<Place, std::int32_t>> sorted_;
+  std::vector<Corners> own_;
+};
+
+bool isCut(const HullSymmetry& symmetry, int axis) {
+  return symmetry.axis >= 0 && axis != symmetry.axis;
+}
+
+/// Returns the part of a convex polygon on the positive side of an axis; none of one on its plane.
+std::vector<Vector3> partAlong(int axis, double rounding, std::vector<Vector3> polygon) {
+  bool is_apart = false;
+  for (Vector3& corner : polygon) {
+    if (std::abs(corner[axis]) <= rounding) corner[axis] = 0;
+    is_apart = is_apart || corner[axis] > 0;
+  }
+  std::vector<Vector3> part;
+  for (std::size_t i = 0; is_apart && i < polygon.size(); ++i) {
+    const Vector3 &here = polygon[i], &next = polygon[(i + 1) % polygon.size()];
+    if (here[axis] >= 0) part.push_back(here);
+    if (!(here[axis] * next[axis] < 0)) continue;
+    part.push_back(here + here[axis] / (here[axis] - next[axis]) * (next - here));
+    part.back()[axis] = 0;
+  }
+  return part;
+}
+
+template <class Places>
+double roundingOf(const Places& places) {
+  double size = 0;
+  for (const Vector3& place : places) size = std::max(size, place.cwiseAbs().maxCoeff());
+  return kHullRounding * size;
+}
+
+/// Returns the symmetry by which a part of the hull of a body may be kept: but for rounding, the
+/// image of each triangle of its surface is one of them. None of a hull of few triangles, nor of a
+/// body whose added mass has no mirrors. Cost: O(T log T).
+HullSymmetry symmetryOf(const FluidBody& body) {
+  constexpr std::size_t kFewTriangles = 48;
+  const int mirrors = body.added_mass_parts.blocks().mirrors;
+  if (body.form.hull.size() <= 3 * kFewTriangles || mirrors == 0) return {};
+  const Lattice lattice(body.surface);
+  for (int axis = 0; axis < 3; ++axis) {
+    if ((mirrors | 1 << axis) == 7 && lattice.maps({axis}, 1)) return {axis};
+  }
+  return {};
+}
+
+/// Returns what is kept: the parts of triangles on the positive side of the axes across that of the
+/// symmetry. What rounding leaves beside their planes is on them.
+std::vector<HullTriangle> partOf(const std::vector<HullTriangle>& triangles,
+                                 const HullSymmetry& symmetry) {
+  if (symmetry.axis < 0) return triangles;
+  double rounding = 0;
+  for (const HullTriangle& triangle : triangles)
+    rounding = std::max(rounding, roundingOf(triangle));
+  std::vector<HullTriangle> parts;
+  for (const HullTriangle& triangle : triangles) {
+    std::vector<Vector3> polygon(triangle.begin(), triangle.end());
+    for (int axis = 0; axis < 3; ++axis)
+      if (isCut(symmetry, axis)) polygon = partAlong(axis, rounding, std::move(polygon));
+    for (std::size_t i = 2; i < polygon.size(); ++i)
+      parts.push_back({polygon[0], polygon[i - 1], polygon[i]});
+  }
+  AMBIENT_ASSERT(!parts.empty());
+  return parts;
+}
+
+/// Returns what is kept: the parts of triangles on the positive side of the axes across that of the
+/// symmetry. What rounding leaves beside their planes is on them.
+std::vector<HullTriangle> partOf(const std::vector<HullTriangle>& triangles,
+                                 const HullSymmetry& symmetry);
+/// Returns the corners that are kept.
+std::vector<Vector3> partOf(const std::vector<Vector3>& corners, const HullSymmetry& symmetry) {
+  const double rounding = roundingOf(corners);
+  std::vector<Vector3> part;
+  for (const Vector3& corner : corners) {
+    bool is_kept = true;
+    for (int axis = 0; axis < 3; ++axis)
+      is_kept = is_kept && (!isCut(symmetry, axis) || corner[axis] >= -rounding);
+    if (is_kept) part.push_back(corner);
+  }
+  return part;
+}
+
+std::vector<HullTriangle> trianglesOf(const Surface& surface,
+                                      const std::vector<std::int32_t>& hull) {
+  std::vector<HullTriangle> triangles;
   for (std::size_t i = 0; i < hull.size(); i += 3)
     triangles.push_back({vertexOf(surface, hull[i]), vertexOf(surface, hull[i + 1]),
                          vertexOf(surface, hull[i + 2])});
@@ -158,9 +305,9 @@ std::vector<Triangle> trianglesOf(const Surface& surface, const std::vector<std:
 }
 
 // Returns the corners of all triangles without duplicates.
-std::vector<Vector3> cornersOf(const std::vector<Triangle>& triangles) {
+std::vector<Vector3> cornersOf(const std::vector<HullTriangle>& triangles) {
   std::vector<std::array<double, 3>> places;
-  for (const Triangle& t : triangles)
+  for (const HullTriangle& t : triangles)
     for (const Vector3& p : t) places.push_back({p.x(), p.y(), p.z()});
   std::sort(places.begin(), places.end());
   places.erase(std::unique(places.begin(), places.end()), places.end());
@@ -169,15 +316,12 @@ std::vector<Vector3> cornersOf(const std::vector<Triangle>& triangles) {
   return corners;
 }
 
-template <class Thing, class Place>
-std::vector<Thing> inBlocks(const std::vector<Thing>& things, std::size_t size,
-                            const Place& placeOf) {
-  std::vector<Vector6> coordinates;
-  coordinates.reserve(things.size());
-  for (const Thing& thing : things) coordinates.push_back(stack({0, 0, 0}, placeOf(thing)));
+template <class Thing>
+std::vector<Thing> inBlocks(const std::vector<Thing>& things, const std::vector<Vector3>& places,
+                            std::size_t size) {
   std::vector<Thing> sorted;
   sorted.reserve(things.size());
-  for (const std::uint32_t i : orderInBlocks(coordinates, size)) sorted.push_back(things[i]);
+  for (const std::uint32_t i : orderInBlocks(places, size)) sorted.push_back(things[i]);
   return sorted;
 }
 
@@ -197,10 +341,10 @@ Box boxAround(const Vector3* points, std::size_t count) {
   return {(low + high) / 2, ((high - low) / 2).array() + kRounding * size};
 }
 
-Vector3 areaNormal(const Triangle& t) { return (t[1] - t[0]).cross(t[2] - t[0]) / 2; }
+Vector3 areaNormal(const HullTriangle& t) { return (t[1] - t[0]).cross(t[2] - t[0]) / 2; }
 
 /// Adds to N = sum A n, M = sum A n c^T, Q_jkl = sum int n_j z_k z_l dA; docs/theory.md eq. (57).
-void add(const Triangle& t, HullMoments& moments) {
+void add(const HullTriangle& t, HullMoments& moments) {
   const Vector3 normal = areaNormal(t);
   const Vector3 c = (t[0] + t[1] + t[2]) / 3;
   const Matrix3 second = (t[0] * t[0].transpose() + t[1] * t[1].transpose() +
@@ -215,7 +359,7 @@ void add(const Triangle& t, HullMoments& moments) {
   }
 }
 
-HullBlock blockOf(const Triangle* triangles, std::size_t count) {
+HullBlock blockOf(const HullTriangle* triangles, std::size_t count) {
   AMBIENT_ASSERT(count > 0 && count <= HullBlock::kTriangles);
   HullBlock block = {};
   for (std::size_t i = 0; i < count; ++i)
@@ -229,20 +373,20 @@ HullBlock blockOf(const Triangle* triangles, std::size_t count) {
   return block;
 }
 
-HullWhole wholeOf(const std::vector<Triangle>& triangles) {
+HullWhole wholeOf(const std::vector<HullTriangle>& triangles) {
   HullWhole whole = {};
   const Box box = boxAround(triangles.front().data(), 3 * triangles.size());
   for (int axis = 0; axis < 3; ++axis) {
     whole.centre[axis] = box.centre[axis];
     whole.half[axis] = box.half[axis];
   }
-  for (const Triangle& triangle : triangles) add(triangle, whole.moments);
+  for (const HullTriangle& triangle : triangles) add(triangle, whole.moments);
   return whole;
 }
 
-double volumeOf(const std::vector<Triangle>& triangles) {
+double volumeOf(const std::vector<HullTriangle>& triangles) {
   double volume = 0;
-  for (const Triangle& t : triangles) volume += t[0].dot(t[1].cross(t[2])) / 6;
+  for (const HullTriangle& t : triangles) volume += t[0].dot(t[1].cross(t[2])) / 6;
   return volume;
 }
 
@@ -251,31 +395,29 @@ double volumeOf(const std::vector<Triangle>& triangles) {
 PackedHull::PackedHull(const FluidBody& body) {
   if (body.surface.triangles.empty()) return;
   requirePrepared(body);
-  const std::vector<Triangle> triangles = trianglesOf(body.surface, body.form.hull);
+  const std::vector<HullTriangle> triangles = trianglesOf(body.surface, body.form.hull);
   if (body.volume > 0) symmetry_ = symmetryOf(body);
   packPoints(partOf(cornersOf(triangles), symmetry_));
   if (!(body.volume > 0)) return;
   const double volume = volumeOf(triangles);
   if (volume > 0) volume_factor_ = body.volume / volume;
   AMBIENT_ASSERT(volume_factor_ > 0 && std::isfinite(volume_factor_));
-  const std::vector<Triangle> part = partOf(triangles, symmetry_);
+  const std::vector<HullTriangle> part = partOf(triangles, symmetry_);
   if (symmetry_.axis >= 0) whole_ = std::make_shared<const HullWhole>(wholeOf(part));
-  packInBlocks(part);
+  packTriangles(part);
 }
 
 PackedHull::PackedHull(const Surface& surface) {
-  const std::vector<Triangle> triangles = trianglesOf(surface, surface.triangles);
+  const std::vector<HullTriangle> triangles = trianglesOf(surface, surface.triangles);
   packPoints(cornersOf(triangles));
-  packInBlocks(triangles);
+  packTriangles(triangles);
 }
 
-void PackedHull::packInBlocks(const std::vector<Triangle>& triangles) {
-  packTriangles(inBlocks(triangles, HullBlock::kTriangles,
-                         [](const Triangle& t) { return Vector3(t[0] + t[1] + t[2]); }));
-}
-
-void PackedHull::packTriangles(const std::vector<Triangle>& triangles) {
+void PackedHull::packTriangles(const std::vector<HullTriangle>& unsorted) {
   constexpr std::size_t kTriangles = HullBlock::kTriangles, kBlocks = HullBoxes::kBlocks;
+  std::vector<Vector3> places;
+  for (const HullTriangle& t : unsorted) places.push_back(t[0] + t[1] + t[2]);
+  const std::vector<HullTriangle> triangles = inBlocks(unsorted, places, kTriangles);
   const std::size_t count = (triangles.size() + kTriangles - 1) / kTriangles;
   blocks_.reserve(count);
   boxes_.resize((count + kBlocks - 1) / kBlocks);  // all zero
@@ -294,8 +436,7 @@ void PackedHull::packTriangles(const std::vector<Triangle>& triangles) {
 
 void PackedHull::packPoints(const std::vector<Vector3>& points) {
   constexpr std::size_t kPoints = HullPoints::kPoints;
-  const std::vector<Vector3> sorted =
-      inBlocks(points, kPoints, [](const Vector3& place) { return place; });
+  const std::vector<Vector3> sorted = inBlocks(points, points, kPoints);
   points_.reserve((sorted.size() + kPoints - 1) / kPoints);
   for (std::size_t begin = 0; begin < sorted.size(); begin += kPoints) {
     const std::size_t count = std::min(kPoints, sorted.size() - begin);

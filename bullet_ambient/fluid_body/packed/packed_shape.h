@@ -7,9 +7,10 @@
 
 #include "bullet_ambient/fluid_body/blocks.h"
 #include "bullet_ambient/fluid_body/fluid_body.h"
-#include "bullet_ambient/fluid_body/packed/hull_symmetry.h"
 
 namespace ambient {
+
+using HullTriangle = std::array<Vector3, 3>;
 
 /// Returns a vertex of a surface, in its frame [m].
 inline Vector3 vertexOf(const Surface& surface, std::int32_t vertex) {
@@ -76,8 +77,7 @@ class PackedHull {
   double volumeFactor() const { return volume_factor_; }
 
  private:
-  void packInBlocks(const std::vector<HullTriangle>& triangles);
-  void packTriangles(const std::vector<HullTriangle>& triangles);
+  void packTriangles(const std::vector<HullTriangle>& unsorted);
   void packPoints(const std::vector<Vector3>& points);
 
   std::vector<HullBlock> blocks_;

@@ -270,18 +270,18 @@ auto withImages(const PartBlocks& parts, const Sum& sum) {
   }
 }
 
-PartInertia inertiaOf(const PartBlocks& parts, const PartPlane& plane) noexcept {
+PartInertia weightedInertia(const PartBlocks& parts, const PartPlane& plane) noexcept {
   return withImages(parts, [&](auto images) { return sumInertia<images>(parts, plane); });
 }
 
-PartGradient gradientOf(const PartBlocks& parts, const PartPlane& plane,
-                        const double (&products)[PartBlock::kEntries]) noexcept {
+PartGradient weightedGradient(const PartBlocks& parts, const PartPlane& plane,
+                              const double (&products)[PartBlock::kEntries]) noexcept {
   return withImages(parts,
                     [&](auto images) { return sumGradient<images>(parts, plane, products); });
 }
 
 }  // namespace
 
-const PartKernel AMBIENT_KERNEL(kPartKernel){inertiaOf, gradientOf};
+const PartKernel AMBIENT_KERNEL(kPartKernel){weightedInertia, weightedGradient};
 
 }  // namespace ambient

@@ -1,11 +1,10 @@
 #pragma once
 
 #include "bullet_ambient/base/lanes.h"
-#include "bullet_ambient/force/kernels/load_sums.h"
 #include "bullet_ambient/force/law/skin_friction.h"
 
-// Arithmetic of floats with products that are rounded once, and sums over lanes, for sources that
-// are compiled once per instruction set, see lanes.h.
+// Arithmetic of floats with products that are rounded once, for sources that are compiled once per
+// instruction set, see lanes.h.
 
 namespace ambient {
 
@@ -58,28 +57,13 @@ inline Floats positivePart(Floats x) { return _mm256_max_ps(x, Floats{}); }
 inline Floats positivePart(Floats x) { return x > 0.0f ? x : Floats{}; }
 #endif
 
-/// Operations of PlainArithmetic (law/wing_pressure.h), with sums of products rounded once.
+/// Operations of PlainArithmetic (law/face_pressure.h), with sums of products rounded once.
 struct FusedArithmetic {
   using Real = Floats;
   static Floats plus(Floats c, Floats a, Floats b) { return plusProduct(c, a, b); }
   static Floats less(Floats c, Floats a, Floats b) { return lessProduct(c, a, b); }
   static Floats positive(Floats x) { return positivePart(x); }
 };
-
-/// Returns 1 / sqrt(x) for normal x > 0 with a relative error of 8e-7, without a division; finite
-/// for x = 0.
-inline Floats inverseRoot(Floats x) {
-  Ints bits;
-  __builtin_memcpy(&bits, &x, sizeof bits);
-  bits = 0x5f376908 - (bits >> 1);
-  Floats r;
-  __builtin_memcpy(&r, &bits, sizeof r);
-  const Floats half = 0.5f * x;
-  // Newton's steps with slightly more than 3/2: with 3/2 the result is always too small (Moroz et
-  // al. 2018).
-  r = r * lessProduct(Floats{} + 1.50087896f, half * r, r);
-  return r * lessProduct(Floats{} + 1.5000006f, half * r, r);
-}
 
 using Vectors = VectorsOf<Floats>;
 
@@ -99,106 +83,12 @@ inline Vectors plusCross(Vectors c, Vectors a, Vectors b) {
           lessProduct(plusProduct(c.z, a.x, b.y), a.y, b.x)};
 }
 
-/// Partial sums over one run of blocks, one per lane: wrench, and pitch of LoadSums with wings.
-struct WrenchLanes {
-  float lanes[6][kLanes];
-  float pitch[kLanes];
-
-  // Inlined: else the vectors pass through memory.
-  [[gnu::always_inline]] void set(const Vectors& torque, const Vectors& force, int lane) {
-    store(lanes[0] + lane, torque.x);
-    store(lanes[1] + lane, torque.y);
-    store(lanes[2] + lane, torque.z);
-    store(lanes[3] + lane, force.x);
-    store(lanes[4] + lane, force.y);
-    store(lanes[5] + lane, force.z);
-  }
-};
-
 /// Returns |t|^-1.2 for |t|^2, the power in |t|^2 |t|^-1.2 = |t|^0.8.
 inline Floats slipPower(Floats slip_sq) {
   return ambient::slipPower<Ints>(slip_sq, [](const Floats& c, const Floats& a, const Floats& b) {
     return plusProduct(c, a, b);
   });
 }
-
-/// Partial sums over all runs, one per lane: wrench, and with `kPitch` the pitch of LoadSums.
-template <bool kPitch = false>
-struct WrenchTotal {
-  static constexpr int kRows = kPitch ? 7 : 6;
-  double lanes[kRows][kLanes];
-
-  WrenchTotal() {
-    for (double(&row)[kLanes] : lanes)
-      for (int lane = 0; lane < kLanes; lane += kWidth) store(row + lane, Doubles{});
-  }
-
-  void add(const WrenchLanes& run) {
-    for (int row = 0; row < 6; ++row)
-      for (int lane = 0; lane < kLanes; ++lane)
-        lanes[row][lane] += static_cast<double>(run.lanes[row][lane]);
-    if constexpr (kPitch)
-      for (int lane = 0; lane < kLanes; ++lane)
-        lanes[6][lane] += static_cast<double>(run.pitch[lane]);
-  }
-
-  LoadSums sum() const {
-    LoadSums sums;
-    for (int row = 0; row < 6; ++row) sums.wrench[row] = sumOf(lanes[row]);
-    if constexpr (kPitch) sums.pitch = sumOf(lanes[6]);
-    return sums;
-  }
-
- private:
-  static double sumOf(const double* row) {
-    double folded[8];
-    for (int lane = 0; lane < 8; lane += kWidth)
-      store(folded + lane, load(row + lane) + load(row + lane + 8));
-    return sumLanes(folded);
-  }
-};
-
-/// Adds the lee side of the form law to the wrench of `sums`: docs/theory.md eq. (43) for u_n <= 0,
-/// summed over all faces, as the quadratic map of the twist x in eq. (36). `even`: 6 x 21
-/// coefficients, column by column, for the products x_0 x_0, x_0 x_1 to x_5 x_5. No operation is
-/// fused.
-inline void addQuadraticPart(const double* even, const double (&x)[6], LoadSums& sums) {
-  constexpr int kProducts = 21;
-  double products[kProducts];
-  for (int i = 0, next = 0; i < 6; ++i)
-    for (int j = i; j < 6; ++j) products[next++] = x[i] * x[j];
-  double part[8];
-  for (int row = 0; row < 6; row += kWidth) {
-    // With kWidth > 2, the load at the last rows also reads the start of the next column. The last
-    // column has no next one, and is added below.
-    Doubles a = {}, b = {};
-    for (int k = 0; k < kProducts - 1; k += 2) {
-      a = a + products[k] * load(even + 6 * k + row);
-      b = b + products[k + 1] * load(even + 6 * k + 6 + row);
-    }
-    store(part + row, a + b);
-  }
-  const double* last = even + 6 * (kProducts - 1);
-  for (int row = 0; row < 6; ++row)
-    sums.wrench[row] += part[row] + products[kProducts - 1] * last[row];
-}
-
-/// Constants of the form law for lifting and slender shapes, the same in all lanes; zero if
-/// motion.wing is null.
-struct WingLanes {
-  Vectors facing = {}, span = {}, slender = {};
-  Floats pitching_rate = {}, stalling_share = {};
-
-  // Inlined: else the vectors pass through memory.
-  [[gnu::always_inline]] explicit WingLanes(const SingleMotion& motion) {
-    if (!motion.wing) return;
-    facing = inAllLanes<Floats>(motion.wing->facing);
-    span = inAllLanes<Floats>(motion.wing->span);
-    slender = inAllLanes<Floats>(motion.wing->slender);
-    pitching_rate = pitching_rate + motion.pitching_rate;
-    stalling_share = stalling_share + motion.stalling_share;
-  }
-};
 
 }  // namespace
 

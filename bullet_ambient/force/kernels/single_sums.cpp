@@ -5,7 +5,6 @@
 #include "bullet_ambient/base/instruction_set.h"
 #include "bullet_ambient/force/kernels/single_lanes.h"
 #include "bullet_ambient/force/law/face_pressure.h"
-#include "bullet_ambient/force/law/wet_share.h"
 
 // Compiled once per instruction set; AMBIENT_KERNEL() adds its name to that of the function.
 
@@ -17,6 +16,100 @@ constexpr int kChoice = 256;  ///< number of blocks per pass of chooseBlocks()
 static_assert(FaceBlock::kFaces == kLanes, "a block has one face per lane");
 static_assert(FaceBoxes::kBlocks == kLanes, "bounds are those of one block per lane");
 static_assert(kRun == kLanes, "a run has its own bounds");
+
+/// Partial sums over one run of blocks, one per lane: wrench, and pitch of LoadSums with wings.
+struct WrenchLanes {
+  float lanes[6][kLanes];
+  float pitch[kLanes];
+
+  // Inlined: else the vectors pass through memory.
+  [[gnu::always_inline]] void set(const Vectors& torque, const Vectors& force, int lane) {
+    store(lanes[0] + lane, torque.x);
+    store(lanes[1] + lane, torque.y);
+    store(lanes[2] + lane, torque.z);
+    store(lanes[3] + lane, force.x);
+    store(lanes[4] + lane, force.y);
+    store(lanes[5] + lane, force.z);
+  }
+};
+
+/// Partial sums over all runs, one per lane: wrench, and with `kPitch` the pitch of LoadSums.
+template <bool kPitch = false>
+struct WrenchTotal {
+  static constexpr int kRows = kPitch ? 7 : 6;
+  double lanes[kRows][kLanes];
+
+  WrenchTotal() {
+    for (double(&row)[kLanes] : lanes)
+      for (int lane = 0; lane < kLanes; lane += kWidth) store(row + lane, Doubles{});
+  }
+
+  void add(const WrenchLanes& run) {
+    for (int row = 0; row < 6; ++row)
+      for (int lane = 0; lane < kLanes; ++lane)
+        lanes[row][lane] += static_cast<double>(run.lanes[row][lane]);
+    if constexpr (kPitch)
+      for (int lane = 0; lane < kLanes; ++lane)
+        lanes[6][lane] += static_cast<double>(run.pitch[lane]);
+  }
+
+  LoadSums sum() const {
+    LoadSums sums;
+    for (int row = 0; row < 6; ++row) sums.wrench[row] = sumOf(lanes[row]);
+    if constexpr (kPitch) sums.pitch = sumOf(lanes[6]);
+    return sums;
+  }
+
+ private:
+  static double sumOf(const double* row) {
+    double folded[8];
+    for (int lane = 0; lane < 8; lane += kWidth)
+      store(folded + lane, load(row + lane) + load(row + lane + 8));
+    return sumLanes(folded);
+  }
+};
+
+/// Adds the lee side of the form law to the wrench of `sums`: docs/theory.md eq. (43) for u_n <= 0,
+/// summed over all faces, as the quadratic map of the twist x in eq. (36). `even`: 6 x 21
+/// coefficients, column by column, for the products x_0 x_0, x_0 x_1 to x_5 x_5. No operation is
+/// fused.
+inline void addQuadraticPart(const double* even, const double (&x)[6], LoadSums& sums) {
+  constexpr int kProducts = 21;
+  double products[kProducts];
+  for (int i = 0, next = 0; i < 6; ++i)
+    for (int j = i; j < 6; ++j) products[next++] = x[i] * x[j];
+  double part[8];
+  for (int row = 0; row < 6; row += kWidth) {
+    // With kWidth > 2, the load at the last rows also reads the start of the next column. The last
+    // column has no next one, and is added below.
+    Doubles a = {}, b = {};
+    for (int k = 0; k < kProducts - 1; k += 2) {
+      a = a + products[k] * load(even + 6 * k + row);
+      b = b + products[k + 1] * load(even + 6 * k + 6 + row);
+    }
+    store(part + row, a + b);
+  }
+  const double* last = even + 6 * (kProducts - 1);
+  for (int row = 0; row < 6; ++row)
+    sums.wrench[row] += part[row] + products[kProducts - 1] * last[row];
+}
+
+/// Constants of the form law for lifting and slender shapes, the same in all lanes; zero if
+/// motion.wing is null.
+struct WingLanes {
+  Vectors facing = {}, span = {}, slender = {};
+  Floats pitching_rate = {}, stalling_share = {};
+
+  // Inlined: else the vectors pass through memory.
+  [[gnu::always_inline]] explicit WingLanes(const SingleMotion& motion) {
+    if (!motion.wing) return;
+    facing = inAllLanes<Floats>(motion.wing->facing);
+    span = inAllLanes<Floats>(motion.wing->span);
+    slender = inAllLanes<Floats>(motion.wing->slender);
+    pitching_rate = pitching_rate + motion.pitching_rate;
+    stalling_share = stalling_share + motion.stalling_share;
+  }
+};
 
 /// Returns `strength` if the flow is attached, n.u > cos(alpha) |u|, else 0. Test without a root,
 /// by |u|^2 = (n.u)^2 + |u_s|^2: (n.u) |n.u| sin^2(alpha) > cos(alpha) |cos(alpha)| |u_s|^2.
@@ -77,7 +170,7 @@ struct RunMotion {
 };
 
 /// Flow at kFloatWidth faces of a block.
-struct FaceFlow {
+struct LaneFlow {
   Vectors velocity;     ///< u
   Floats normal_speed;  ///< n.u
   Floats slip_sq;       ///< |t|^2
@@ -85,34 +178,23 @@ struct FaceFlow {
   Floats pressure;      ///< q A
 };
 
-/// Sides of the water's surface on which all faces of blocks lie: 1 in the water, -1 above it, 0
-/// not known.
-struct Sides {
-  std::int32_t of[kChoice];
-
-  /// Finds them for `size` blocks. @pre size is at most kChoice
-  Sides(const FaceBoxes* boxes, int size, const SingleCut& cut) {
-    const Cuts cuts(&cut);
-    const Vectors& s = cuts.normal;
-    const Vectors slope = {magnitude(s.x), magnitude(s.y), magnitude(s.z)};
-    for (int first = 0; first < size; first += kLanes)
-      for (int lane = 0; lane < kLanes; lane += kFloatWidth) {
-        const FaceBoxes& at = boxes[first / kLanes];
-        const Floats depth = cuts.height - dot(s, load(at.centre, lane));
-        const Floats reach = dot(slope, load(at.half, lane)) + load(at.radius + lane);
-        const Ints dry = depth<-reach, wet = depth> reach, side = dry - wet;
-        __builtin_memcpy(of + first + lane, &side, sizeof side);
-      }
-  }
-
- private:
-  static Floats magnitude(const Floats& x) { return x > 0.0f ? x : -x; }
-};
-
-/// Stands for Sides where the water does not cut the body.
-struct WhollyWet {
-  const std::int32_t* of = nullptr;
-};
+/// Finds the sides of the water's surface on which all faces of blocks lie: 1 in the water, -1
+/// above it, 0 not known. @pre size is at most kChoice
+inline void findSides(const FaceBoxes* boxes, int size, const SingleCut& cut,
+                      std::int32_t (&sides)[kChoice]) {
+  const Cuts cuts(&cut);
+  const auto magnitude = [](const Floats& x) { return x > 0.0f ? x : -x; };
+  const Vectors& s = cuts.normal;
+  const Vectors slope = {magnitude(s.x), magnitude(s.y), magnitude(s.z)};
+  for (int first = 0; first < size; first += kLanes)
+    for (int lane = 0; lane < kLanes; lane += kFloatWidth) {
+      const FaceBoxes& at = boxes[first / kLanes];
+      const Floats depth = cuts.height - dot(s, load(at.centre, lane));
+      const Floats reach = dot(slope, load(at.half, lane)) + load(at.radius + lane);
+      const Ints dry = depth<-reach, wet = depth> reach, side = dry - wet;
+      __builtin_memcpy(sides + first + lane, &side, sizeof side);
+    }
+}
 
 /// Returns the areas in the fluid of kFloatWidth faces of a block, eq. (59). `side`: that of the
 /// block.
@@ -127,7 +209,7 @@ struct WhollyWet {
 /// Returns the flow at kFloatWidth faces of a block with the given areas, docs/theory.md eq. (12)
 /// to (15), (43) to (44). Adds q_L A mu of wings to `pitch`.
 template <class Law, bool kRightAngle>
-[[gnu::always_inline]] inline FaceFlow flowOn(const RunMotion& run, int block, const Floats& area,
+[[gnu::always_inline]] inline LaneFlow flowOn(const RunMotion& run, int block, const Floats& area,
                                               Floats& pitch) {
   const int lane = run.lane;
   const FaceBlock& geometry = run.faces.blocks[block];
@@ -178,7 +260,7 @@ inline const FaceBlock& reread(const FaceBlock& block) {
 
 /// Returns the force on faces by pressure and friction, eq. (15) to (17), without -rho/2.
 template <class Law>
-[[gnu::always_inline]] inline Vectors forceOf(const FaceFlow& flow, const Vectors& n,
+[[gnu::always_inline]] inline Vectors forceOf(const LaneFlow& flow, const Vectors& n,
                                               const SingleMotion& motion) {
   const Floats along = (flow.strength * motion.friction) * slipPower(flow.slip_sq);
   if (Law::kLifts)
@@ -208,7 +290,7 @@ void sumRun(const FaceBlocks& faces, const Chosen& chosen, const SingleMotion& m
     const FaceBlock& block = faces.blocks[number];
     const Floats area = wetArea(run, block, side);
     if (side == 0 && !anyOf(area > 0.0f)) continue;
-    const FaceFlow flow = flowOn<Law, kRightAngle>(run, number, area, pitch);
+    const LaneFlow flow = flowOn<Law, kRightAngle>(run, number, area, pitch);
     const FaceBlock& again = Law::kLifts ? reread(block) : block;
     if (kFriction) {
       const Vectors f = forceOf<Law>(flow, load(again.normal, lane), motion);
@@ -294,15 +376,6 @@ void sumRuns(const FaceBlocks& faces, const Chosen& chosen, const SingleMotion& 
   }
 }
 
-/// Returns the sides of blocks if the water cuts the body.
-template <bool kCut>
-inline auto sidesOf(const FaceBoxes* boxes, int size, const SingleMotion& motion) {
-  if constexpr (kCut)
-    return Sides(boxes, size, *motion.cut);
-  else
-    return WhollyWet{};
-}
-
 inline int atMost(std::size_t count, int limit) {
   return count < static_cast<std::size_t>(limit) ? static_cast<int>(count) : limit;
 }
@@ -317,15 +390,17 @@ LoadSums sumWhereAttached(const FaceBlocks& faces, const SingleMotion& motion) {
   constexpr bool kRest = Law::kPressesLee && !kLeeApart;
   WrenchTotal<Law::kLifts> total;
   Choice choice;
+  std::int32_t sides[kChoice];  // of the blocks, if the water cuts the body
   for (std::size_t begin = 0; begin < faces.count; begin += kChoice) {
     const int size = atMost(faces.count - begin, kChoice);
     const FaceBlocks blocks = faces.from(begin);
-    const auto sides = sidesOf<kCut>(faces.boxes + begin / kLanes, size, motion);
+    if (kCut) findSides(faces.boxes + begin / kLanes, size, *motion.cut, sides);
     chooseBlocks<kRest, Law::kLifts>(faces.bounds + begin / kLanes, size, motion, choice);
-    sumRuns<Run, kFriction, kCut>(blocks, {choice.attached, choice.count, sides.of}, motion, total);
+    sumRuns<Run, kFriction, kCut>(blocks, {choice.attached, choice.count, kCut ? sides : nullptr},
+                                  motion, total);
     if (kRest)
-      sumRuns<Law, false, kCut>(blocks, {choice.rest, size - choice.count, sides.of}, motion,
-                                total);
+      sumRuns<Law, false, kCut>(blocks, {choice.rest, size - choice.count, kCut ? sides : nullptr},
+                                motion, total);
   }
   LoadSums sums = total.sum();
   if (kLeeApart) {
@@ -341,11 +416,12 @@ template <class Law, bool kRightAngle, bool kFriction, bool kCut>
 LoadSums sumAll(const FaceBlocks& faces, const SingleMotion& motion) {
   static constexpr int kAll[kRun] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
   WrenchTotal<Law::kLifts> total;
+  std::int32_t sides[kChoice];
   for (std::size_t begin = 0; begin < faces.count; begin += kRun) {
     const int size = atMost(faces.count - begin, kRun);
-    const auto sides = sidesOf<kCut>(faces.boxes + begin / kLanes, size, motion);
-    sumChosen<Law, kRightAngle, kFriction, kCut>(faces.from(begin), {kAll, size, sides.of}, motion,
-                                                 total);
+    if (kCut) findSides(faces.boxes + begin / kLanes, size, *motion.cut, sides);
+    sumChosen<Law, kRightAngle, kFriction, kCut>(
+        faces.from(begin), {kAll, size, kCut ? sides : nullptr}, motion, total);
   }
   return total.sum();
 }

@@ -122,11 +122,6 @@ double saturated(double x) noexcept {
 
 }  // namespace
 
-FormLift::FormLift(const FluidBody& body, const ShapeFactors& factors, double stall_lag)
-    : FormLift({body.added_mass.bottomRightCorner<3, 3>(), body.volume, body.area,
-                body.centre_of_volume},
-               factors, stall_lag) {}
-
 FormLift::FormLift(const LiftedPart& body, const ShapeFactors& factors, double stall_lag)
     : wing_(factors.shape.wing) {
   AMBIENT_ASSERT(stall_lag >= 0);
@@ -139,19 +134,17 @@ FormLift::FormLift(const LiftedPart& body, const ShapeFactors& factors, double s
     const Vector3 relative(0, (k[1] - k[0]) / largest_, 1);
     direction_ = axes * relative.asDiagonal() * axes.transpose();
     delay_ = 2 * stall_lag * 8 * largest_ / (kPi * body.area);
-    setWing(factors, 8 * largest_ / (kPi * body.area));
+    if (factors.shape.isWing()) {
+      const double length = 8 * largest_ / (kPi * body.area);
+      attached_ = std::min(1.0, factors.slope * factors.shape.chord / (2 * kPi * length));
+      stall_sq_ = factors.stall_sine * factors.stall_sine;
+    }
   }
   const Vector3 differences(k[2] - k[1], k[2] - k[0], k[1] - k[0]);
   const double lifting =
       (1 - factors.shape.slender.squaredNorm()) * (1 - wing_ * (1 - attached_) / 2);
   circulation_ = body.volume / 2 * Matrix3::Identity() +
                  lifting * (axes * differences.asDiagonal() * axes.transpose());
-}
-
-void FormLift::setWing(const ShapeFactors& factors, double length) {
-  if (!factors.shape.isWing()) return;
-  attached_ = std::min(1.0, factors.slope * factors.shape.chord / (2 * kPi * length));
-  stall_sq_ = factors.stall_sine * factors.stall_sine;
 }
 
 Wrench FormLift::load(const Vector3& w, const Vector3& v, double density,

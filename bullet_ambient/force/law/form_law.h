@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bullet_ambient/fluid_body/body_parts.h"
-#include "bullet_ambient/force/law/wing_pressure.h"
+#include "bullet_ambient/force/law/face_pressure.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
 
 namespace ambient {
@@ -45,18 +45,15 @@ class FormLift {
  public:
   /// Cost: one eigenproblem of 3 rows.
   /// @pre stall_lag >= 0, in lengths of the body over its speed.
-  FormLift(const FluidBody& body, const ShapeFactors& factors, double stall_lag);
-  /// Lift of a part, whose centre takes the place of the centre of volume.
   FormLift(const LiftedPart& part, const ShapeFactors& factors, double stall_lag);
 
-  /// Wrench about the centre of volume for the motion there relative to the ambient flow; density
+  /// Wrench about the centre of the part for the motion there relative to the ambient flow; density
   /// [kg/m^3]. Its power is 0. Homogeneous of degree 2 in the motion. munk_factor: factor of eq.
   /// (118) on the loss.
   Wrench load(const Vector3& w, const Vector3& v, double density,
               double munk_factor = 1) const noexcept;
 
  private:
-  void setWing(const ShapeFactors& factors, double length);
   /// 1 - f of eq. (49) and (49a); phi: sin^2 of the incidence, turning: what the lag takes from it.
   double separatedShare(double phi, double turning) const noexcept;
   void addStall(const Vector3& w, const Vector3& v, double munk_factor,

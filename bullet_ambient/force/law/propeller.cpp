@@ -2,31 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
 #include <utility>
 
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/fluid_body/form_factors.h"
+#include "bullet_ambient/force/medium/input_checks.h"
 
 namespace ambient {
 namespace {
 
 /// Speed of the blades at 0.7 of the radius over n D.
 constexpr double kBladeSpeed = 0.7 * kPi;
-
-template <class... Parts>
-[[noreturn]] void refuse(const Parts&... parts) {
-  std::ostringstream line;
-  (line << ... << parts);
-  throw std::invalid_argument(line.str());
-}
-
-void requireWithin(const char* what, double value, double lowest, double highest) {
-  if (!(value >= lowest && value <= highest))
-    refuse(what, " is ", value, "; must be from ", lowest, " to ", highest);
-}
 
 /// K_Q of an ideal disc with this thrust, (162) with n D = 1.
 double leastTorque(const PropellerPoint& point) {
@@ -35,21 +22,22 @@ double leastTorque(const PropellerPoint& point) {
 }
 
 void checkTable(const std::vector<PropellerPoint>& points) {
-  if (points.size() < 2) refuse("its table has ", points.size(), " points; must be at least 2");
+  if (points.size() < 2)
+    refuseInput("its table has ", points.size(), " points; must be at least 2");
   if (points.front().advance != 0)
-    refuse("its table begins at J ", points.front().advance, "; must begin at 0, at rest");
+    refuseInput("its table begins at J ", points.front().advance, "; must begin at 0, at rest");
   for (std::size_t i = 0; i < points.size(); ++i) {
     const PropellerPoint& point = points[i];
     if (!std::isfinite(point.advance) || !std::isfinite(point.thrust) ||
         !std::isfinite(point.torque))
-      refuse("a number of its table is not finite");
+      refuseInput("a number of its table is not finite");
     if (i > 0 && !(point.advance > points[i - 1].advance))
-      refuse("its table has J ", point.advance, " after ", points[i - 1].advance,
-             "; must be above that");
+      refuseInput("its table has J ", point.advance, " after ", points[i - 1].advance,
+                  "; must be above that");
     if (!(point.torque >= leastTorque(point)))
-      refuse("its table has at J ", point.advance, " the torque K_Q ", point.torque, " (C_P ",
-             2 * kPi * point.torque, "); must be at least ", leastTorque(point),
-             ", that of an ideal disc with this thrust");
+      refuseInput("its table has at J ", point.advance, " the torque K_Q ", point.torque, " (C_P ",
+                  2 * kPi * point.torque, "); must be at least ", leastTorque(point),
+                  ", that of an ideal disc with this thrust");
   }
 }
 
@@ -100,7 +88,7 @@ double wholePower(double base, int exponent) {
 }
 
 template <std::size_t kCount>
-double sumOf(const Term (&terms)[kCount], const WageningenScrew& screw, double advance) {
+double sumOfTerms(const Term (&terms)[kCount], const WageningenScrew& screw, double advance) {
   double sum = 0;
   for (const Term& term : terms)
     sum += term.factor * wholePower(advance, term.s) * wholePower(screw.pitch_ratio, term.t) *
@@ -122,7 +110,8 @@ double advanceWithoutThrust(const std::vector<PropellerPoint>& points) {
 }  // namespace
 
 PropellerPoint wageningenPoint(const WageningenScrew& screw, double advance) {
-  return {advance, sumOf(kThrustTerms, screw, advance), sumOf(kTorqueTerms, screw, advance)};
+  return {advance, sumOfTerms(kThrustTerms, screw, advance),
+          sumOfTerms(kTorqueTerms, screw, advance)};
 }
 
 double inducedVelocity(double thrust, double advance, double mass_per_length) noexcept {
@@ -163,9 +152,9 @@ Propeller::Propeller(double diameter, std::vector<PropellerPoint> points,
                      const PropellerExtras& extras, double pitch_ratio)
     : diameter_(diameter), points_(std::move(points)), astern_(extras.astern) {
   if (!(diameter > 0) || !std::isfinite(diameter))
-    refuse("its diameter is ", diameter, " m; must be above 0");
-  requireWithin("its area_ratio", extras.area_ratio, 0, 2);
-  requireWithin("its astern", extras.astern, 0, 1);
+    refuseInput("its diameter is ", diameter, " m; must be above 0");
+  InputChecks{}.within("its area_ratio", extras.area_ratio, 0, 2);
+  InputChecks{}.within("its astern", extras.astern, 0, 1);
   const double slope = pitch_ratio / kBladeSpeed;  // tangent of the blades' pitch at 0.7 R
   stopped_.thrust = -kPi / 8 * kFlatDrag * extras.area_ratio / std::sqrt(1 + slope * slope);
   stopped_.torque = pitch_ratio / (2 * kPi) * stopped_.thrust;
@@ -181,9 +170,9 @@ Propeller Propeller::byTable(double diameter, std::vector<PropellerPoint> points
 }
 
 Propeller Propeller::wageningen(double diameter, const WageningenScrew& screw) {
-  requireWithin("its number of blades", screw.blades, 2, 7);
-  requireWithin("its area_ratio", screw.area_ratio, 0.3, 1.05);
-  requireWithin("its pitch_ratio", screw.pitch_ratio, 0.5, 1.4);
+  InputChecks{}.within("its number of blades", screw.blades, 2, 7);
+  InputChecks{}.within("its area_ratio", screw.area_ratio, 0.3, 1.05);
+  InputChecks{}.within("its pitch_ratio", screw.pitch_ratio, 0.5, 1.4);
   constexpr int kPoints = 128;
   constexpr double kBeyond = 1.6;  // J over P/D, where no screw of the series has thrust
   std::vector<PropellerPoint> points;

@@ -19,8 +19,7 @@ Wrench Resistance::load(const Growth& growth, const Twist& x) const noexcept {
   const Vector6 scale =
       stack(Vector3::Constant(growth.rotation), Vector3::Constant(growth.translation));
   const Vector6 seen = scale.cwiseProduct(stack(x.angular, x.at(centre)));
-  const Wrench there = Wrench::fromVector(-scale.cwiseProduct(matrix * seen));
-  return {there.torque + centre.cross(there.force), there.force};
+  return Wrench::fromVector(-scale.cwiseProduct(matrix * seen)).aboutOrigin(centre);
 }
 
 SurfaceLoad removePositivePower(const Wrench& surface_wrench, const Twist& relative_twist,

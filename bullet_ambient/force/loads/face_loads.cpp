@@ -13,19 +13,29 @@
 #include "bullet_ambient/force/kernels/single_sums.h"
 #include "bullet_ambient/force/law/face_pressure.h"
 #include "bullet_ambient/force/law/form_law.h"
-#include "bullet_ambient/force/law/share_in_pool.h"
 #include "bullet_ambient/force/law/skin_friction.h"
-#include "bullet_ambient/force/law/wet_share.h"
 #include "bullet_ambient/force/medium/surface_plane.h"
 #include "bullet_ambient/spatial/inertia.h"
 
 namespace ambient {
 
+double shareInPool(const PoolSides& sides, const Vector3& centroid, const Vector3& normal,
+                   double radius_sq) noexcept {
+  double share = 1;
+  for (int i = 0; i < sides.count; ++i) {
+    const PoolSides::Side& side = sides.of[i];
+    share *= wetShareOf(side.normal.dot(side.point - centroid), side.normal.dot(normal), radius_sq,
+                        [](double x) { return std::sqrt(x); });
+  }
+  return share;
+}
+
 namespace {
 
 /// Returns the share of a face below the plane and between the sides of its water, docs/theory.md
 /// eq. (59).
-double wetShare(const FaceTable& faces, std::size_t face, const SurfacePlane& plane) noexcept {
+double wetShareOfFace(const FaceTable& faces, std::size_t face,
+                      const SurfacePlane& plane) noexcept {
   const Vector3 centroid = faces.centroid(face), normal = faces.normal(face);
   const double radius_sq = faces.area[face] / kPi;
   const double share = wetShareOf(plane.depth(centroid), plane.normal.dot(normal), radius_sq,
@@ -117,7 +127,7 @@ FaceLoads computeFaceLoads(const FaceTable& faces, double reference_length,
   AMBIENT_ASSERT(!settings.shape || settings.law == PressureLaw::kForm);
   FaceLoads loads;
   for (std::size_t i = 0; i < faces.size(); ++i) {
-    const double share = plane ? wetShare(faces, i, *plane) : 1;
+    const double share = plane ? wetShareOfFace(faces, i, *plane) : 1;
     if (!(share > 0)) continue;
     const FaceFlow flow = computeFaceFlow(faces, i, reference_length, relative_twist, settings);
     const Vector3 c = faces.centroid(i);
@@ -139,128 +149,56 @@ double ownDrag(const FaceTable& faces, const ShapeFactors& shape, const Vector3&
   return frontal_area > 0 ? force / frontal_area : 0;
 }
 
-DragScale::DragScale(const FluidBody& body, const FaceTable& faces,
-                     const std::function<Vector3(const Vector3& frontal)>& own_drag)
-    : is_measured_(!body.drag.isZero(0)), centre_(body.centre_of_volume), length_sq_(body.area) {
-  if (!is_measured_) return;
-  Vector3 frontal{0, 0, 0};
-  for (int axis = 0; axis < 3; ++axis)
-    for (std::size_t i = 0; i < faces.size(); ++i)
-      frontal[axis] += 0.5 * faces.area[i] * std::abs(faces.normal(i)[axis]);
-  const Vector3 drag = own_drag(frontal);
-  AMBIENT_ASSERT(drag.allFinite());
-  for (int axis = 0; axis < 3; ++axis)
-    if (drag[axis] > 0) scales_[axis] = body.drag[axis] / drag[axis];
+namespace {
+
+/// 2^exponent, exponent in [-1022, 1023].
+inline double powerOfTwo(int exponent) noexcept {
+  constexpr int kBias = 1023;
+  const std::uint64_t bits = static_cast<std::uint64_t>(exponent + kBias) << 52;
+  double power;
+  std::memcpy(&power, &bits, sizeof power);
+  return power;
 }
 
-Wrench DragScale::scaled(const Wrench& load, const Twist& x) const noexcept {
-  if (!is_measured_) return load;
-  const Vector3 v = x.at(centre_), along = v.cwiseAbs2();
-  const double turning = length_sq_ * x.angular.squaredNorm();
-  const double sum = along.sum() + turning;
-  if (!(sum > 0)) return load;
-  const double factor = (scales_.dot(along) + scales_.mean() * turning) / sum;
-  const double power = load.torque.dot(x.angular) + load.force.dot(x.linear);
-  const double more = (factor - 1) * power / sum;
-  const Vector3 force = more * v;
-  return load + Wrench{more * length_sq_ * x.angular + centre_.cross(force), force};
-}
-
-/// Unit of speed: a power of 32, so that speed^(-1/5) is a power of two, too.
-struct SpeedUnit {
-  double speed;                ///< [m/s]
-  double inverse;              ///< 1 / speed
-  double inverse_fifth_power;  ///< speed^(-1/5)
-};
-
-/// Smallest unit above a speed [m/s], with exponents of two between -1000 and 1000; 1 m/s if the
-/// speed is not positive and finite.
-inline SpeedUnit speedUnitAbove(double speed) noexcept {
-  if (!(speed > 0) || !std::isfinite(speed)) return {1, 1, 1};
+/// Returns n of the smallest unit 32^n above a speed [m/s], with exponents of two between -1000 and
+/// 1000; 0 if the speed is not positive and finite. The unit's power -1/5 is a power of two, too.
+inline int speedUnitAbove(double speed) noexcept {
+  if (!(speed > 0) || !std::isfinite(speed)) return 0;
   constexpr int kBias = 1023;
   const double normal = std::clamp(speed, 0x1p-1000, 0x1p999);
   std::uint64_t bits;
   std::memcpy(&bits, &normal, sizeof bits);
   static_assert(kReynoldsExponent == -1.0 / 5, "other powers need other units");
-  const int fifth = (static_cast<int>(bits >> 52) - kBias + 1005) / 5 - 200;
-  const auto powerOfTwo = [](int exponent) {
-    const std::uint64_t power_bits = static_cast<std::uint64_t>(exponent + kBias) << 52;
-    double power;
-    std::memcpy(&power, &power_bits, sizeof power);
-    return power;
-  };
-  return {powerOfTwo(5 * fifth), powerOfTwo(-5 * fifth), powerOfTwo(-fifth)};
+  return (static_cast<int>(bits >> 52) - kBias + 1005) / 5 - 200;
 }
 
-/// Motion in units of a length and of `unit`, so that all components are at most 1.
-struct ScaledMotion {
-  Vector3 angular, linear;
-  SpeedUnit unit;
-};
-
-inline ScaledMotion scaledMotion(const Vector3& angular, const Vector3& linear,
-                                 double length) noexcept {
-  const Vector3 turning = length * angular;
-  const SpeedUnit unit =
-      speedUnitAbove(std::max(turning.cwiseAbs().maxCoeff(), linear.cwiseAbs().maxCoeff()));
-  return {unit.inverse * turning, unit.inverse * linear, unit};
+inline void round(const Vector3& from, float (&to)[3]) noexcept {
+  for (int axis = 0; axis < 3; ++axis) to[axis] = static_cast<float>(from[axis]);
 }
 
-/// C_f at a slip of one unit of speed, eq. (16); 0 without friction. Limited to 1e30 (reached at
-/// Re < 1e-153), which keeps single precision finite. Only the last factor depends on the motion.
-inline double frictionAtUnitSpeed(const LoadSettings& settings, const SpeedUnit& unit,
-                                  double reference_length) noexcept {
-  const double reynolds_per_speed = settings.reynoldsPerSpeed(reference_length);
-  if (!(reynolds_per_speed > 0)) return 0;
-  return std::min(
-      kFrictionCoefficient * reynoldsPower(reynolds_per_speed) * unit.inverse_fifth_power, 1e30);
-}
-
-/// Adds what the form law asks of a shape, eq. (43d). `length`: unit of length [m].
-inline void addShape(const ShapeFactors& factors, const ScaledMotion& motion, double length,
-                     SingleMotion& single) noexcept {
-  if (!factors.actOnFaces()) return;
+/// Rounds w and v, in units of `length` [m] and of a speed in which all components are at most 1,
+/// and adds what the form law asks of a shape, eq. (43d).
+inline SingleMotion singleMotion(const Vector3& w, const Vector3& v, double length,
+                                 const LoadSettings& settings) noexcept {
+  SingleMotion single{};
+  round(w, single.angular);
+  round(v, single.linear);
+  const double cosine = settings.separation_cosine;
+  single.signed_cosine_sq = static_cast<float>(-cosine * std::abs(cosine));
+  single.sine_sq = static_cast<float>(1 - cosine * cosine);
+  single.law = settings.law;
+  if (!settings.shape || !settings.shape->actOnFaces()) return single;
+  const ShapeFactors& factors = *settings.shape;
   const FormShape& shape = factors.shape;
-  const double rate = shape.pitching.dot(motion.angular);
-  const Vector3 w = motion.angular - rate * shape.pitching;
-  const Vector3 v = motion.linear + rate / length * shape.pitching.cross(shape.centre);
+  const double rate = shape.pitching.dot(w);
   single.wing = &factors.in_single;
   single.pitching_rate = static_cast<float>(rate);
   if (factors.in_single.is_part)
-    single.stalling_share =
-        static_cast<float>(factors.stallingShare(motion.angular, motion.linear, length));
-  for (int axis = 0; axis < 3; ++axis) {
-    single.pitched_angular[axis] = static_cast<float>(w[axis]);
-    single.pitched_linear[axis] = static_cast<float>(v[axis]);
-  }
+    single.stalling_share = static_cast<float>(factors.stallingShare(w, v, length));
+  round(w - rate * shape.pitching, single.pitched_angular);
+  round(v + rate / length * shape.pitching.cross(shape.centre), single.pitched_linear);
+  return single;
 }
-
-inline SingleMotion singleMotion(const ScaledMotion& motion, const LoadSettings& settings,
-                                 double reference_length) noexcept {
-  const Eigen::Vector3f w = motion.angular.cast<float>();
-  const Eigen::Vector3f v = motion.linear.cast<float>();
-  const double cosine = settings.separation_cosine;
-  return {{w.x(), w.y(), w.z()},
-          {v.x(), v.y(), v.z()},
-          static_cast<float>(-cosine * std::abs(cosine)),
-          static_cast<float>(1 - cosine * cosine),
-          static_cast<float>(frictionAtUnitSpeed(settings, motion.unit, reference_length)),
-          nullptr,
-          settings.law,
-          nullptr};
-}
-
-/// Converts sums in units of speed [m/s], area [m^2] and length [m] to a load; eq. (15) and (17).
-inline Wrench scaledLoad(const LoadSums& sums, double density, double speed, double area,
-                         double length) noexcept {
-  const double force = -0.5 * density * speed * speed * area;
-  const double torque = force * length;
-  const double(&s)[6] = sums.wrench;
-  return {{torque * s[0], torque * s[1], torque * s[2]},
-          {force * s[3], force * s[4], force * s[5]}};
-}
-
-namespace {
 
 SingleCut cutBy(const SurfacePlane& plane, const PackedFaces& faces) noexcept {
   const double length = faces.lengthUnit();
@@ -283,16 +221,28 @@ Wrench computeFaceLoad(const PackedFaces& faces, double reference_length,
   AMBIENT_ASSERT(!settings.shape || settings.law == PressureLaw::kForm);
   AMBIENT_ASSERT(settings.density >= 0 && reference_length >= 0);
   const double length = faces.lengthUnit();
-  const ScaledMotion motion = scaledMotion(relative_twist.angular, relative_twist.linear, length);
-  SingleMotion single = singleMotion(motion, settings, reference_length);
+  const Vector3 turning = length * relative_twist.angular, &linear = relative_twist.linear;
+  const int unit =
+      speedUnitAbove(std::max(turning.cwiseAbs().maxCoeff(), linear.cwiseAbs().maxCoeff()));
+  const double speed = powerOfTwo(5 * unit), per_speed = powerOfTwo(-5 * unit);
+  SingleMotion motion = singleMotion(per_speed * turning, per_speed * linear, length, settings);
+  // C_f at a slip of one unit of speed, eq. (16). The limit, reached at Re < 1e-153, keeps single
+  // precision finite. Only the last factor depends on the motion.
+  const double reynolds = settings.reynoldsPerSpeed(reference_length);
+  if (reynolds > 0)
+    motion.friction = static_cast<float>(
+        std::min(kFrictionCoefficient * reynoldsPower(reynolds) * powerOfTwo(-unit), 1e30));
   const SingleCut cut = plane ? cutBy(*plane, faces) : SingleCut{};
-  if (plane) single.cut = &cut;
-  if (settings.shape) addShape(*settings.shape, motion, length, single);
-  LoadSums sums = kSumBlocks.fastest()(faces.blocks(), single);
-  if (single.wing)
+  if (plane) motion.cut = &cut;
+  LoadSums sums = kSumBlocks.fastest()(faces.blocks(), motion);
+  if (motion.wing)
     for (int axis = 0; axis < 3; ++axis)
       sums.wrench[axis] -= settings.shape->shape.pitching[axis] * sums.pitch;
-  return scaledLoad(sums, settings.density, motion.unit.speed, faces.areaUnit(), length);
+  const double force = -0.5 * settings.density * speed * speed * faces.areaUnit();  // eq. (15)
+  const double torque = force * length;
+  const double(&s)[6] = sums.wrench;
+  return {{torque * s[0], torque * s[1], torque * s[2]},
+          {force * s[3], force * s[4], force * s[5]}};
 }
 
 namespace {
@@ -343,13 +293,17 @@ std::shared_ptr<const FluidBody> unitSphere() {
   return sphere;
 }
 
-PlaneInRadii::PlaneInRadii(const SurfacePlane& plane_at_centre, const Vector3& centre,
-                           double radius) noexcept
-    : plane(plane_at_centre) {
-  plane.height /= radius;
+SurfaceElsewhere::SurfaceElsewhere(const SurfacePlane& there, const FrameOffset& pose,
+                                   double unit) noexcept
+    : plane(there) {
+  plane.height /= unit;
   if (!plane.sides_F) return;
-  sides = *plane.sides_F;
-  for (int i = 0; i < sides.count; ++i) sides.of[i].point = (sides.of[i].point - centre) / radius;
+  sides.count = plane.sides_F->count;
+  for (int i = 0; i < sides.count; ++i) {
+    const PoolSides::Side& side = plane.sides_F->of[i];
+    sides.of[i] = {pose.rotation.transpose() * side.normal,
+                   pose.rotation.transpose() * (side.point - pose.translation) / unit};
+  }
   plane.sides_F = &sides;
 }
 

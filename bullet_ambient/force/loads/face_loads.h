@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
@@ -86,38 +85,26 @@ Wrench computeFaceLoad(const PackedFaces& faces, double reference_length,
                        const Twist& relative_twist, const LoadSettings& settings,
                        const SurfacePlane* plane = nullptr) noexcept;
 
-/// Scales the form law to measured drag coefficients, docs/theory.md eq. (51): the part of the
-/// loads on faces that brakes the motion gets a positive factor, so that it still takes energy.
-/// Lift stays. Frame F.
-class DragScale {
- public:
-  /// `own_drag`: returns the law's own coefficients along the axes of F on frontal areas; called
-  /// where drag is measured, with half of the projected areas of `faces`. Cost O(F).
-  DragScale(const FluidBody& body, const FaceTable& faces,
-            const std::function<Vector3(const Vector3& frontal)>& own_drag);
-
-  /// Returns `load`, the load on the faces in a twist relative to the flow, with its drag scaled.
-  Wrench scaled(const Wrench& load, const Twist& relative_twist) const noexcept;
-
- private:
-  bool is_measured_;
-  Vector3 scales_{1, 1, 1};  ///< sigma_j: measured coefficient over the law's own
-  Vector3 centre_;           ///< centre of volume [m]
-  double length_sq_;         ///< area in eq. (51) [m^2]
-};
-
 /// Faces spread over the sphere of radius 1 m about the origin, symmetric in all axes. All spheres
 /// take the loads on their wet part from these, whatever faces they have. Made once per process.
 std::shared_ptr<const FluidBody> unitSphere();
 
-/// Surface of the fluid at a sphere of a radius [m] and a centre in F [m], with lengths in radii
-/// about the centre. `plane_at_centre` is in a frame at the centre with the axes of F.
-struct PlaneInRadii {
-  PlaneInRadii(const SurfacePlane& plane_at_centre, const Vector3& centre, double radius) noexcept;
-  PlaneInRadii(const PlaneInRadii&) = delete;  // plane points to sides
+/// Surface of the fluid in another frame, with the sides of its pool.
+struct SurfaceElsewhere {
+  /// @param plane in that frame, but for its sides
+  /// @param pose of that frame in F [m]
+  /// @param unit of length in the result [m]
+  SurfaceElsewhere(const SurfacePlane& plane, const FrameOffset& pose, double unit = 1) noexcept;
+  SurfaceElsewhere(const SurfaceElsewhere&) = delete;  // plane points to sides
 
   SurfacePlane plane;
   PoolSides sides;
 };
+
+/// Returns the share of a face that is between the sides of a pool, by its centroid [m], unit
+/// normal and the squared radius of a disc with its area [m^2]; docs/theory.md eq. (59) at each
+/// side.
+double shareInPool(const PoolSides& sides, const Vector3& centroid, const Vector3& normal,
+                   double radius_sq) noexcept;
 
 }  // namespace ambient

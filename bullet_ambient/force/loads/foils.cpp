@@ -3,22 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <sstream>
-#include <stdexcept>
 #include <utility>
 
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/force/loads/form_loads.h"
+#include "bullet_ambient/force/medium/input_checks.h"
 
 namespace ambient {
 namespace {
 
 template <class... Parts>
 [[noreturn]] void refuseFoil(std::size_t index, const Parts&... parts) {
-  std::ostringstream line;
-  line << "foil " << index << ": its ";
-  (line << ... << parts);
-  throw std::invalid_argument(line.str());
+  refuseInput("foil ", index, ": its ", parts...);
 }
 
 void checkPolar(const std::vector<FoilPoint>& polar, std::size_t index) {
@@ -167,19 +164,11 @@ Wrench Foils::load(std::size_t index, const Twist& x, double density,
                    const WetPart* wet) const noexcept {
   const Placed& placed = placed_[index];
   const Twist seen = placed.pose.toF(x);
+  std::optional<SurfaceElsewhere> surface;
   std::optional<WetPart> part;
-  PoolSides sides;
   if (wet) {
-    part = WetPart{seenFrom(wet->plane, placed.pose), wet->share};
-    if (const PoolSides* of = part->plane.sides_F) {
-      sides.count = of->count;
-      for (int i = 0; i < of->count; ++i) {
-        const Matrix3 to_foil = placed.pose.rotation.transpose();
-        sides.of[i] = {to_foil * of->of[i].normal,
-                       to_foil * (of->of[i].point - placed.pose.translation)};
-      }
-      part->plane.sides_F = &sides;
-    }
+    surface.emplace(seenFrom(wet->plane, placed.pose), placed.pose);
+    part = WetPart{surface->plane, wet->share};
   }
   Wrench sum;
   if (placed.law) sum = part ? placed.law->wetLoad(seen, *part) : placed.law->load(seen);
@@ -213,47 +202,42 @@ FrameOffset inversePose(const FrameOffset& pose) {
   return {back, -(back * pose.translation)};
 }
 
+/// Stands for the loads on a body that has none.
+class NoLoads final : public LoadsOnPart {
+ public:
+  FaceLoads partsOn(const Twist&, const WetPart*) const noexcept override { return {}; }
+  bool needsGuard() const noexcept override { return false; }
+};
+
 /// Loads on a body and its foils, in the frame of the loads on the body.
-class WithFoils final : public SurfaceLoads {
+class WithFoils final : public LoadsOnPart {
  public:
   WithFoils(std::shared_ptr<const SurfaceLoads> on_body, std::shared_ptr<const Foils> foils,
             double density)
-      : on_body_(std::move(on_body)), foils_(std::move(foils)), density_(density) {
-    if (on_body_) pose_ = inversePose(on_body_->frame({}));
-  }
+      : on_body_(std::move(on_body)),
+        foils_(std::move(foils)),
+        density_(density),
+        pose_(inversePose(on_body_->frame({}))) {}
 
-  Wrench load(const Twist& x) const noexcept override {
-    return (on_body_ ? on_body_->load(x) : Wrench{}) + onFoils(x, nullptr);
+  Wrench sumOn(const Twist& x, const WetPart* wet) const noexcept override {
+    return (wet ? on_body_->wetLoad(x, *wet) : on_body_->load(x)) + onFoils(x, wet);
   }
-  Wrench wetLoad(const Twist& x, const WetPart& wet) const noexcept override {
-    return (on_body_ ? on_body_->wetLoad(x, wet) : Wrench{}) + onFoils(x, &wet);
+  FaceLoads partsOn(const Twist& x, const WetPart* wet) const noexcept override {
+    FaceLoads parts = wet ? on_body_->wetParts(x, *wet) : on_body_->parts(x);
+    parts.pressure += onFoils(x, wet);
+    return parts;
   }
   SplitLoad split(const Twist& x, const WetPart* wet) const noexcept override {
-    SplitLoad split;
-    if (on_body_) split = on_body_->split(x, wet);
+    SplitLoad split = on_body_->split(x, wet);
     split.wrench += onFoils(x, wet);
     return split;
   }
-  FaceLoads parts(const Twist& x) const noexcept override {
-    FaceLoads parts;
-    if (on_body_) parts = on_body_->parts(x);
-    parts.pressure += onFoils(x, nullptr);
-    return parts;
-  }
-  FaceLoads wetParts(const Twist& x, const WetPart& wet) const noexcept override {
-    FaceLoads parts;
-    if (on_body_) parts = on_body_->wetParts(x, wet);
-    parts.pressure += onFoils(x, &wet);
-    return parts;
-  }
-  const Resistance* resistance() const noexcept override {
-    return on_body_ ? on_body_->resistance() : nullptr;
-  }
-  int faces() const noexcept override { return on_body_ ? on_body_->faces() : 0; }
-  bool needsGuard() const noexcept override { return on_body_ && on_body_->needsGuard(); }
-  double wakeShare() const noexcept override { return on_body_ ? on_body_->wakeShare() : 0; }
+  const Resistance* resistance() const noexcept override { return on_body_->resistance(); }
+  int faces() const noexcept override { return on_body_->faces(); }
+  bool needsGuard() const noexcept override { return on_body_->needsGuard(); }
+  double wakeShare() const noexcept override { return on_body_->wakeShare(); }
   FrameOffset frame(const FrameOffset& fluid_frame) const override {
-    return on_body_ ? on_body_->frame(fluid_frame) : fluid_frame;
+    return on_body_->frame(fluid_frame);
   }
 
  private:
@@ -273,6 +257,7 @@ class WithFoils final : public SurfaceLoads {
 
 std::shared_ptr<const SurfaceLoads> addFoils(std::shared_ptr<const SurfaceLoads> on_body,
                                              std::shared_ptr<const Foils> foils, double density) {
+  if (!on_body) on_body = std::make_shared<NoLoads>();
   return std::make_shared<WithFoils>(std::move(on_body), std::move(foils), density);
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/force/law/form_law.h"
 #include "bullet_ambient/force/law/viscous_law.h"
 #include "bullet_ambient/force/loads/face_loads.h"
@@ -10,16 +11,13 @@
 namespace ambient {
 namespace {
 
-/// Loads whose parts a derived class computes at once.
-class ViscousLoads : public SurfaceLoads {
+/// Loads of a law with viscosity, of which a derived class computes pressure and layers at once.
+class ViscousLoads : public LoadsOnPart {
  public:
-  Wrench load(const Twist& x) const noexcept override { return partsOn(x, nullptr).total(); }
-  Wrench wetLoad(const Twist& x, const WetPart& wet) const noexcept override {
-    return partsOn(x, &wet).total();
-  }
-  FaceLoads parts(const Twist& x) const noexcept override { return partsOn(x, nullptr); }
-  FaceLoads wetParts(const Twist& x, const WetPart& wet) const noexcept override {
-    return partsOn(x, &wet);
+  FaceLoads partsOn(const Twist& x, const WetPart* wet) const noexcept override {
+    const Parts parts = compute(x, wet);
+    if (!resistance_) return {parts.pressure, {}};
+    return {parts.pressure, parts.layer + resistance_->load(parts.growth, x)};
   }
   SplitLoad split(const Twist& x, const WetPart* wet) const noexcept override {
     const Parts parts = compute(x, wet);
@@ -34,7 +32,7 @@ class ViscousLoads : public SurfaceLoads {
     Wrench pressure, layer;
     Growth growth;
   };
-  /// Computes the parts on the whole body, or on the part of it in the fluid.
+
   virtual Parts compute(const Twist& x, const WetPart* wet) const noexcept = 0;
 
   /// C becomes C times the share of the body in the fluid.
@@ -44,54 +42,84 @@ class ViscousLoads : public SurfaceLoads {
   }
 
   const Resistance* resistance_ = nullptr;  ///< of the derived class; null: no friction
-
- private:
-  FaceLoads partsOn(const Twist& x, const WetPart* wet) const noexcept {
-    const Parts parts = compute(x, wet);
-    if (!resistance_) return {parts.pressure, {}};
-    return {parts.pressure, parts.layer + resistance_->load(parts.growth, x)};
-  }
 };
 
 ViscousFluid fluidOf(const LoadSettings& settings) {
   return {settings.density, settings.viscosity, settings.roughness};
 }
 
+/// Scales the form law to measured drag coefficients, docs/theory.md eq. (51): the part of the
+/// loads on faces that brakes the motion gets a positive factor, so that it still takes energy.
+/// Lift stays. Frame F.
+class DragScale {
+ public:
+  /// Cost O(F) where drag is measured. `faces`: those of all parts.
+  DragScale(const LoadTables::Body& body, const LoadTables::Faces& faces)
+      : is_measured_(!body->drag.isZero(0)),
+        centre_(body->centre_of_volume),
+        length_sq_(body->area) {
+    if (!is_measured_) return;
+    Vector3 frontal{0, 0, 0};  // half of the projected areas
+    for (int axis = 0; axis < 3; ++axis)
+      for (std::size_t i = 0; i < faces->size(); ++i)
+        frontal[axis] += 0.5 * faces->area[i] * std::abs(faces->normal(i)[axis]);
+    const Vector3 drag = LoadTables(body).ownDrag(faces, Matrix3::Identity(), frontal);
+    AMBIENT_ASSERT(drag.allFinite());
+    for (int axis = 0; axis < 3; ++axis)
+      if (drag[axis] > 0) scales_[axis] = body->drag[axis] / drag[axis];
+  }
+
+  /// Returns `load`, the load on the faces in a twist relative to the flow, with its drag scaled.
+  Wrench scaled(const Wrench& load, const Twist& x) const noexcept {
+    if (!is_measured_) return load;
+    const Vector3 v = x.at(centre_), along = v.cwiseAbs2();
+    const double turning = length_sq_ * x.angular.squaredNorm();
+    const double sum = along.sum() + turning;
+    if (!(sum > 0)) return load;
+    const double factor = (scales_.dot(along) + scales_.mean() * turning) / sum;
+    const double more = (factor - 1) * power(load, x) / sum;
+    const Vector3 force = more * v;
+    return load + Wrench{more * length_sq_ * x.angular + centre_.cross(force), force};
+  }
+
+ private:
+  bool is_measured_;
+  Vector3 scales_{1, 1, 1};  ///< sigma_j: measured coefficient over the law's own
+  Vector3 centre_;           ///< centre of volume [m]
+  double length_sq_;         ///< area in eq. (51) [m^2]
+};
+
 /// Form law: loads on faces, their drag scaled by DragScale, plus FormLift on the body as a whole;
 /// with viscosity by ViscousLaw, docs/theory.md eq. (113). Of a body with wings these are loads on
 /// its rest, and those on its wings are added, eq. (160).
 class FormLoads final : public ViscousLoads {
  public:
-  FormLoads(std::shared_ptr<const SurfaceLoads> on_faces, const LoadTables::Faces& faces,
-            const LoadTables::Body& body, const LoadSettings& settings, double stall_lag)
+  FormLoads(FaceSum on_faces, const LoadTables::Body& body, const LoadSettings& settings,
+            double stall_lag, std::optional<LoadsOnWings> wings)
       : on_faces_(std::move(on_faces)),
+        wings_(std::move(wings)),
         shape_(LoadTables(body).shape()),
-        drag_(*body, *faces,
-              [&](const Vector3& frontal) {
-                return LoadTables(body).ownDrag(faces, Matrix3::Identity(), frontal);
-              }),
-        lift_(*body, *shape_, stall_lag),
+        drag_(body, allFaces(body)),
+        lift_(wings_ ? LiftedPart{}
+                     : LiftedPart{body->added_mass.bottomRightCorner<3, 3>(), body->volume,
+                                  body->area, body->centre_of_volume},
+              *shape_, stall_lag),
         density_(settings.density),
         centre_(body->centre_of_volume),
         still_axis_(axisOfRevolution(*body)),
         is_round_(!still_axis_.isZero(0)) {
     if (!(settings.viscosity > 0) || !body->viscous.isKnown()) return;
     Vector3 own_drag{0, 0, 0};
-    if (!body->viscous.separation.smooth_base.isZero(0)) own_drag = LoadTables(body).ownDrag(faces);
+    if (!body->viscous.separation.smooth_base.isZero(0))
+      own_drag = LoadTables(body).ownDrag(allFaces(body));
     law_.emplace(*body, shape_->shape, own_drag, fluidOf(settings));
     if (settings.skin_friction) resistance_ = &law_->resistance();
   }
 
-  /// Adds wings, which lift with the rest in place of the body as a whole.
-  void add(LoadsOnWings wings) {
-    wings_ = std::make_unique<const LoadsOnWings>(std::move(wings));
-    lift_ = FormLift(LiftedPart{}, *shape_, 0);
-  }
-
   int faces() const noexcept override {
-    int faces = on_faces_->faces();
+    int faces = on_faces_.faces();
     if (wings_)
-      for (const auto& wing : wings_->on_faces) faces += wing->faces();
+      for (const FaceSum& wing : wings_->on_faces) faces += wing.faces();
     return faces;
   }
   double wakeShare() const noexcept override { return shape_->wakeShare(); }
@@ -103,8 +131,8 @@ class FormLoads final : public ViscousLoads {
     const Vector3 &w = x.angular, v = x.at(centre_);
     if (!law_) {
       const Wrench faces = drag_.scaled(withWings(onFaces(x, wet), x, wet), x);
-      Parts parts{faces + share * atCentre(lift_.load(w, v, density_)), {}, {}};
-      if (wings_) parts.pressure += wings_->lift.load(x, density_, {}, wet);
+      Parts parts{faces + share * lift_.load(w, v, density_).aboutOrigin(centre_), {}, {}};
+      if (wings_) parts.pressure += wings_->lift.load(x, density_, 1, 1, wet);
       return parts;
     }
     const ViscousLaw::Scalars s = law_->scalars(x);
@@ -112,39 +140,36 @@ class FormLoads final : public ViscousLoads {
     const Wrench on_faces = drag_.scaled(withWings(pressure(s, x, v, wet), x, wet), x);
     Wrench whole = lift_.load(w, v, density_, s.munk);
     if (law_->isSmooth()) whole += law_->smoothLoad(s, w, v);
-    Parts parts{s.pressure * on_faces + share * atCentre(whole), {}, {}};
-    if (wings_) parts.pressure += wings_->lift.load(x, density_, {s.munk, s.pressure}, wet);
+    Parts parts{s.pressure * on_faces + share * whole.aboutOrigin(centre_), {}, {}};
+    if (wings_) parts.pressure += wings_->lift.load(x, density_, s.munk, s.pressure, wet);
     if (!resistance_) return parts;
-    if (law_->isSmooth()) parts.layer = share * atCentre({Vector3::Zero(), law_->layerForce(s, v)});
+    if (law_->isSmooth()) parts.layer = share * Wrench::ofForceAt(law_->layerForce(s, v), centre_);
     parts.growth = inWater(law_->growth(s, share > 0 ? -power(on_faces, x) / share : 0), wet);
     return parts;
   }
 
  private:
+  /// Those of all parts.
+  LoadTables::Faces allFaces(const LoadTables::Body& body) const {
+    return wings_ ? LoadTables::Faces(body, &body->form.faces) : on_faces_.table();
+  }
   /// Pressure on the faces. That on a body of revolution neither sees its spin nor changes it,
   /// docs/theory.md eq. (66b).
   Wrench onFaces(const Twist& x, const WetPart* wet) const noexcept {
-    if (!is_round_) return sumOnFaces(x, wet);
+    if (!is_round_) return on_faces_.sumOn(x, wet);
     const Vector3 spin = still_axis_.dot(x.angular) * still_axis_;
-    Wrench load = sumOnFaces({x.angular - spin, x.linear + spin.cross(centre_)}, wet);
+    Wrench load = on_faces_.sumOn({x.angular - spin, x.linear + spin.cross(centre_)}, wet);
     load.torque -= still_axis_.dot(load.torque - centre_.cross(load.force)) * still_axis_;
     return load;
-  }
-  Wrench sumOnFaces(const Twist& x, const WetPart* wet) const noexcept {
-    return wet ? on_faces_->wetLoad(x, *wet) : on_faces_->load(x);
   }
   Wrench withWings(Wrench load, const Twist& x, const WetPart* wet) const noexcept {
     if (!wings_) return load;
     for (std::size_t i = 0; i < wings_->on_faces.size(); ++i) {
-      const SurfaceLoads& wing = *wings_->on_faces[i];
       const Twist seen = wings_->lift.seenBy(i, x, wet);
-      const Wrench on_wing = wet ? wing.wetLoad(seen, *wet) : wing.load(seen);
+      const Wrench on_wing = wings_->on_faces[i].sumOn(seen, wet);
       load += on_wing + wings_->lift.bySection(i, seen, density_, wet, on_wing);
     }
     return load;
-  }
-  Wrench atCentre(const Wrench& about) const noexcept {
-    return {about.torque + centre_.cross(about.force), about.force};
   }
   /// F_P of eq. (111): S P(S x), with S about the centre of volume in the axes q_j. `v`: there.
   Wrench pressure(const ViscousLaw::Scalars& s, const Twist& x, const Vector3& v,
@@ -154,19 +179,20 @@ class FormLoads final : public ViscousLoads {
     Twist seen{turning * x.angular, moving * v};
     seen.linear -= seen.angular.cross(centre_);
     const Wrench load = onFaces(seen, wet);
-    return atCentre({turning * (load.torque - centre_.cross(load.force)), moving * load.force});
+    return Wrench{turning * (load.torque - centre_.cross(load.force)), moving * load.force}
+        .aboutOrigin(centre_);
   }
 
-  std::shared_ptr<const SurfaceLoads> on_faces_;
+  FaceSum on_faces_;
+  std::optional<LoadsOnWings> wings_;  ///< they lift with the rest in place of the body as a whole
   LoadTables::Shape shape_;
   DragScale drag_;
   FormLift lift_;
   double density_;
   Vector3 centre_;
-  Vector3 still_axis_;                         ///< of a body of revolution, unit; else 0
-  bool is_round_;                              ///< there is such an axis
-  std::optional<ViscousLaw> law_;              ///< none: no viscosity
-  std::unique_ptr<const LoadsOnWings> wings_;  ///< null: the body is one part
+  Vector3 still_axis_;             ///< of a body of revolution, unit; else 0
+  bool is_round_;                  ///< there is such an axis
+  std::optional<ViscousLaw> law_;  ///< none: no viscosity
 };
 
 /// Form law on a ball in closed form, docs/theory.md eq. (119); on the part of it that is in the
@@ -197,7 +223,7 @@ class BallLoads final : public ViscousLoads {
     const BallLoad ball = computeBallLoad(radius_, fluid_, x);
     Parts parts{ball.pressure, ball.layer, inWater(ball.growth, wet)};
     if (wet) {
-      const PlaneInRadii surface(wet->plane, centre_, radius_);
+      const SurfaceElsewhere surface(wet->plane, {Matrix3::Identity(), centre_}, radius_);
       const Wrench on_faces =
           on_unit_->wetLoad({radius_ * x.angular, x.linear}, {surface.plane, wet->share});
       const double scale =
@@ -223,14 +249,34 @@ class BallLoads final : public ViscousLoads {
 
 }  // namespace
 
-std::shared_ptr<const SurfaceLoads> makeFormLoads(std::shared_ptr<const SurfaceLoads> on_faces,
-                                                  const LoadTables::Faces& faces,
-                                                  const LoadTables::Body& body,
+FaceSum::FaceSum(const LoadTables::Body& body, LoadTables::Faces faces,
+                 const LoadSettings& settings, LoadPrecision precision)
+    : faces_(std::move(faces)), reference_length_(std::sqrt(body->area)), settings_(settings) {
+  if (precision == LoadPrecision::kSingle)
+    packed_ = LoadTables(body).packedFaces(faces_, settings.shape);
+}
+
+Wrench FaceSum::sumOn(const Twist& x, const WetPart* wet) const noexcept {
+  const SurfacePlane* const plane = wet ? &wet->plane : nullptr;
+  if (isInSingle(wet)) return computeFaceLoad(*packed_, reference_length_, x, settings_, plane);
+  return computeFaceLoads(*faces_, reference_length_, x, settings_, plane).total();
+}
+
+FaceLoads FaceSum::partsOn(const Twist& x, const WetPart* wet) const noexcept {
+  const SurfacePlane* const plane = wet ? &wet->plane : nullptr;
+  if (!isInSingle(wet)) return computeFaceLoads(*faces_, reference_length_, x, settings_, plane);
+  // Friction is what the sum lacks without it.
+  LoadSettings smooth = settings_;
+  smooth.skin_friction = false;
+  const Wrench pressure = computeFaceLoad(*packed_, reference_length_, x, smooth, plane);
+  return {pressure, sumOn(x, wet) + -1.0 * pressure};
+}
+
+std::shared_ptr<const SurfaceLoads> makeFormLoads(FaceSum on_faces, const LoadTables::Body& body,
                                                   const LoadSettings& settings, double stall_lag,
                                                   std::optional<LoadsOnWings> wings) {
-  auto loads = std::make_shared<FormLoads>(std::move(on_faces), faces, body, settings, stall_lag);
-  if (wings) loads->add(*std::move(wings));
-  return loads;
+  return std::make_shared<FormLoads>(std::move(on_faces), body, settings, stall_lag,
+                                     std::move(wings));
 }
 
 std::shared_ptr<const SurfaceLoads> makeBallLoads(std::shared_ptr<const SurfaceLoads> on_unit,

@@ -15,146 +15,49 @@
 namespace ambient {
 namespace {
 
-/// Length in the Reynolds number [m], docs/theory.md eq. (16).
-double referenceLength(const FluidBody& body) { return std::sqrt(body.area); }
-
-/// Loads by one of the functions that sum eq. (13) to (17), over all faces or below a plane.
-template <class Table, Wrench (*kSum)(const Table&, double, const Twist&, const LoadSettings&,
-                                      const SurfacePlane*) noexcept>
-class SummedLoads : public SurfaceLoads {
- public:
-  SummedLoads(std::shared_ptr<const Table> table, std::size_t faces, double length,
-              const LoadSettings& settings)
-      : table_(std::move(table)),
-        faces_(static_cast<int>(faces)),
-        length_(length),
-        settings_(settings) {}
-
-  Wrench load(const Twist& x) const noexcept override {
-    return kSum(*table_, length_, x, settings_, nullptr);
-  }
-  Wrench wetLoad(const Twist& x, const WetPart& wet) const noexcept override {
-    return kSum(*table_, length_, x, settings_, &wet.plane);
-  }
-  FaceLoads parts(const Twist& x) const noexcept override { return partsOf(x, nullptr); }
-  FaceLoads wetParts(const Twist& x, const WetPart& wet) const noexcept override {
-    return partsOf(x, &wet.plane);
-  }
-  int faces() const noexcept override { return faces_; }
-  /// At alpha = pi/2 the power of each face is negative or 0 by both laws.
-  bool needsGuard() const noexcept override { return settings_.separation_cosine != 0; }
-
- protected:
-  /// Friction is what the sum lacks without it.
-  FaceLoads partsOf(const Twist& x, const SurfacePlane* plane) const noexcept {
-    LoadSettings smooth = settings_;
-    smooth.skin_friction = false;
-    const Wrench pressure = kSum(*table_, length_, x, smooth, plane);
-    return {pressure, kSum(*table_, length_, x, settings_, plane) + -1.0 * pressure};
-  }
-
-  std::shared_ptr<const Table> table_;
-  int faces_;
-  double length_;
-  LoadSettings settings_;
-};
-
-Wrench sumInDouble(const FaceTable& faces, double length, const Twist& x,
-                   const LoadSettings& settings, const SurfacePlane* plane) noexcept {
-  return computeFaceLoads(faces, length, x, settings, plane).total();
-}
-
-/// Where sides of a pool cut the faces, they are summed in double.
-class SingleLoads final : public SummedLoads<PackedFaces, computeFaceLoad> {
- public:
-  /// `packed` holds `faces`.
-  SingleLoads(std::shared_ptr<const PackedFaces> packed, LoadTables::Faces faces, double length,
-              const LoadSettings& settings)
-      : SummedLoads(std::move(packed), faces->size(), length, settings),
-        in_double_(std::move(faces)) {}
-
-  Wrench wetLoad(const Twist& x, const WetPart& wet) const noexcept override {
-    return wet.plane.sides_F ? wetParts(x, wet).total() : SummedLoads::wetLoad(x, wet);
-  }
-  FaceLoads wetParts(const Twist& x, const WetPart& wet) const noexcept override {
-    if (!wet.plane.sides_F) return SummedLoads::wetParts(x, wet);
-    return computeFaceLoads(*in_double_, length_, x, settings_, &wet.plane);
-  }
-
- private:
-  LoadTables::Faces in_double_;
-};
-
-struct DoubleLoads final : SummedLoads<FaceTable, sumInDouble> {
-  using SummedLoads::SummedLoads;
-  FaceLoads parts(const Twist& x) const noexcept override {
-    return computeFaceLoads(*table_, length_, x, settings_);
-  }
-};
+using Loads = std::shared_ptr<const SurfaceLoads>;
 
 /// Published law at alpha = pi for a body that the surface cuts. The pressure of the attached flow
 /// is contained in F_K, docs/theory.md eq. (66). Load: on_faces - slip on the wet part, plus the
-/// wet share of `whole`.
-class AttachedLoads final : public SurfaceLoads {
+/// wet share of that on the whole body in unbounded fluid.
+class AttachedLoads final : public LoadsOnPart {
  public:
-  /// on_faces: pressure and friction; slip: the pressure alone; whole: pressure on the whole body
-  /// in unbounded fluid.
-  AttachedLoads(std::shared_ptr<const SurfaceLoads> on_faces,
-                std::shared_ptr<const SurfaceLoads> slip, std::shared_ptr<const SurfaceLoads> whole)
-      : on_faces_(std::move(on_faces)),
-        slip_(std::move(slip)),
-        whole_(std::move(whole)),
-        whole_frame_(whole_->frame({})) {}
+  /// on_faces: pressure and friction; slip: the pressure alone
+  AttachedLoads(FaceSum on_faces, FaceSum slip)
+      : on_faces_(std::move(on_faces)), slip_(std::move(slip)) {}
 
-  Wrench load(const Twist& x) const noexcept override {
-    return on_faces_->load(x) + -1.0 * slip_->load(x) + wholeLoad(x);
+  Wrench sumOn(const Twist& x, const WetPart* wet) const noexcept override {
+    return on_faces_.sumOn(x, wet) + -1.0 * slip_.sumOn(x, wet) +
+           (wet ? wet->share : 1) * slip_.sumOn(x, nullptr);
   }
-  Wrench wetLoad(const Twist& x, const WetPart& wet) const noexcept override {
-    return on_faces_->wetLoad(x, wet) + -1.0 * slip_->wetLoad(x, wet) + wet.share * wholeLoad(x);
+  FaceLoads partsOn(const Twist& x, const WetPart* wet) const noexcept override {
+    const Wrench friction = on_faces_.partsOn(x, wet).friction;
+    return {sumOn(x, wet) + -1.0 * friction, friction};
   }
-  FaceLoads parts(const Twist& x) const noexcept override {
-    const Wrench friction = on_faces_->parts(x).friction;
-    return {load(x) + -1.0 * friction, friction};
-  }
-  FaceLoads wetParts(const Twist& x, const WetPart& wet) const noexcept override {
-    const Wrench friction = on_faces_->wetParts(x, wet).friction;
-    return {wetLoad(x, wet) + -1.0 * friction, friction};
-  }
-  int faces() const noexcept override {
-    return on_faces_->faces() + slip_->faces() + whole_->faces();
-  }
-  bool needsGuard() const noexcept override { return whole_->needsGuard(); }
-  double wakeShare() const noexcept override { return on_faces_->wakeShare(); }
+  int faces() const noexcept override { return on_faces_.faces() + 2 * slip_.faces(); }
 
  private:
-  Wrench wholeLoad(const Twist& x) const noexcept {
-    return whole_frame_.toB(whole_->load(whole_frame_.toF(x)));
-  }
-
-  std::shared_ptr<const SurfaceLoads> on_faces_, slip_, whole_;
-  FrameOffset whole_frame_;
+  FaceSum on_faces_, slip_;
 };
 
 /// Published law on a sphere, from the loads on unitSphere() in a fluid with the viscosity over R:
 /// with lengths in radii forces grow by R^2, torques by R^3.
-class SphereLoads final : public SurfaceLoads {
+class SphereLoads final : public LoadsOnPart {
  public:
-  SphereLoads(std::shared_ptr<const SurfaceLoads> on_unit, const FluidBody& sphere)
+  SphereLoads(Loads on_unit, const FluidBody& sphere)
       : on_unit_(std::move(on_unit)),
         centre_(sphere.centre_of_volume),
         radius_(sphere.sphere_radius) {}
 
-  Wrench load(const Twist& x) const noexcept override { return parts(x).total(); }
-  FaceLoads parts(const Twist& x) const noexcept override {
-    return enlarged(on_unit_->parts(inRadii(x)));
+  Wrench sumOn(const Twist& x, const WetPart* wet) const noexcept override {
+    if (!wet) return partsOn(x, nullptr).total();
+    const SurfaceElsewhere surface(wet->plane, {Matrix3::Identity(), centre_}, radius_);
+    return enlarged(on_unit_->wetLoad(inRadii(x), {surface.plane, wet->share}));
   }
-  Wrench wetLoad(const Twist& x, const WetPart& wet) const noexcept override {
-    const PlaneInRadii surface(wet.plane, centre_, radius_);
-    return enlarged(on_unit_->wetLoad(inRadii(x), {surface.plane, wet.share}));
-  }
-  FaceLoads wetParts(const Twist& x, const WetPart& wet) const noexcept override {
-    const PlaneInRadii surface(wet.plane, centre_, radius_);
-    return enlarged(on_unit_->wetParts(inRadii(x), {surface.plane, wet.share}));
+  FaceLoads partsOn(const Twist& x, const WetPart* wet) const noexcept override {
+    if (!wet) return enlarged(on_unit_->parts(inRadii(x)));
+    const SurfaceElsewhere surface(wet->plane, {Matrix3::Identity(), centre_}, radius_);
+    return enlarged(on_unit_->wetParts(inRadii(x), {surface.plane, wet->share}));
   }
   int faces() const noexcept override { return on_unit_->faces(); }
   bool needsGuard() const noexcept override { return on_unit_->needsGuard(); }
@@ -174,7 +77,7 @@ class SphereLoads final : public SurfaceLoads {
     return {enlarged(loads.pressure), enlarged(loads.friction)};
   }
 
-  std::shared_ptr<const SurfaceLoads> on_unit_;
+  Loads on_unit_;
   Vector3 centre_;
   double radius_;
 };
@@ -210,72 +113,54 @@ LoadTables::Faces chooseFormFaces(const Body& body, const ShapeFactors& shape,
   return {body, best ? &best->faces : &body->form.faces};
 }
 
-std::shared_ptr<const SurfaceLoads> loadsOn(const Body& body, const LoadTables::Faces& faces,
-                                            const LoadSettings& settings, LoadPrecision precision) {
-  const double length = referenceLength(*body);
-  if (precision == LoadPrecision::kDouble)
-    return std::make_shared<DoubleLoads>(faces, faces->size(), length, settings);
-  return std::make_shared<SingleLoads>(LoadTables(body).packedFaces(faces, settings.shape), faces,
-                                       length, settings);
-}
-
-/// Form law on a body with wings, part by part.
-std::shared_ptr<const SurfaceLoads> loadsOnParts(const Body& body, const LoadSettings& settings,
-                                                 const FlowSettings& flow) {
-  const LoadTables::Parts parts = LoadTables(body).parts();
-  const auto onFaces = [&](const BodyPart& part) {
-    LoadSettings smooth = settings;  // friction is no sum over faces
-    smooth.shape = &part.shape;
-    smooth.skin_friction = false;
-    return loadsOn(body, {body, &part.faces}, smooth, flow.precision);
-  };
-  std::vector<std::shared_ptr<const SurfaceLoads>> on_wings;
-  for (std::size_t i = 1; i < parts->size(); ++i) on_wings.push_back(onFaces((*parts)[i]));
-  return makeFormLoads(onFaces(parts->front()), {body, &body->form.faces}, body, settings,
-                       flow.stall_lag,
-                       LoadsOnWings{WingLift(*body, *parts, flow.stall_lag), std::move(on_wings)});
-}
-
-std::shared_ptr<const SurfaceLoads> loadsOnFaces(const Body& body, LoadSettings settings,
-                                                 const FlowSettings& flow) {
-  if (!hasFaces(*body)) return nullptr;
-  if (settings.law != PressureLaw::kForm) {
-    const Body whole = withFaces(body);
-    return loadsOn(whole, {whole, &whole->faces}, settings, flow.precision);
-  }
-  requirePrepared(*body);
-  if (!body->wings.empty()) return loadsOnParts(body, settings, flow);
-  const LoadTables::Shape shape = LoadTables(body).shape();
-  const LoadTables::Faces faces = chooseFormFaces(body, *shape, flow);
-  LoadSettings smooth = settings;  // friction is no sum over faces
-  smooth.shape = shape.get();
-  smooth.skin_friction = false;
-  auto on_faces = loadsOn(body, faces, smooth, flow.precision);
-  return makeFormLoads(std::move(on_faces), faces, body, settings, flow.stall_lag);
-}
-
-std::shared_ptr<const SurfaceLoads> waterlineLoadsOnFaces(const Body& body, LoadSettings settings,
-                                                          const FlowSettings& flow) {
-  auto on_faces = loadsOnFaces(body, settings, flow);
-  if (settings.separation_cosine != -1) return on_faces;
+/// Published law; at alpha = pi a body that the surface may cut has other loads.
+Loads publishedLoads(const Body& body, LoadSettings settings, LoadPrecision precision,
+                     bool is_cut) {
+  const Body whole = withFaces(body);
+  const LoadTables::Faces faces(whole, &whole->faces);
+  FaceSum on_faces(whole, faces, settings, precision);
+  if (!is_cut || settings.separation_cosine != -1)
+    return std::make_shared<FaceSum>(std::move(on_faces));
   settings.skin_friction = false;
-  const auto slip = loadsOnFaces(body, settings, flow);
-  return std::make_shared<AttachedLoads>(std::move(on_faces), slip, slip);
+  return std::make_shared<AttachedLoads>(std::move(on_faces),
+                                         FaceSum(whole, faces, settings, precision));
+}
+
+/// Form law; on a body with wings part by part.
+Loads formLoads(const Body& body, const LoadSettings& settings, const FlowSettings& flow) {
+  requirePrepared(*body);
+  const auto onFaces = [&](LoadTables::Faces faces, const ShapeFactors& shape) {
+    LoadSettings smooth = settings;  // friction is no sum over faces
+    smooth.shape = &shape;
+    smooth.skin_friction = false;
+    return FaceSum(body, std::move(faces), smooth, flow.precision);
+  };
+  if (body->wings.empty()) {
+    const LoadTables::Shape shape = LoadTables(body).shape();
+    return makeFormLoads(onFaces(chooseFormFaces(body, *shape, flow), *shape), body, settings,
+                         flow.stall_lag);
+  }
+  const LoadTables::Parts parts = LoadTables(body).parts();
+  LoadsOnWings wings{WingLift(*body, *parts, flow.stall_lag), {}};
+  for (std::size_t i = 1; i < parts->size(); ++i)
+    wings.on_faces.push_back(onFaces({body, &(*parts)[i].faces}, (*parts)[i].shape));
+  const BodyPart& rest = parts->front();
+  return makeFormLoads(onFaces({body, &rest.faces}, rest.shape), body, settings, flow.stall_lag,
+                       std::move(wings));
 }
 
 /// Form law on a ball, which a surface may cut or not.
-std::shared_ptr<const SurfaceLoads> loadsOnBall(const Body& ball, const LoadSettings& settings,
-                                                const FlowSettings& flow, bool is_cut) {
+Loads loadsOnBall(const Body& ball, const LoadSettings& settings, const FlowSettings& flow,
+                  bool is_cut) {
   LoadSettings ideal = settings;
   ideal.viscosity = 0;
-  return makeBallLoads(is_cut ? loadsOnFaces(unitSphere(), ideal, flow) : nullptr, *ball, settings);
+  return makeBallLoads(is_cut ? formLoads(unitSphere(), ideal, flow) : nullptr, *ball, settings);
 }
 
 /// Published law on the faces of unitSphere().
-std::shared_ptr<const SurfaceLoads> loadsOnSphere(const Body& sphere, LoadSettings settings,
-                                                  const FlowSettings& flow) {
+Loads loadsOnSphere(const Body& sphere, LoadSettings settings, LoadPrecision precision) {
   settings.viscosity /= sphere->sphere_radius;
-  return std::make_shared<SphereLoads>(waterlineLoadsOnFaces(unitSphere(), settings, flow),
+  return std::make_shared<SphereLoads>(publishedLoads(unitSphere(), settings, precision, true),
                                        *sphere);
 }
 
@@ -285,22 +170,24 @@ bool isOtherWhereCut(const FluidBody& body, const LoadSettings& settings) {
   return body.sphere_radius > 0 || has_levels || settings.separation_cosine == -1;
 }
 
-std::shared_ptr<const SurfaceLoads> lawOf(const Body& body, const LoadSettings& settings,
-                                          const FlowSettings& flow, FluidExtent extent) {
+Loads lawOf(const Body& body, const LoadSettings& settings, const FlowSettings& flow,
+            FluidExtent extent) {
   checkFaces(*body);
   if (!(settings.density > 0)) return nullptr;
   const bool is_cut = extent == FluidExtent::kWaterline;
   if (flow.own_law && !is_cut) return flow.own_law(withFaces(body), settings);
+  const bool is_ball = body->sphere_radius > 0;
+  if (!is_ball && !hasFaces(*body)) return nullptr;
+  if (settings.law != PressureLaw::kForm)
+    return is_ball ? loadsOnSphere(body, settings, flow.precision)
+                   : publishedLoads(body, settings, flow.precision, is_cut);
   FlowSettings chosen = flow;
   if (is_cut) chosen.maximum_load_error = 0;
-  if (body->sphere_radius > 0)
-    return settings.law == PressureLaw::kForm ? loadsOnBall(body, settings, chosen, is_cut)
-                                              : loadsOnSphere(body, settings, chosen);
-  return (is_cut ? waterlineLoadsOnFaces : loadsOnFaces)(body, settings, chosen);
+  return is_ball ? loadsOnBall(body, settings, chosen, is_cut) : formLoads(body, settings, chosen);
 }
 
-std::shared_ptr<const SurfaceLoads> makeLoads(const Body& body, const Medium& medium,
-                                              const FlowSettings& flow, FluidExtent extent) {
+Loads makeLoads(const Body& body, const Medium& medium, const FlowSettings& flow,
+                FluidExtent extent) {
   const LoadSettings settings = loadSettings(medium, flow);
   checkFlow(*body, flow);
   if (!isOtherWhereCut(*body, settings)) extent = FluidExtent::kUnbounded;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/force/law/share_in_pool.h"
+#include "bullet_ambient/force/loads/face_loads.h"
 
 namespace ambient {
 namespace {
@@ -13,57 +13,56 @@ LiftedPart halfOf(const LiftedPart& part) {
   return {part.added_mass / 2, part.volume / 2, part.area / 2, part.centre};
 }
 
-/// Moves a wrench about a point to F's origin.
-Wrench aboutOrigin(const Wrench& about, const Vector3& point) {
-  return {about.torque + point.cross(about.force), about.force};
-}
-
 }  // namespace
 
-Profile::Profile(const Wing& wing, const ShapeFactors& shape)
-    : normal_(wing.facing),
-      chord_(wing.span_axis.cross(wing.facing)),
-      camber_(wing.camber),
-      nose_(wing.nose),
-      slope_(shape.slope),
-      induced_(shape.slope * shape.slope / (kPi * wing.aspect)),
-      suction_(normalForceSlope(wing.aspect)),
-      attached_(shape.in_double) {
-  suction_ *= 1 - suction_ / (kPi * wing.aspect);
+WingLift::One::One(const Wing& wing, const BodyPart& part, double stall_lag)
+    : shape(part.shape),
+      half(halfOf(part.lifted), shape, stall_lag),
+      halves(halvesOf(part.lifted.centre, shape.reach,
+                      shape.shape.chord * shape.shape.facing.cross(shape.shape.span))),
+      planform(part.lifted.area / 4),
+      camber(wing.camber),
+      nose(wing.nose),
+      induced(shape.slope * shape.slope / (kPi * wing.aspect)),
+      suction(normalForceSlope(wing.aspect)) {
+  suction *= 1 - suction / (kPi * wing.aspect);
 }
 
-double Profile::attachedShare(double across, double stalling, double speed_sq) const noexcept {
+double WingLift::One::attachedShare(double across, double stalling,
+                                    double speed_sq) const noexcept {
   const WingFlow<PlainArithmetic<double>> flow{across, stalling * across,        0,
                                                0,      speed_sq + kLeastSpeedSq, 0};
-  return attachedFlow(across, flow, attached_).share;
+  return attachedFlow(across, flow, shape.in_double).share;
 }
 
-Vector3 Profile::liftingVelocity(const Vector3& u, double stalling) const noexcept {
-  const double across = normal_.dot(u), along = std::abs(chord_.dot(u));
+Vector3 WingLift::One::liftingVelocity(const Vector3& u, double stalling) const noexcept {
+  const Vector3 &z = shape.shape.facing, chord = shape.shape.span.cross(z);
+  const double across = z.dot(u), along = std::abs(chord.dot(u));
   const double share = attachedShare(across, stalling, u.squaredNorm());
-  return share * (across - 2 * camber_ * along) * normal_;
+  return share * (across - 2 * camber * along) * z;
 }
 
-Vector3 Profile::force(const Vector3& u, double stalling) const noexcept {
-  const double across = normal_.dot(u), along = chord_.dot(u);
+Vector3 WingLift::One::sectionForce(const Vector3& u, double stalling) const noexcept {
+  const Vector3 &z = shape.shape.facing, chord = shape.shape.span.cross(z);
+  const double across = z.dot(u), along = chord.dot(u);
   const double speed_sq = u.squaredNorm();
   Vector3 force{0, 0, 0};
   if (!(speed_sq > 0)) return force;
   const double speed = std::sqrt(speed_sq);
   const double share = attachedShare(across, stalling, speed_sq);
-  if (camber_ != 0) {
-    const Vector3 turning = speed_sq * normal_ - across * u;
-    const double induced = induced_ * std::max(0.0, 4 * camber_ * (camber_ - across / speed));
+  if (camber != 0) {
+    const Vector3 turning = speed_sq * z - across * u;
+    const double drag = induced * std::max(0.0, 4 * camber * (camber - across / speed));
     force +=
-        share * along * along / speed_sq * (2 * camber_ * slope_ * turning - induced * speed * u);
+        share * along * along / speed_sq * (2 * camber * shape.slope * turning - drag * speed * u);
   }
-  const double ahead = std::max(nose_ * along, 0.0);
+  const double ahead = std::max(nose * along, 0.0);
   if (ahead > 0) {
     constexpr double kSuction = 0.9, kOnset = 0.06;  // of eq. (161b), of (49a)
     const double sine_sq = across * across / speed_sq, onset = sine_sq / kOnset;
     const double clean = share * kSuction / (1 + onset * onset) * ahead / speed;
-    force += clean * across * across * suction_ * nose_ * chord_;
-    force += clean * kPi * std::abs(across) * across * ahead / speed * normal_;
+    force += clean * across * across * suction * nose * chord;
+    force += clean * kPi * std::abs(across) * across * ahead / speed * z;
   }
   return force;
 }
@@ -76,14 +75,8 @@ std::array<WingHalf, 2> halvesOf(const Vector3& centre, const Vector3& span, con
 WingLift::WingLift(const FluidBody& body, const std::vector<BodyPart>& parts, double stall_lag)
     : rest_(parts.front().lifted, parts.front().shape, stall_lag),
       rest_centre_(parts.front().lifted.centre) {
-  for (std::size_t i = 1; i < parts.size(); ++i) {
-    const BodyPart& wing = parts[i];
-    const FormShape& shape = wing.shape.shape;
-    const Vector3 chord = shape.chord * shape.facing.cross(shape.span);
-    wings_.push_back({FormLift(halfOf(wing.lifted), wing.shape, stall_lag),
-                      halvesOf(wing.lifted.centre, wing.shape.reach, chord), wing.shape,
-                      Profile(body.wings[i - 1], wing.shape), wing.lifted.area / 4});
-  }
+  for (std::size_t i = 1; i < parts.size(); ++i)
+    wings_.emplace_back(body.wings[i - 1], parts[i], stall_lag);
   for (std::size_t i = 0; i < wings_.size(); ++i)
     for (std::size_t j = 0; j < wings_.size(); ++j)
       if (i != j) addWake(body, i, j);
@@ -121,7 +114,7 @@ Twist WingLift::seenBy(std::size_t wing, const Twist& x, const WetPart* wet) con
     double share = wake.share * ahead * ahead / speed_sq;
     if (wet) share *= (one.halves[0].wetShare(*wet) + one.halves[1].wetShare(*wet)) / 2;
     const double stalling = one.shape.stallingShare(x.angular, x.linear);
-    seen.linear -= share * one.profile.liftingVelocity(u, stalling);
+    seen.linear -= share * one.liftingVelocity(u, stalling);
   }
   return seen;
 }
@@ -137,19 +130,18 @@ double WingHalf::wetShare(const WetPart& wet) const noexcept {
   return share * shareInPool(*plane.sides_F, station, plane.normal, radius_sq);
 }
 
-Wrench WingLift::load(const Twist& x, double density, const MunkFactors& munk,
+Wrench WingLift::load(const Twist& x, double density, double munk_of_rest, double munk_of_wings,
                       const WetPart* wet) const noexcept {
   const double wet_density = (wet ? wet->share : 1) * density;
-  Wrench sum =
-      aboutOrigin(rest_.load(x.angular, x.at(rest_centre_), wet_density, munk.rest), rest_centre_);
+  Wrench sum = rest_.load(x.angular, x.at(rest_centre_), wet_density, munk_of_rest)
+                   .aboutOrigin(rest_centre_);
   for (std::size_t i = 0; i < wings_.size(); ++i) {
     const One& wing = wings_[i];
     const Twist seen = seenBy(i, x, wet);
     for (const WingHalf& half : wing.halves) {
       const double share = wet ? half.wetShare(*wet) : 1;
-      const Wrench load =
-          wing.half.load(seen.angular, seen.at(half.station), share * density, munk.wings);
-      sum += aboutOrigin(load, half.station);
+      sum += wing.half.load(seen.angular, seen.at(half.station), share * density, munk_of_wings)
+                 .aboutOrigin(half.station);
     }
   }
   return sum;
@@ -160,11 +152,11 @@ Wrench WingLift::bySection(std::size_t number, const Twist& x, double density, c
                            const Wrench& on_faces) const noexcept {
   const One& wing = wings_[number];
   Wrench sum;
-  if (wing.profile.isFlat()) return sum;
+  if (wing.isFlat()) return sum;
   const double stalling = wing.shape.stallingShare(x.angular, x.linear);
   for (const WingHalf& half : wing.halves) {
     const double share = wet ? half.wetShare(*wet) : 1;
-    const Vector3 force = wing.profile.force(x.at(half.station), stalling);
+    const Vector3 force = wing.sectionForce(x.at(half.station), stalling);
     sum += Wrench::ofForceAt(share * density / 2 * wing.planform * force, half.station);
   }
   const double gained = power(sum, x), taken = std::max(-power(on_faces, x), 0.0);

@@ -9,35 +9,6 @@
 
 namespace ambient {
 
-/// Factors of eq. (118) on what stall takes from Munk's moment.
-struct MunkFactors {
-  double rest = 1, wings = 1;
-};
-
-/// Section of a wing: what it adds to a plate, docs/theory.md eq. (166), (161b). Power <= 0 with
-/// that of the plate.
-class Profile {
- public:
-  Profile(const Wing& wing, const ShapeFactors& shape);
-
-  bool isFlat() const { return camber_ == 0 && nose_ == 0; }
-  /// Force per rho/2 and area for the velocity u of a place of the wing relative to the fluid, in
-  /// the axes of the wing's; stalling: 1 - chi of eq. (161) [m^2/s^2].
-  Vector3 force(const Vector3& u, double stalling) const noexcept;
-  /// Velocity across the wing, along z, whose lift it has at such a place, with the share of its
-  /// flow that is attached [m/s].
-  Vector3 liftingVelocity(const Vector3& u, double stalling) const noexcept;
-
- private:
-  double attachedShare(double across, double stalling, double speed_sq) const noexcept;
-
-  Vector3 normal_, chord_;  ///< z, and h x z
-  double camber_, nose_;
-  double slope_;              ///< K
-  double induced_, suction_;  ///< K^2/(pi L); K (1 - K/(pi L)) without kappa
-  WingFactors<double> attached_;
-};
-
 /// Half of a wing around a station.
 struct WingHalf {
   Vector3 station;      ///< Gauss point of the span [m]
@@ -58,8 +29,9 @@ class WingLift {
   WingLift(const FluidBody& body, const std::vector<BodyPart>& parts, double stall_lag);
 
   /// Wrench about F's origin for a twist relative to the flow; density [kg/m^3]. `wet`: of the part
-  /// in the fluid; null: all of it is.
-  Wrench load(const Twist& x, double density, const MunkFactors& munk,
+  /// in the fluid; null: all of it is. munk_of_rest, munk_of_wings: factors of eq. (118) on what
+  /// stall takes from Munk's moment.
+  Wrench load(const Twist& x, double density, double munk_of_rest, double munk_of_wings,
               const WetPart* wet) const noexcept;
   /// Returns what the section of a wing adds to the load on its faces, and at most the power that
   /// this takes.
@@ -71,13 +43,27 @@ class WingLift {
   bool hasWakes() const { return !wakes_.empty(); }
 
  private:
+  /// A wing, with what its section adds to a plate, docs/theory.md eq. (166), (161b); power <= 0
+  /// with that of the plate.
   struct One {
+    One(const Wing& wing, const BodyPart& part, double stall_lag);
+    bool isFlat() const { return camber == 0 && nose == 0; }
+    /// Force of the section per rho/2 and area for the velocity u of a place of the wing relative
+    /// to the fluid; stalling: 1 - chi of eq. (161) [m^2/s^2].
+    Vector3 sectionForce(const Vector3& u, double stalling) const noexcept;
+    /// Velocity across the wing, along z, whose lift it has at such a place, with the share of its
+    /// flow that is attached [m/s].
+    Vector3 liftingVelocity(const Vector3& u, double stalling) const noexcept;
+    double attachedShare(double across, double stalling, double speed_sq) const noexcept;
+
+    ShapeFactors shape;
     FormLift half;  ///< of half of the wing
     std::array<WingHalf, 2> halves;
-    ShapeFactors shape;
-    Profile profile;
     double planform;  ///< of half of the wing [m^2]
+    double camber, nose;
+    double induced, suction;  ///< K^2/(pi L); K (1 - K/(pi L)) without kappa
   };
+
   /// Flow that a wing turns and another one feels.
   struct Wake {
     std::size_t from, to;

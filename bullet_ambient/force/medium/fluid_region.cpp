@@ -2,26 +2,20 @@
 
 #include <cmath>
 #include <limits>
-#include <sstream>
-#include <stdexcept>
 #include <string>
 
 #include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/force/medium/input_checks.h"
 #include "bullet_ambient/force/medium/medium.h"
 
 namespace ambient {
 namespace {
 
-[[noreturn]] void rejectRegion(const std::string& what, double value, const char* limit) {
-  std::ostringstream sentence;
-  sentence << what << " is " << value << "; must be " << limit;
-  throw std::invalid_argument(sentence.str());
-}
-
 void checkRegionMedium(const Medium& medium, const std::string& which) {
   if (const auto fault = faultOf(medium))
-    rejectRegion(std::string(fault->quantity) + " " + which + " [" + fault->unit + "]",
-                 fault->value, fault->limit);
+    InputChecks{}.require(false,
+                          std::string(fault->quantity) + " " + which + " [" + fault->unit + "]",
+                          fault->value, fault->limit);
 }
 
 // Bits of BareVelocity::parts.
@@ -128,23 +122,37 @@ RegionSample sampleRegion(const FluidRegion& region, const Vector3& point_W, dou
 }
 
 void checkRegion(const FluidRegion& region) {
+  const InputChecks check;
   if (region.bounds) {
     constexpr const char* kAxes[] = {"x", "y", "z"};
     for (int axis = 0; axis < 3; ++axis) {
       const double size = region.bounds->highest[axis] - region.bounds->lowest[axis];
-      if (!(size > 0))
-        rejectRegion(std::string("size along ") + kAxes[axis] + " [m]", size, "positive");
+      check.require(size > 0, std::string("size along ") + kAxes[axis] + " [m]", size, "positive");
     }
   }
-  if (region.layers && !(region.below.density > 0))
-    rejectRegion("density that added mass has in layers [kg/m^3]", region.below.density,
-                 "positive: set FluidRegion::below");
+  check.require(!region.layers || region.below.density > 0,
+                "density that added mass has in layers [kg/m^3]", region.below.density,
+                "positive: set FluidRegion::below");
   checkRegionMedium(region.below, region.surface ? "below the surface" : "of the medium");
   if (!region.surface) return;
-  if (!(region.below.density > 0))
-    rejectRegion("density below the surface [kg/m^3]", region.below.density,
-                 "positive: set FluidRegion::below, say to water()");
+  check.require(region.below.density > 0, "density below the surface [kg/m^3]",
+                region.below.density, "positive: set FluidRegion::below, say to water()");
   if (region.above) checkRegionMedium(*region.above, "above the surface");
+}
+
+std::optional<NumberFault> faultOf(const Medium& medium) noexcept {
+  constexpr const char* kNotNegative = "zero or positive and finite";
+  const auto is_wrong = [](double value) { return !(value >= 0) || !std::isfinite(value); };
+  if (is_wrong(medium.density))
+    return NumberFault{"density", "kg/m^3", medium.density, kNotNegative};
+  constexpr double kStiffest = 1e24;  // the mantle has some 1e21
+  if (!(medium.viscosity >= 0) || !(medium.viscosity <= kStiffest))
+    return NumberFault{"viscosity", "Pa s", medium.viscosity, "from 0 to 1e24"};
+  if (!medium.velocity.allFinite())
+    return NumberFault{"speed", "m/s", medium.velocity.norm(), "finite"};
+  if (!medium.acceleration.allFinite())
+    return NumberFault{"acceleration", "m/s^2", medium.acceleration.norm(), "finite"};
+  return {};
 }
 
 }  // namespace ambient

@@ -6,13 +6,14 @@
 #include <cstddef>
 #include <limits>
 #include <random>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "bullet_ambient/base/elementary.h"
+#include "bullet_ambient/base/philox.h"
 #include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/force/medium/input_checks.h"
 
 namespace ambient {
 
@@ -40,19 +41,12 @@ WaterSample WaterSurfaceFunction::sample(const Vector3& point_W, double time) co
 
 namespace {
 
-[[noreturn]] void rejectSea(const std::string& what, double value, const char* limit) {
-  std::ostringstream sentence;
-  sentence << what << " is " << value << "; must be " << limit;
-  throw std::invalid_argument(sentence.str());
-}
-
 void checkWave(const WaveComponent& wave, std::size_t index) {
   const std::string which = "of wave " + std::to_string(index);
-  if (!(wave.amplitude >= 0) || !std::isfinite(wave.amplitude))
-    rejectSea("amplitude [m] " + which, wave.amplitude, "zero or positive and finite");
-  if (!(wave.period > 0) || !std::isfinite(wave.period))
-    rejectSea("period [s] " + which, wave.period, "positive and finite");
-  if (!std::isfinite(wave.phase)) rejectSea("phase [rad] " + which, wave.phase, "finite");
+  const InputChecks check;
+  check.notNegative("amplitude [m] " + which, wave.amplitude);
+  check.positive("period [s] " + which, wave.period);
+  check.finite("phase [rad] " + which, wave.phase);
 }
 
 Vector3 horizontal(const Vector3& v, const Vector3& up) { return v - up.dot(v) * up; }
@@ -61,9 +55,9 @@ Vector3 horizontal(const Vector3& v, const Vector3& up) { return v - up.dot(v) *
 
 AiryWaves::AiryWaves(const CalmSea& sea, const std::vector<WaveComponent>& components)
     : calm_(sea.level, sea.up), current_(horizontal(sea.current, calm_.up())) {
-  if (!(sea.gravity > 0) || !std::isfinite(sea.gravity))
-    rejectSea("gravity of the sea [m/s^2]", sea.gravity, "positive and finite");
-  if (!current_.allFinite()) rejectSea("speed of the current [m/s]", current_.norm(), "finite");
+  const InputChecks check;
+  check.positive("gravity of the sea [m/s^2]", sea.gravity);
+  check.finite("speed of the current [m/s]", current_);
   double energy = 0, slope_squared = 0;
   for (std::size_t i = 0; i < components.size(); ++i) {
     const WaveComponent& wave = components[i];
@@ -71,15 +65,15 @@ AiryWaves::AiryWaves(const CalmSea& sea, const std::vector<WaveComponent>& compo
     const Vector3 direction = horizontal(wave.direction, calm_.up());
     const double length = direction.norm();
     constexpr double kRounding = 1e-12;  // horizontal part that rounding leaves of a vertical one
-    if (!(length > kRounding * wave.direction.norm()) || !std::isfinite(length))
-      rejectSea("horizontal part of the direction of wave " + std::to_string(i), length,
-                "positive and finite");
+    check.require(length > kRounding * wave.direction.norm() && std::isfinite(length),
+                  "horizontal part of the direction of wave " + std::to_string(i), length,
+                  "positive and finite");
     const double frequency = 2 * kPi / wave.period;
     const double wave_number = frequency * frequency / sea.gravity;
     // Real waves break at a slope of 0.44.
-    if (!(wave.amplitude * wave_number <= 1))
-      rejectSea("slope (amplitude times wave number) of wave " + std::to_string(i),
-                wave.amplitude * wave_number, "at most 1");
+    check.require(wave.amplitude * wave_number <= 1,
+                  "slope (amplitude times wave number) of wave " + std::to_string(i),
+                  wave.amplitude * wave_number, "at most 1");
     waves_.push_back({wave.amplitude, frequency, wave.phase, wave_number, direction / length});
     energy += wave.amplitude * wave.amplitude;
     slope_squared += wave.amplitude * wave_number * wave.amplitude * wave_number;
@@ -110,21 +104,14 @@ namespace {
 
 constexpr int kMostComponents = 100000;
 
-[[noreturn]] void rejectSpectrum(const char* what, double value, const char* limit) {
-  std::ostringstream sentence;
-  sentence << "spectrum of waves: " << what << " is " << value << "; must be " << limit;
-  throw std::invalid_argument(sentence.str());
-}
-
 void checkSpectrum(const WaveSpectrum& s) {
-  if (!(s.significant_height >= 0) || !std::isfinite(s.significant_height))
-    rejectSpectrum("significant height [m]", s.significant_height, "zero or positive and finite");
-  if (!(s.peak_period > 0) || !std::isfinite(s.peak_period))
-    rejectSpectrum("peak period [s]", s.peak_period, "positive and finite");
-  if (!(s.peak_enhancement >= 1) || !std::isfinite(s.peak_enhancement))
-    rejectSpectrum("peak enhancement", s.peak_enhancement, "at least 1 and finite");
-  if (s.components < 1 || s.components > kMostComponents)
-    rejectSpectrum("number of components", s.components, "between 1 and 100000");
+  const InputChecks check{"spectrum of waves"};
+  check.notNegative("significant height [m]", s.significant_height);
+  check.positive("peak period [s]", s.peak_period);
+  check.require(s.peak_enhancement >= 1 && std::isfinite(s.peak_enhancement), "peak enhancement",
+                s.peak_enhancement, "at least 1 and finite");
+  check.require(s.components >= 1 && s.components <= kMostComponents, "number of components",
+                s.components, "between 1 and 100000");
 }
 
 /// omega / omega_p below which a fully developed sea has the share u of its energy; eq. (82).
@@ -136,34 +123,25 @@ double enhancement(double gamma, double frequency_ratio) {
   return portable::pow(gamma, portable::exp(-x * x / (2 * width * width)));
 }
 
-/// Energy of the spectrum in equal cells of u, on which it is smooth and bounded.
-class EnergyCells {
- public:
-  explicit EnergyCells(double gamma) {
-    for (std::size_t i = 0; i < kCount; ++i) {
-      const double middle = (static_cast<double>(i) + 0.5) / kCount;
-      total_ += cells_[i] = enhancement(gamma, frequencyRatio(middle));
-    }
+/// Returns u of docs/theory.md eq. (82) at the middles of parts with equal energies, by the energy
+/// in equal cells of u, on which it is smooth and bounded.
+std::vector<double> middlesOfEqualEnergies(double gamma, int parts) {
+  constexpr std::size_t kCells = 4096;
+  std::vector<double> cells(kCells);
+  double total = 0;
+  for (std::size_t i = 0; i < kCells; ++i) {
+    const double middle = (static_cast<double>(i) + 0.5) / kCells;
+    total += cells[i] = enhancement(gamma, frequencyRatio(middle));
   }
-
-  /// Returns u below which the given share of the energy lies. @pre share >= that of the last call
-  double at(double share) {
-    const double energy = share * total_;
-    while (cell_ + 1 < kCount && below_ + cells_[cell_] < energy) below_ += cells_[cell_++];
-    return (static_cast<double>(cell_) + (energy - below_) / cells_[cell_]) / kCount;
+  std::vector<double> middles;
+  std::size_t cell = 0;
+  double below = 0;  // energy of the cells before that
+  for (int part = 0; part < parts; ++part) {
+    const double energy = (part + 0.5) / parts * total;
+    while (cell + 1 < kCells && below + cells[cell] < energy) below += cells[cell++];
+    middles.push_back((static_cast<double>(cell) + (energy - below) / cells[cell]) / kCells);
   }
-
- private:
-  static constexpr std::size_t kCount = 4096;
-  std::array<double, kCount> cells_{};
-  double total_ = 0;
-  double below_ = 0;  // energy of the cells before cell_
-  std::size_t cell_ = 0;
-};
-
-/// Phase in [0, 2 pi). Not by std::uniform_real_distribution, which differs between libraries.
-double randomPhase(std::mt19937_64& bits) {
-  return 2 * kPi * std::ldexp(static_cast<double>(bits() >> 11), -53);
+  return middles;
 }
 
 }  // namespace
@@ -173,13 +151,13 @@ std::vector<WaveComponent> wavesOf(const WaveSpectrum& spectrum) {
   const double count = spectrum.components;
   // sum of a^2 / 2 = H_s^2 / 16
   const double amplitude = spectrum.significant_height / 4 * std::sqrt(2 / count);
-  EnergyCells energy(spectrum.peak_enhancement);
   std::mt19937_64 bits(spectrum.seed);
   std::vector<WaveComponent> waves;
-  for (int i = 0; i < spectrum.components; ++i) {
-    const double ratio = frequencyRatio(energy.at((i + 0.5) / count));
-    waves.push_back(
-        {amplitude, spectrum.peak_period / ratio, spectrum.direction, randomPhase(bits)});
+  for (const double u : middlesOfEqualEnergies(spectrum.peak_enhancement, spectrum.components)) {
+    const double ratio = frequencyRatio(u);
+    // Not by std::uniform_real_distribution, which differs between libraries.
+    const double phase = 2 * kPi * uniformOf(bits());
+    waves.push_back({amplitude, spectrum.peak_period / ratio, spectrum.direction, phase});
   }
   return waves;
 }

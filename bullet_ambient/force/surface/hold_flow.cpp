@@ -8,7 +8,6 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/force/medium/surface_plane.h"
-#include "bullet_ambient/force/surface/falling_root.h"
 #include "bullet_ambient/spatial/inertia.h"
 
 namespace ambient {

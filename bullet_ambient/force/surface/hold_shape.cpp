@@ -6,7 +6,7 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/elementary.h"
-#include "bullet_ambient/fluid_body/box_turning.h"
+#include "bullet_ambient/fluid_body/fluid_body.h"
 #include "bullet_ambient/spatial/inertia.h"
 
 namespace ambient {

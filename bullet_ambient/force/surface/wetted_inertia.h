@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "bullet_ambient/fluid_body/fluid_body.h"
 #include "bullet_ambient/force/surface/hydrostatics.h"
 
@@ -73,17 +75,10 @@ struct SphereInertia {
 /// section 12. Continuously differentiable in the depth.
 SphereInertia sphereInertiaAt(double depth) noexcept;
 
-/// Added mass of a sphere at the surface.
-class WettedSphere final : public WettedInertia {
- public:
-  explicit WettedSphere(const FluidBody& body);
-
- private:
-  Matrix6 inertiaAt(const Immersion& raised) const noexcept override;
-  InertiaGradient gradientAt(const Immersion& raised, const Twist& twist) const noexcept override;
-
-  Vector3 centre_;
-  double radius_;
-};
+/// Makes the added mass of a body at the surface of the water. Of a
+/// sphere in closed form; with parts of the added mass by these, eq. (60), or with a waterline
+/// table, eq. (61a); else the added mass times the wet share of the volume. Cost: O(parts).
+std::shared_ptr<const WettedInertia> makeWettedInertia(
+    const std::shared_ptr<const FluidBody>& body);
 
 }  // namespace ambient

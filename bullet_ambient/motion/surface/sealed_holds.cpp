@@ -3,7 +3,7 @@
 #include <cstddef>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/force/surface/falling_root.h"
+#include "bullet_ambient/force/surface/hold_flow.h"
 #include "bullet_ambient/motion/surface/hold_exchange.h"
 
 namespace ambient {

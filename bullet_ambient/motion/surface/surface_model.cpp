@@ -7,7 +7,7 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/force/loads/foils.h"
 #include "bullet_ambient/force/loads/load_tables.h"
-#include "bullet_ambient/force/surface/wetted_parts.h"
+#include "bullet_ambient/force/surface/wetted_inertia.h"
 #include "bullet_ambient/spatial/cholesky.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"

@@ -5,7 +5,7 @@
 #include <map>
 #include <sstream>
 
-#include "bullet_ambient/fluid_body/box_turning.h"
+#include "bullet_ambient/fluid_body/fluid_body.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 
 namespace ambient {

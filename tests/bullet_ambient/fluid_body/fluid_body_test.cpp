@@ -49,23 +49,6 @@ TEST(FaceTable, ReservesAllColumns) {
   for (const auto* column : faces.columns()) EXPECT_GE(column->capacity(), 10u);
 }
 
-TEST(SlipMatrix, GivesTheTangentialVelocityOfTheFluidAtEveryFace) {
-  test::Arbitrary arbitrary(1);
-  const FaceTable faces = arbitrary.body();
-  const Twist x = arbitrary.twist();
-  const auto U = computeSlipMatrix(faces);
-  ASSERT_EQ(U.rows(), static_cast<Eigen::Index>(3 * faces.size()));
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    const Vector3 n = faces.normal(i);
-    const Vector3 u = x.at(faces.centroid(i));
-    const Vector3 slip = U.middleRows<3>(static_cast<Eigen::Index>(3 * i)) * x.vector();
-    EXPECT_LT((slip - (n.dot(u) * n - u)).norm(), 1e-14 * u.norm()) << i;
-    EXPECT_LT(std::abs(slip.dot(n)), 1e-14 * u.norm()) << i;
-  }
-}
-
-TEST(SlipMatrix, OfNoFacesIsEmpty) { EXPECT_EQ(computeSlipMatrix(FaceTable{}).rows(), 0); }
-
 // Saved states of a body with the table must not fit a body without.
 TEST(FluidBody, AWaterlineTableIsPartOfItsContent) {
   FluidBody body = test::exampleBody();

@@ -67,6 +67,21 @@ TEST(FaceLoads, AreTheSumOfTheModelFaceByFace) {
   }
 }
 
+// Slip matrix U (3F x 6) of docs/theory.md eq. (12): U x stacks the slip velocities [m/s] of fully
+// attached flow at all faces for the twist x. Padilla et al. 2025, appendix A.2.
+Eigen::Matrix<double, Eigen::Dynamic, 6> computeSlipMatrix(const FaceTable& faces) {
+  const auto face_count = static_cast<Eigen::Index>(faces.size());
+  Eigen::Matrix<double, Eigen::Dynamic, 6> slip(3 * face_count, 6);
+  for (Eigen::Index i = 0; i < face_count; ++i) {
+    const Vector3 n = faces.normal(static_cast<std::size_t>(i));
+    const Vector3 c = faces.centroid(static_cast<std::size_t>(i));
+    const Matrix3 tangential = Matrix3::Identity() - n * n.transpose();
+    slip.block<3, 3>(3 * i, 0) = tangential * crossMatrix(c);  // u_s = -P (v + w x c)
+    slip.block<3, 3>(3 * i, 3) = -tangential;
+  }
+  return slip;
+}
+
 TEST(FaceLoads, AreTheQuadraticFormsOfTheSlipMatrixWhenAttachedEverywhere) {
   test::Arbitrary arbitrary(42);
   const FaceTable body = arbitrary.body(1);

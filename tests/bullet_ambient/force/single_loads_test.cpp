@@ -11,7 +11,7 @@
 #include "bullet_ambient/force/loads/face_loads.h"
 #include "bullet_ambient/force/loads/load_tables.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
-#include "bullet_ambient/force/surface/wetted_parts.h"
+#include "bullet_ambient/force/surface/wetted_inertia.h"
 #include "preprocess/base/surface_form.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/bits_of.h"

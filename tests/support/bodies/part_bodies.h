@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "bullet_ambient/base/elementary.h"
-#include "bullet_ambient/fluid_body/block_order.h"
+#include "bullet_ambient/fluid_body/added_mass_parts.h"
 #include "tests/support/bodies/ellipsoid_body.h"
 #include "tests/support/bodies/hull_bodies.h"
 

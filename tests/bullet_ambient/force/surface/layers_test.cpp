@@ -3,7 +3,8 @@
 #include <cmath>
 
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/force/surface/layered_buoyancy.h"
+#include "bullet_ambient/force/medium/profiles.h"
+#include "bullet_ambient/force/surface/hydrostatics.h"
 #include "tests/support/bodies/hull_bodies.h"
 #include "tests/support/bodies/random_bodies.h"
 

@@ -7,7 +7,7 @@
 
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "bullet_ambient/force/surface/hydrostatics.h"
-#include "bullet_ambient/force/surface/wetted_parts.h"
+#include "bullet_ambient/force/surface/wetted_inertia.h"
 #include "bullet_ambient/spatial/rotation.h"
 #include "preprocess/base/surface_form.h"
 #include "tests/support/bodies/part_bodies.h"

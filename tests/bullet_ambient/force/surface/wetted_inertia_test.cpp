@@ -12,7 +12,6 @@
 #include "bullet_ambient/fluid_body/added_mass_parts.h"
 #include "bullet_ambient/fluid_body/octahedral_lattice.h"
 #include "bullet_ambient/force/kernels/part_sums.h"
-#include "bullet_ambient/force/surface/wetted_parts.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "tests/support/bits_of.h"
