@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/motion/surface/flotation_lanes.h"
+#include "bullet_ambient/motion/surface/flotation.h"
 
 namespace ambient {
 namespace {

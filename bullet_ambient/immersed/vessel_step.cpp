@@ -7,7 +7,6 @@
 
 #include "bullet_ambient/immersed/flow_along.h"
 #include "bullet_ambient/motion/surface/hold_exchange.h"
-#include "bullet_ambient/motion/surface/slopping.h"
 
 namespace ambient {
 namespace {
@@ -266,12 +265,12 @@ Vector6 sloshForRows(AmbientBody& ambient, const RigidState& now, double duratio
   const WaterAt at = waterAt(ambient, now.orientation.toRotationMatrix(), now.position);
   sloshing.moved = sloshing.now;
   joinVessel(at.sloshing(), x, sloshing.moved.data());
-  const Vector6 end =
+  const Sloshed end =
       exchangeSloshing(at.sloshing(), ambient.flotation().inverse,
                        ambient.def->holds.sloshing_damping, duration, x, sloshing.moved.data());
   vessel.before_rows = WaterLeft(at, sloshing.moved.data(),
                                  energyOfSloshing(at.sloshing(), sloshing.moved.data()).sum());
-  return end;
+  return end.twist;
 }
 
 Vector6 arriveWithWater(AmbientBody& ambient, const Matrix3& to_world, const Vector3& position_W,

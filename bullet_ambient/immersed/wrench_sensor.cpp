@@ -4,7 +4,6 @@
 #include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/immersed/vessel_step.h"
 #include "bullet_ambient/motion/surface/flotation.h"
-#include "bullet_ambient/motion/surface/flotation_lanes.h"
 #include "bullet_ambient/spatial/rotation.h"
 
 namespace ambient {

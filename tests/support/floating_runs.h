@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bullet_ambient/force/loads/surface_loads.h"
-#include "bullet_ambient/motion/surface/flotation_lanes.h"
+#include "bullet_ambient/motion/surface/flotation.h"
 #include "bullet_ambient/motion/surface/surface_flight.h"
 #include "tests/support/bodies/body_models.h"
 #include "tests/support/bodies/part_bodies.h"

@@ -5,7 +5,6 @@
 #include "bullet_ambient/motion/lanes/spatial_lanes.h"
 #include "bullet_ambient/motion/lanes/surface_lanes.h"
 #include "bullet_ambient/motion/lanes/viscous_kernel.h"
-#include "bullet_ambient/motion/lanes/water_kernel.h"
 #include "bullet_ambient/motion/lanes/wave_kernel.h"
 
 // Compiled once per instruction set; AMBIENT_KERNEL() adds its name to that of the kernel.
@@ -60,24 +59,6 @@ void see(SurfaceLanes& bodies, int at, const Mask&) {
   store(bodies.flotation.normal, at, orientationOf(bodies.flight, at).toBody(normal_W));
   store(bodies.flotation.height + at,
         load(bodies.height_W + at) - dot(normal_W, load(bodies.flight.displacement_W, at)));
-}
-
-void shiftWater(SurfaceLanes& bodies, int at, const Mask& active) {
-  const Mask has_water = active & (load(bodies.has_water + at) > Lanes{});
-  if (!anyOf(has_water)) return;
-  FlightLanes& flight = bodies.flight;
-  const FullMatrices before(flight.inertia, at), change(bodies.water->change, at);
-  SymmetricOf<Lanes> after;
-  for (int i = 0; i < kSymmetricEntries; ++i)
-    after.entries[i] = before.entries[i] + change.entries[i];
-  const AfterShiftOf<Lanes> shifted =
-      afterShift<Lanes>({before, after, load6(bodies.water->momentum, at),
-                         load(bodies.water->energy2 + at), load(bodies.flotation.normal, at)},
-                        load6(flight.twist_B, at));
-  const Mask moves = has_water & shifted.is_fine;
-  setTwist(flight, at, moves, shifted.twist);
-  for (int i = 0; i < kSymmetricEntries; ++i)
-    store(flight.inertia[i] + at, moves ? after.entries[i] : before.entries[i]);
 }
 
 void changeInertia(SurfaceLanes& bodies, int at, const Mask& active) {
@@ -142,24 +123,6 @@ void exchangeWithWaves(SurfaceLanes& bodies, int at, const Mask& active) {
   forEachNumber(bodies.waves, waves, [&](FlightLane& to, const Lanes& from) {
     store(to + at, active ? from : load(to + at));
   });
-}
-
-void exchangeWithSloshing(SurfaceLanes& bodies, int at, const Mask& active) {
-  const FullMatrices inverse(bodies.flight.inverse_inertia, at);
-  Spatials x = load6(bodies.flight.twist_B, at);
-  Lanes energy = load(bodies.slosh_energy + at);
-  for (SloshOf<FlightLane>& lanes : bodies.water->slosh) {
-    SloshOf<Lanes> mode;
-    forEachNumber(mode, lanes, [&](Lanes& to, const FlightLane& from) { to = load(from + at); });
-    x = exchangeSlosh<Lanes>(mode, inverse, halfKick(bodies.flight, at), x);
-    store(lanes.way + at, mode.way);
-    store(lanes.velocity + at, mode.velocity);
-    const Lanes own =
-        0.5 * mode.mass * (mode.velocity * mode.velocity + mode.square * mode.way * mode.way);
-    energy = mode.mass > Lanes{} ? energy + own : energy;
-  }
-  store(bodies.slosh_energy + at, energy);
-  setTwist(bodies.flight, at, active, x);
 }
 
 void applyLastLoad(SurfaceLanes& bodies, int at, const Mask& active) {
@@ -239,18 +202,9 @@ void computeFlotations(FlotationLanes& flotation) noexcept {
 
 }  // namespace
 
-const SurfaceKernel AMBIENT_KERNEL(kSurfaceKernel){computeFlotations,
-                                                   forAll<see>,
-                                                   forAll<shiftWater>,
-                                                   forAll<changeInertia>,
-                                                   forAll<kickByGravity>,
-                                                   forAll<exchangeWithWaves>,
-                                                   forAll<exchangeWithSloshing>,
-                                                   forAll<applyLastLoad>,
-                                                   forAll<predictLoad>,
-                                                   forAll<applyLoad>,
-                                                   forAll<sampleWind>,
-                                                   forAll<kickByWind>,
-                                                   forAll<measure>};
+const SurfaceKernel AMBIENT_KERNEL(kSurfaceKernel){
+    computeFlotations,         forAll<see>,           forAll<changeInertia>, forAll<kickByGravity>,
+    forAll<exchangeWithWaves>, forAll<applyLastLoad>, forAll<predictLoad>,   forAll<applyLoad>,
+    forAll<sampleWind>,        forAll<kickByWind>,    forAll<measure>};
 
 }  // namespace ambient

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "bullet_ambient/motion/flight/flight.h"
-#include "bullet_ambient/motion/surface/flotation_lanes.h"
+#include "bullet_ambient/motion/surface/flotation.h"
 #include "bullet_ambient/spatial/inertia.h"
 
 namespace ambient {
@@ -40,7 +39,6 @@ struct Progress {
   SurfacePlace later;             ///< where a substep has come to
   WaterInside inside;             ///< there
   WaterLeft left;                 ///< water in the holds where a substep begins
-  SloshAlong slosh[2];            ///< modes of one hold, before they act on the body
   SurfacePlace* place = nullptr;  ///< that of now: that of the flotation at the start, or `later`
 
   const SurfaceModel& model() const { return flight->task.model; }
@@ -156,7 +154,6 @@ class SurfaceFlights {
     p.error = p.energy_removed = 0;
     p.has_gained = false;
     if (!p.hasWater()) return;
-    if (!lanes_.water) lanes_.water = &water_.emplace();
     VesselSloshing& sloshing = *flight.task.water.sloshing;
     sloshing.moved = sloshing.now;
     const SloshingAt at = waterAt(i).sloshing();
@@ -171,33 +168,28 @@ class SurfaceFlights {
             vectorOf(lanes_.flight.displacement_W, i)};
   }
 
-  /// Lets the water in the holds slosh for half of a kick, one hold of each body after the other.
+  /// Lets the water in the holds slosh for half of a kick.
   void slosh() {
-    for (std::size_t hold = 0; setSlosh(hold); ++hold) {
-      kernel_.exchangeSloshing(lanes_);
-      for (int i = 0; i < count_; ++i)
-        if (hasHold(i, hold))
-          moveSlosh(*lanes_.water, i, progress_[i].slosh, progress_[i].sloshing() + hold);
-    }
-  }
-  bool hasHold(int i, std::size_t hold) const {
-    const Progress& p = progress_[i];
-    return p.hasWater() && hold < p.model().holds->shapes.size();
-  }
-  /// Sets the lanes of sloshing. False: no body has water and so many holds.
-  bool setSlosh(std::size_t hold) {
-    bool is_any = false;
     for (int i = 0; i < count_; ++i) {
       Progress& p = progress_[i];
-      if (!p.hasWater()) continue;
-      for (SloshOf<FlightLane>& lanes : lanes_.water->slosh) lanes.mass[i] = 0;
-      if (!isActive(i) || !hasHold(i, hold)) continue;
-      is_any = true;
-      if (hold == 0) lanes_.slosh_energy[i] = 0;
-      ambient::setSlosh(*lanes_.water, i, waterAt(i).sloshing(), hold, p.flight->task.water.damping,
-                        p.sloshing()[hold], p.slosh);
+      if (!isActive(i) || !p.hasWater()) continue;
+      const Sloshed end =
+          exchangeSloshing(waterAt(i).sloshing(), symmetricOf(lanes_.flight.inverse_inertia, i),
+                           p.flight->task.water.damping, 0.5 * lanes_.flight.kick_time[i],
+                           twistOf(lanes_.flight.twist_B, i).vector(), p.sloshing());
+      setLane(lanes_.flight.twist_B, i, Twist::fromVector(end.twist));
+      lanes_.slosh_energy[i] = end.energy;
     }
-    return is_any;
+  }
+
+  /// Brings the water in the holds of a body to the place where it has come to.
+  void shiftWater(int i) {
+    Progress& p = progress_[i];
+    SymmetricMatrix inertia = symmetricOf(lanes_.flight.inertia, i);
+    const Vector6 x = ambient::shiftWater(
+        p.left, waterAt(i), twistOf(lanes_.flight.twist_B, i).vector(), inertia, p.sloshing());
+    setLane(lanes_.flight.twist_B, i, Twist::fromVector(x));
+    setLane(lanes_.flight.inertia, i, inertia);
   }
 
   /// Brings the active bodies back to the start of the step.
@@ -290,7 +282,6 @@ class SurfaceFlights {
       places[i] = &p.later;
       if (isActive(i)) findPlace(i);
     }
-    kernel_.shiftWater(lanes_);
     computeFlotations(lanes_.flotation, models, places, count_);
     kernel_.changeInertia(lanes_);
     for (int i = 0; i < count_; ++i)
@@ -311,8 +302,7 @@ class SurfaceFlights {
     if (has_water) water = {at_start.states, &p.inside, at_start.sloshing->later.data()};
     p.later = placeAt(p.model(), plane_B, water);
     p.place = &p.later;
-    lanes_.has_water[i] = has_water ? 1 : 0;
-    if (has_water) setMoved(*lanes_.water, i, moveWater(p.left, waterAt(i), p.sloshing()));
+    if (has_water) shiftWater(i);
     setPlace(lanes_.flotation, i, p.model(), p.later);
     setLane(lanes_.centre_of_buoyancy, i, centreOfBuoyancy(p.model(), p.later));
     const MeanDepths depths = meanDepths(before, p.later.immersion_F);
@@ -483,7 +473,6 @@ class SurfaceFlights {
   int count_;
   bool has_loads_below_ = false, has_loads_above_ = false, has_still_axis_ = false;
   SurfaceLanes lanes_{};
-  std::optional<WaterLanes> water_;
   Progress progress_[kFlightLanes];
 };
 
