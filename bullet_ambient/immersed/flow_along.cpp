@@ -158,10 +158,9 @@ void findSidePush(AmbientBody& ambient, const MotionView& now, double duration) 
   const SurfaceModel& model = *ambient.surface();
   const SurfacePlane& plane_F = flotationNow(ambient, now).immersion_F.plane;
   const Quaternion& q = now.state.orientation;
-  const auto inWorld = [&q](const Wrench& f) { return Wrench{q * f.torque, q * f.force}; };
   FlowAlongBody& flow = *ambient.flow_along;
-  flow.side_push_W = inWorld(model.fluid_frame.toB(computeSidePush(*model.hull, plane_F)));
-  if (duration > 0) flow.growth_W = inWorld(resistanceOfGrowth(ambient, now.state, duration));
+  flow.side_push_W = turned(q, model.fluid_frame.toB(computeSidePush(*model.hull, plane_F)));
+  if (duration > 0) flow.growth_W = turned(q, resistanceOfGrowth(ambient, now.state, duration));
 }
 
 namespace {

@@ -64,11 +64,8 @@ class FloatingRun {
     if (sloshing.now.size() != water.size()) sloshing.resize(water.size());
     Flotation flotation = this->flotation();
     FlightResult body{state, memory, {}};
-    SurfaceFlight flight{
-        {model_, kStill, surroundings_, velocity_above, settings, duration, inside()},
-        body,
-        waves,
-        flotation};
+    SurfaceFlight flight{model_,   kStill,   surroundings_, velocity_above, settings,
+                         duration, inside(), body,          waves,          flotation};
     SurfaceFlight* const flights[] = {&flight};
     flyAtSurface(flights, 1);
     state = body.state;

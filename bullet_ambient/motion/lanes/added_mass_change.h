@@ -40,21 +40,15 @@ inline Real sprayShare(const AddedMassChangeOf<Real>& p, const SpatialsOf<Real>&
   return moves ? theta * sigma : zero;
 }
 
-/// Works at the twist before the change [J].
-template <class Real>
-struct WorksOfChange {
-  Real of_gradient;  ///< F_K . x dt
-  Real of_change;    ///< half of x . (K_1 - K_0) x
-};
-
 /// Returns F_K dt. The force is multiplied by r of eq. (68), so that its work equals the change of
 /// the kinetic energy by that of K, if r is between 0 and 3. The torque stays, because it belongs
-/// to the gyroscopic terms of the flow.
+/// to the gyroscopic terms of the flow. Works at the twist x before the change: of_gradient,
+/// F_K . x dt; of_change, half of x . (K_1 - K_0) x [J].
 template <class Real>
-inline SpatialsOf<Real> gradientImpulse(const AddedMassChangeOf<Real>& p,
-                                        const WorksOfChange<Real>& works) {
+inline SpatialsOf<Real> gradientImpulse(const AddedMassChangeOf<Real>& p, const Real& of_gradient,
+                                        const Real& of_change) {
   constexpr double kMostCorrection = 3;
-  const Real ratio = works.of_change / works.of_gradient;
+  const Real ratio = of_change / of_gradient;
   const MaskOf<Real> is_near = (ratio > Real{}) & (ratio < all<Real>(kMostCorrection));
   const Real scale = p.duration * (is_near ? ratio : all<Real>(1));
   return {p.duration * p.gradient.angular, scale * p.gradient.linear};
@@ -76,13 +70,13 @@ struct AfterChangeOf {
   Real error;           ///< relative to the motion, eq. (68b) [1]
 };
 
-/// Returns eq. (68b): the velocity that F_K of one pose misses, over the motion. `twice_energy`:
-/// x . K_0 x.
+/// Returns eq. (68b): the velocity that F_K of one pose misses, over the motion. `missed_work`:
+/// that of the change less that of F_K [J]; `twice_energy`: x . K_0 x.
 template <class Real>
-inline Real changeError(const AddedMassChangeOf<Real>& p, const WorksOfChange<Real>& works,
+inline Real changeError(const AddedMassChangeOf<Real>& p, const Real& missed_work,
                         const Real& spray_share, const Real& twice_energy) {
   const Real norm = squareRoot(twice_energy), scale = norm * (norm + p.velocity_scale);
-  const Real missed = (1 - spray_share) * (works.of_change - works.of_gradient);
+  const Real missed = (1 - spray_share) * missed_work;
   const MaskOf<Real> moves = scale > Real{};
   return moves ? larger<Real>(missed, -missed) / (moves ? scale : all<Real>(1)) : Real{};
 }
@@ -96,8 +90,8 @@ inline AfterChangeOf<Real> applyAddedMassChange(const AddedMassChangeOf<Real>& p
   const Real zero = Real{};
   const SymmetricOf<Real> change = p.after - p.before;
   const MaskOf<Real> changes = largestEntry(change) >= kRounding * largestEntry(p.before);
-  const WorksOfChange<Real> works{p.duration * dot(p.gradient, x), 0.5 * dot(x, change * x)};
-  SpatialsOf<Real> impulse = gradientImpulse(p, works);
+  const Real of_gradient = p.duration * dot(p.gradient, x), of_change = 0.5 * dot(x, change * x);
+  SpatialsOf<Real> impulse = gradientImpulse(p, of_gradient, of_change);
   const Real spray_share = sprayShare(p, x);
   const Real lost = spray_share * larger<Real>(zero - dot(p.normal, impulse.linear), zero);
   impulse = impulse + lost * SpatialsOf<Real>{cross(p.centre_of_buoyancy, p.normal), p.normal};
@@ -107,7 +101,7 @@ inline AfterChangeOf<Real> applyAddedMassChange(const AddedMassChangeOf<Real>& p
   const MaskOf<Real> gains = changes & (energy2 > allowed2);
   return {select(changes, scaleWithin(energy2, allowed2) * end, x),
           gains ? 0.5 * (energy2 - allowed2) : zero,
-          changes ? changeError(p, works, spray_share, allowed2) : zero};
+          changes ? changeError<Real>(p, of_change - of_gradient, spray_share, allowed2) : zero};
 }
 
 }  // namespace

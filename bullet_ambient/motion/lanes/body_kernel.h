@@ -96,6 +96,13 @@ inline Real turnNumberOf(const PairsOf<Real>& change, const PairsOf<Real>& motio
   return larger<Real>(part / largest_change, squareRoot(dot(w, w)) / spin);
 }
 
+/// Returns the gyroscopic wrench of a motion in B, eq. (2).
+template <class Real>
+inline SpatialsOf<Real> gyroscopic(const PairsOf<Real>& x) {
+  const VectorsOf<Real>&w = x.twist.angular, &p = x.momentum.linear;
+  return {cross(x.momentum.angular, w) + cross(p, x.twist.linear), cross(p, w)};
+}
+
 /// Turning part t of eq. (28) over a step, in B, and its turn_number.
 template <class Real>
 struct TurningsOf {
@@ -113,10 +120,8 @@ struct TurningsOf {
 template <class Real, class Matrices>
 TurningsOf<Real> computeTurnings(const Matrices& inertia, const Matrices& inverse,
                                  const PairsOf<Real>& motion, const Real& duration) {
-  const SpatialsOf<Real>&x = motion.twist, &m = motion.momentum;
-  const SpatialsOf<Real> wrench{cross(m.angular, x.angular) + cross(m.linear, x.linear),
-                                cross(m.linear, x.angular)};  // eq. (2)
-  SpatialsOf<Real> change = duration * (inverse * wrench);
+  const SpatialsOf<Real>& x = motion.twist;
+  SpatialsOf<Real> change = duration * (inverse * gyroscopic(motion));
   change.linear = change.linear + duration * cross(x.angular, x.linear);
   const Real turn_number = turnNumberOf<Real>({change, inertia * change}, motion,
                                               all<Real>(0.5) / duration, all<Real>(0.45));

@@ -32,13 +32,10 @@ void computeFlotation(FlotationLanes& flotation, int at) {
   store(flotation.is_indefinite + at, is_fine ? Lanes{} : all(1));
   Waterplanes section{load(flotation.area + at), load(flotation.centroid, at), {}};
   for (int i = 0; i < 6; ++i) section.spread[i] = load(flotation.spread[i] + at);
-  const Lanes specific_weight = load(flotation.specific_weight + at);
   Modes modes;
-  setRestoring(section, load(flotation.moment, at), load(flotation.normal, at), specific_weight,
-               modes);
-  setWaves({section.area, load(flotation.volume + at), load(flotation.heave_inertia + at),
-            load(flotation.damping + at), specific_weight, load(flotation.gravity + at)},
-           modes);
+  setRestoring(section, load(flotation.moment, at), load(flotation.normal, at),
+               load(flotation.specific_weight + at), modes);
+  setWaves(flotation, at, modes);
   forEachNumber(flotation.modes, modes,
                 [&](FlightLane& to, const Lanes& from) { store(to + at, from); });
   store(flotation.frequency + at, squareRoot(frequencySquared(modes, inertia)));
@@ -56,7 +53,8 @@ Lanes halfKick(const FlightLanes& bodies, int at) { return 0.5 * load(bodies.kic
 
 void see(SurfaceLanes& bodies, int at, const Mask&) {
   const Vectors normal_W = load(bodies.normal_W, at);
-  store(bodies.flotation.normal, at, orientationOf(bodies.flight, at).toBody(normal_W));
+  store(bodies.flotation.normal, at,
+        loadOrientation(bodies.flight.orientation, at).toBody(normal_W));
   store(bodies.flotation.height + at,
         load(bodies.height_W + at) - dot(normal_W, load(bodies.flight.displacement_W, at)));
 }
@@ -87,7 +85,7 @@ void changeInertia(SurfaceLanes& bodies, int at, const Mask& active) {
 Spatials wrenchAt(const SurfaceLanes& bodies, int at) {
   const FlightLanes& flight = bodies.flight;
   const FlotationLanes& flotation = bodies.flotation;
-  const Spatials dry = externalWrench(flight, at, orientationOf(flight, at));
+  const Spatials dry = externalWrench(flight, at, loadOrientation(flight.orientation, at));
   const Vectors up = load(flotation.specific_weight + at) * load(flotation.normal, at);
   return {dry.angular + cross(load(flotation.moment, at), up),
           dry.linear + load(flotation.volume + at) * up};
@@ -110,7 +108,7 @@ void kickByGravity(SurfaceLanes& bodies, int at, const Mask& active) {
 
 void exchangeWithWaves(SurfaceLanes& bodies, int at, const Mask& active) {
   const Modes of_body = modesAt(bodies.flotation, at);
-  const Orientations q = orientationOf(bodies.flight, at);
+  const Orientations q = loadOrientation(bodies.flight.orientation, at);
   const ModesAtPose<Lanes> modes{of_body, {q.toWorld(of_body.tilt[0]), q.toWorld(of_body.tilt[1])}};
   WavesOf<Lanes> waves;
   forEachNumber(waves, bodies.waves,
@@ -128,7 +126,7 @@ void exchangeWithWaves(SurfaceLanes& bodies, int at, const Mask& active) {
 void applyLastLoad(SurfaceLanes& bodies, int at, const Mask& active) {
   FlightLanes& flight = bodies.flight;
   growResistance<FullMatrices>(flight, at);
-  const Spatials load_B = toBody(orientationOf(flight, at), load6(flight.load_W, at));
+  const Spatials load_B = toBody(loadOrientation(flight.orientation, at), load6(flight.load_W, at));
   const Pairs x = motionOf(flight, at);
   const Pairs response{FullMatrices(flight.inverse_inertia, at) * load_B, load_B};
   const Pairs kicked = passiveKick(x, x, response, halfKick(flight, at));
@@ -138,7 +136,8 @@ void applyLastLoad(SurfaceLanes& bodies, int at, const Mask& active) {
 void predictLoad(SurfaceLanes& bodies, int at, const Mask&) {
   FlightLanes& flight = bodies.flight;
   growResistance<FullMatrices>(flight, at);
-  store6(flight.predicted_load_B, at, toBody(orientationOf(flight, at), load6(flight.load_W, at)));
+  store6(flight.predicted_load_B, at,
+         toBody(loadOrientation(flight.orientation, at), load6(flight.load_W, at)));
   const Lanes time = halfKick(flight, at);
   const Pairs x = underResistance(flight, at, motionOf(flight, at), time);
   sampleLoad<FullMatrices>(flight, at, x, time, false);
@@ -154,7 +153,8 @@ void applyLoad(SurfaceLanes& bodies, int at, const Mask& active) {
 
 /// Returns the velocity of the water minus that of the fluid above, in B.
 Spatials windAt(const SurfaceLanes& bodies, int at) {
-  return {zeroVectors(), orientationOf(bodies.flight, at).toBody(load(bodies.wind_W, at))};
+  return {zeroVectors(),
+          loadOrientation(bodies.flight.orientation, at).toBody(load(bodies.wind_W, at))};
 }
 
 void sampleWind(SurfaceLanes& bodies, int at, const Mask&) {
@@ -176,7 +176,8 @@ void measure(SurfaceLanes& bodies, int at, const Mask&) {
   const Vectors buoyancy = load(flight.buoyancy_W, at);
   const Vectors displacement = load(flight.displacement_W, at);
   const Vectors arm =
-      displacement + orientationOf(flight, at).toWorld(load(flight.centre_of_volume_B, at));
+      displacement +
+      loadOrientation(flight.orientation, at).toWorld(load(flight.centre_of_volume_B, at));
   const Lanes of_water =
       load(bodies.flotation.specific_weight + at) * load(bodies.flotation.depth_integral + at) +
       load(bodies.waves.heave_energy + at) + load(bodies.waves.tilt_energy + at) +

@@ -86,19 +86,15 @@ inline void setRestoring(const Waterplanes& section, const Vectors& moment, cons
   }
 }
 
-/// WaveSource of one body per lane.
-struct WaveSources {
-  Lanes area, volume, heave_inertia, damping, specific_weight, gravity;
-};
-
 /// Sets G, a, b of eq. (69), to zero without a waterplane. @pre setRestoring()
-inline void setWaves(const WaveSources& source, Modes& modes) {
+inline void setWaves(const FlotationLanes& flotation, int at, Modes& modes) {
   const Lanes zero = Lanes{}, one = all(1);
   const Mask floats = modes.stiffness[0] > zero;
-  const Lanes area = floats ? source.area : one,
-              specific_weight = floats ? source.specific_weight : one;
-  const Lanes length = squareRoot(area);
-  const Lanes volume = source.volume + source.heave_inertia;
+  const Lanes area = floats ? load(flotation.area + at) : one,
+              specific_weight = floats ? load(flotation.specific_weight + at) : one;
+  const Lanes length = squareRoot(area), damping = load(flotation.damping + at),
+              gravity = load(flotation.gravity + at);
+  const Lanes volume = load(flotation.volume + at) + load(flotation.heave_inertia + at);
   const Lanes inverse_depth = clamped(length * area / (floats ? volume : one), 0.1, 8.0);
   Lanes width[2];
   for (int i = 0; i < 2; ++i)
@@ -106,17 +102,17 @@ inline void setWaves(const WaveSources& source, Modes& modes) {
   const Lanes steep = larger(width[0], width[1]) * inverse_depth;
   const Lanes log_inverse_depth = logarithm(inverse_depth, floats);
   const Lanes log_steepness = logarithm(1 + steep * steep / 30, floats);
-  modes.strength[0] = source.damping * modes.stiffness[0] * 0.075 * inverse_depth * inverse_depth *
+  modes.strength[0] = damping * modes.stiffness[0] * 0.075 * inverse_depth * inverse_depth *
                       exponential(-0.63 * log_steepness, floats);
   modes.rate[0] = 0.66 * exponential(0.9 * log_inverse_depth - log_steepness / 3, floats) *
-                  squareRoot(source.gravity / length);
+                  squareRoot(gravity / length);
   modes.loss[0] = 1.5 * modes.rate[0];
   for (int i = 0; i < 2; ++i) {
     const Lanes dipole = modes.stiffness[i + 1] / specific_weight;  // V GM
     const Lanes log_width = logarithm(width[i], floats);
-    modes.strength[i + 1] = source.damping * specific_weight * dipole * dipole / (area * area) *
-                            1.14 * exponential(1.2 * log_inverse_depth - 2.6 * log_width, floats);
-    const Lanes rate = 2.7 * squareRoot(source.gravity / (width[i] * length));
+    modes.strength[i + 1] = damping * specific_weight * dipole * dipole / (area * area) * 1.14 *
+                            exponential(1.2 * log_inverse_depth - 2.6 * log_width, floats);
+    const Lanes rate = 2.7 * squareRoot(gravity / (width[i] * length));
     modes.rate[i + 1] = floats ? rate : zero;
     modes.loss[i + 1] = 1.12 * modes.rate[i + 1];
   }

@@ -5,6 +5,7 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/motion/rows/row_velocity.h"
+#include "bullet_ambient/spatial/rotation.h"
 
 namespace ambient {
 namespace {
@@ -101,8 +102,7 @@ FlightCount LinkKick::recall(LinkDynamics& dynamics, const CoordinatesIn& u) noe
     const FlightMemory* memory = tree_.links[l].memory;
     if (!memory || !memory->has_load) return evaluate(tree_.links[l], y, count);
     const Matrix3 to_link = dynamics.rotation(l).transpose();
-    return {
-        {to_link * memory->load_W.torque, to_link * memory->load_W.force}, false, memory->growth};
+    return {turned(to_link, memory->load_W), false, memory->growth};
   });
   return count;
 }
@@ -111,9 +111,7 @@ void LinkKick::remember(const LinkDynamics& dynamics) const noexcept {
   for (int l = 0; l < tree_.size(); ++l) {
     const Link& link = tree_.links[l];
     if (!link.memory || !isLoaded(link)) continue;
-    const Matrix3 R = dynamics.rotation(l);
-    const Wrench& load = samples_[l].load;
-    link.memory->load_W = {R * load.torque, R * load.force};
+    link.memory->load_W = turned(dynamics.rotation(l), samples_[l].load);
     link.memory->growth = samples_[l].growth;
     link.memory->has_load = true;
   }

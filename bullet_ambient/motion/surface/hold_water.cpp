@@ -11,12 +11,7 @@
 namespace ambient {
 namespace {
 
-constexpr double kNoGuess = std::numeric_limits<double>::quiet_NaN();
 constexpr double kRounding = 1e-12;  // of a hold, that of fillHold()
-
-HoldFill levelIn(const HoldShape& shape, const HoldState& state, const SurfacePlane& plane_F) {
-  return fillHold(shape, plane_F.normal, state.filled(), kNoGuess);
-}
 
 }  // namespace
 
@@ -51,7 +46,7 @@ WaterInside waterInside(const HoldShapes& holds, const HoldState* states,
   for (std::size_t i = 0; i < holds.shapes.size(); ++i) {
     if (modes) modes[i].modes[0].volume = modes[i].modes[1].volume = 0;
     if (!(states[i].volume > 0)) continue;
-    const HoldFill fill = levelIn(holds.shapes[i], states[i], plane_F);
+    const HoldFill fill = fillHold(holds.shapes[i], plane_F.normal, states[i].filled());
     HoldModes found = modesOf(holds.shapes[i], fill, plane_F, frame);
     // The part of the water alone, where other bodies float in it.
     const double share = states[i].volume / states[i].filled();
@@ -245,12 +240,6 @@ void mixSloshing(const HoldState* states, const HoldModes* before, const Sloshin
         kept * sloshing[i].velocity_W + (1 - kept) * (1 - from_sea) * joined.velocity_W;
     sloshing[i].is_known = true;
   }
-}
-
-double levelOf(const HoldShape& shape, const Vector3& normal, HoldState& state) noexcept {
-  if (std::isnan(state.level))
-    state.level = fillHold(shape, normal, state.filled(), kNoGuess).height;
-  return state.level;
 }
 
 }  // namespace ambient

@@ -214,7 +214,4 @@ void fillCoveredHolds(const HoldShapes& holds, const OpeningChanges* changes,
 void mixSloshing(const HoldState* states, const HoldModes* before, const SloshingAt& after,
                  const Vector6& x, Sloshing* sloshing) noexcept;
 
-/// Returns the height of the level in a hold along a normal in F; keeps it in the state.
-double levelOf(const HoldShape& shape, const Vector3& normal, HoldState& state) noexcept;
-
 }  // namespace ambient
