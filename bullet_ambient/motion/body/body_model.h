@@ -8,11 +8,41 @@
 #include "bullet_ambient/force/law/surface_load.h"
 #include "bullet_ambient/force/medium/medium.h"
 #include "bullet_ambient/force/medium/surface_plane.h"
+#include "bullet_ambient/motion/lanes/flight_lanes.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
 #include "bullet_ambient/spatial/vector_types.h"
 
 namespace ambient {
+
+/// Symmetric 6x6 matrix in the memory of its upper triangle.
+struct SymmetricMatrix : SymmetricOf<double> {
+  SymmetricMatrix() = default;
+  explicit SymmetricMatrix(const SymmetricOf<double>& m) : SymmetricOf<double>(m) {}
+  /// Takes the upper triangle.
+  explicit SymmetricMatrix(const Matrix6& m) {
+    for (int row = 0; row < 6; ++row)
+      for (int column = row; column < 6; ++column)
+        entries[symmetricEntry(row, column)] = m(row, column);
+  }
+
+  Matrix6 full() const {
+    Matrix6 m;
+    for (int row = 0; row < 6; ++row)
+      for (int column = row; column < 6; ++column)
+        m(row, column) = m(column, row) = entries[symmetricEntry(row, column)];
+    return m;
+  }
+
+  /// The part that acts on velocities of translation.
+  Matrix3 bottomRight() const {
+    Matrix3 m;
+    for (int row = 0; row < 3; ++row)
+      for (int column = row; column < 3; ++column)
+        m(row, column) = m(column, row) = entries[symmetricEntry(row + 3, column + 3)];
+    return m;
+  }
+};
 
 /// Vector x and its image K x under the inertia: a twist and its momentum, or an acceleration and
 /// its wrench; in B. Inner products a.K b of pairs need no multiplication by K.

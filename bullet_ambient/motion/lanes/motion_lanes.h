@@ -2,7 +2,7 @@
 
 #include <type_traits>
 
-#include "bullet_ambient/motion/lanes/viscous_kernel.h"
+#include "bullet_ambient/motion/lanes/body_kernel.h"
 
 // Reading of BodyLanes, and steps on them, that several kernels share. For sources that are
 // compiled once per instruction set, see spatial_lanes.h.

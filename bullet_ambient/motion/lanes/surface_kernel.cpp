@@ -1,11 +1,9 @@
 #include "bullet_ambient/base/instruction_set.h"
-#include "bullet_ambient/motion/lanes/added_mass_change.h"
 #include "bullet_ambient/motion/lanes/body_kernel.h"
+#include "bullet_ambient/motion/lanes/floating_kernel.h"
 #include "bullet_ambient/motion/lanes/motion_lanes.h"
 #include "bullet_ambient/motion/lanes/spatial_lanes.h"
 #include "bullet_ambient/motion/lanes/surface_lanes.h"
-#include "bullet_ambient/motion/lanes/viscous_kernel.h"
-#include "bullet_ambient/motion/lanes/wave_kernel.h"
 
 // Compiled once per instruction set; AMBIENT_KERNEL() adds its name to that of the kernel.
 

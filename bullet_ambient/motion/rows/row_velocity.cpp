@@ -9,7 +9,6 @@
 #include "bullet_ambient/motion/flight/flight.h"
 #include "bullet_ambient/motion/lanes/body_kernel.h"
 #include "bullet_ambient/motion/lanes/flight_lanes.h"
-#include "bullet_ambient/motion/lanes/viscous_kernel.h"
 #include "bullet_ambient/spatial/cholesky.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/rotation.h"

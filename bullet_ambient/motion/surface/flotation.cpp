@@ -7,10 +7,8 @@
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "bullet_ambient/motion/body/one_body.h"
 #include "bullet_ambient/motion/flight/flight.h"
-#include "bullet_ambient/motion/lanes/added_mass_change.h"
 #include "bullet_ambient/motion/lanes/body_kernel.h"
-#include "bullet_ambient/motion/lanes/viscous_kernel.h"
-#include "bullet_ambient/motion/lanes/wave_kernel.h"
+#include "bullet_ambient/motion/lanes/floating_kernel.h"
 #include "bullet_ambient/spatial/inertia.h"
 
 namespace ambient {

@@ -4,7 +4,6 @@
 #include "bullet_ambient/motion/body/body_model.h"
 #include "bullet_ambient/motion/lanes/surface_lanes.h"
 #include "bullet_ambient/motion/surface/surface_model.h"
-#include "bullet_ambient/motion/surface/symmetric_matrix.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
 
 namespace ambient {

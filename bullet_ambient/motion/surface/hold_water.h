@@ -7,7 +7,7 @@
 
 #include "bullet_ambient/force/surface/hold_flow.h"
 #include "bullet_ambient/force/surface/hold_shape.h"
-#include "bullet_ambient/motion/surface/symmetric_matrix.h"
+#include "bullet_ambient/motion/body/body_model.h"
 
 namespace ambient {
 
