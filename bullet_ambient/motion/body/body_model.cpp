@@ -17,14 +17,6 @@
 
 namespace ambient {
 
-namespace {
-
-double largestEigenvalue(const Eigen::Matrix3d& symmetric) {
-  return symmetricEigen(symmetric).values[2];
-}
-
-}  // namespace
-
 Vector6 IsotropicResponse::beyond(const Vector6& momentum, const Vector6& change) const {
   constexpr double kRounding = 1e-12;
   const Vector6 even = *this * momentum;
@@ -41,14 +33,10 @@ IsotropicResponse makeIsotropicResponse(const Matrix6& inverse_inertia,
   const Matrix3 L = root.lower();
   const Eigen::Matrix3d angular = L.transpose() * inverse_inertia.topLeftCorner<3, 3>() * L;
   const Eigen::Matrix3d linear = inverse_inertia.bottomRightCorner<3, 3>();
-  return {largestEigenvalue(angular) * root.inverse(), largestEigenvalue(linear)};
+  return {symmetricEigen(angular).values[2] * root.inverse(), symmetricEigen(linear).values[2]};
 }
 
 namespace {
-
-Eigen::Vector3d eigenvalues(const Eigen::Matrix3d& symmetric) {
-  return symmetricEigen(symmetric).values;
-}
 
 void checkMass(const FluidBody& body, const MassProperties& mass) {
   if (!(mass.mass > 0) || !std::isfinite(mass.mass)) {
@@ -60,7 +48,7 @@ void checkMass(const FluidBody& body, const MassProperties& mass) {
              "finite (for a body that must not turn, use its angular factor)");
     }
   }
-  const double smallest = eigenvalues(mass.inertia)[0];
+  const double smallest = symmetricEigen<3>(mass.inertia).values[0];
   if (!(smallest > 0)) {
     reject(body, "smallest principal moment of inertia [kg m^2]", smallest, "positive");
   }
@@ -191,7 +179,7 @@ BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_fr
       (!resistance || (resistance->matrix.isDiagonal(0) && resistance->centre.isZero(0)));
   model.loads = std::move(loads);
   model.reference_length = std::sqrt(fluid_body.area);
-  model.largest_mass = eigenvalues(model.inertia.bottomRightCorner<3, 3>())[2];
+  model.largest_mass = symmetricEigen<3>(model.inertia.bottomRightCorner<3, 3>()).values[2];
   AMBIENT_ASSERT(model.largest_mass > 0 && model.reference_length >= 0);
   return model;
 }
@@ -238,21 +226,6 @@ double settlingIn(const BodyModel& model, const Growth& growth, double duration)
 
 Wrench gyroscopicWrench(const DualPair& motion) {
   return gyroscopicWrench(Momentum::fromVector(motion.momentum), Twist::fromVector(motion.twist));
-}
-
-WorldMomentum worldMomentum(const BodyModel& model, const RigidState& state) {
-  const Vector6 m = pairOfTwist(model, state.twist.vector()).momentum;
-  const Twist m_W = turned(state.orientation, Twist::fromVector(m));
-  return {m_W.linear, m_W.angular, state.position};
-}
-
-Twist twistOf(const BodyModel& model, const WorldMomentum& momentum, const Quaternion& orientation,
-              const Vector3& position) {
-  const Vector3 about_centre =
-      momentum.angular - (position - momentum.pivot).cross(momentum.linear);
-  const Matrix3 to_body = orientation.toRotationMatrix().transpose();
-  const Momentum m{to_body * about_centre, to_body * momentum.linear};
-  return Twist::fromVector(pairOfMomentum(model, m.vector()).twist);
 }
 
 namespace {

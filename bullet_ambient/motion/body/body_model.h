@@ -248,20 +248,6 @@ inline Wrench gyroscopicWrench(const Momentum& m, const Twist& x) {
 }
 Wrench gyroscopicWrench(const DualPair& x);
 
-/// Linear and angular momentum of body and fluid in world axes, angular about `pivot`. Both are
-/// constant without loads.
-struct WorldMomentum {
-  Vector3 linear;   ///< P [kg m/s]
-  Vector3 angular;  ///< L about pivot [kg m^2/s]
-  Vector3 pivot;    ///< [m]
-};
-WorldMomentum worldMomentum(const BodyModel& model, const RigidState& state);
-
-/// Twist in B at a pose (y, R) for a given world momentum:
-/// x = K^-1 (R^T (L - (y - pivot) x P), R^T P).
-Twist twistOf(const BodyModel& model, const WorldMomentum& momentum, const Quaternion& orientation,
-              const Vector3& position);
-
 /// Motion that the wake of a smooth body has taken up, w of docs/theory.md eq. (51b): in world
 /// axes, relative to the ambient flow.
 struct Wake {
