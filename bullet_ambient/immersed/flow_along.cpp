@@ -191,8 +191,6 @@ double lesserOf(double a, double b) {
   return std::abs(a) < std::abs(b) ? a : b;
 }
 
-Vector3 upOf(const Vector3& gravity) { return -gravity.normalized(); }
-
 }  // namespace
 
 bool isLargeAgainstWaves(const FluidRegion& region, double length) noexcept {
@@ -276,7 +274,7 @@ void StationSamples::addMeans(Medium RegionSample::*side, RegionSample& sample) 
 void StationSamples::fitSurface(const Vector3& gravity, RegionSample& sample) const noexcept {
   if (!surface_ || !hasSurface(sample, gravity)) return;
   constexpr double kUpright = 1e-6;  // part of the squares that tells no slope of an upright axis
-  const Vector3 up = upOf(gravity), felt = gravity - sample.below.acceleration;
+  const Vector3 up = -gravity.normalized(), felt = gravity - sample.below.acceleration;
   const Vector3 slope = up - felt / felt.dot(up);  // that of the plane across `felt`
   Matrix3 squares = Matrix3::Zero();
   Vector3 sum = Vector3::Zero();

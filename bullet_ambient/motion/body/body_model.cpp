@@ -38,51 +38,44 @@ IsotropicResponse makeIsotropicResponse(const Matrix6& inverse_inertia,
 
 namespace {
 
+void require(bool is_fine, const FluidBody& body, const char* quantity, double value,
+             const char* limit) {
+  if (!is_fine) reject(body, quantity, value, limit);
+}
+
 void checkMass(const FluidBody& body, const MassProperties& mass) {
-  if (!(mass.mass > 0) || !std::isfinite(mass.mass)) {
-    reject(body, "mass [kg]", mass.mass, "positive and finite");
-  }
-  for (const double entry : mass.inertia.reshaped()) {
-    if (!std::isfinite(entry)) {
-      reject(body, "moment of inertia [kg m^2]", entry,
-             "finite (for a body that must not turn, use its angular factor)");
-    }
-  }
+  require(mass.mass > 0 && std::isfinite(mass.mass), body, "mass [kg]", mass.mass,
+          "positive and finite");
+  for (const double entry : mass.inertia.reshaped())
+    require(std::isfinite(entry), body, "moment of inertia [kg m^2]", entry,
+            "finite (for a body that must not turn, use its angular factor)");
   const double smallest = symmetricEigen<3>(mass.inertia).values[0];
-  if (!(smallest > 0)) {
-    reject(body, "smallest principal moment of inertia [kg m^2]", smallest, "positive");
-  }
+  require(smallest > 0, body, "smallest principal moment of inertia [kg m^2]", smallest,
+          "positive");
 }
 
 void checkShape(const FluidBody& body) {
-  if (!(body.volume >= 0) || !std::isfinite(body.volume)) {
-    reject(body, "volume [m^3]", body.volume, "zero or positive and finite");
-  }
-  if (!(body.sphere_radius >= 0) || !std::isfinite(body.sphere_radius)) {
-    reject(body, "radius of the sphere [m]", body.sphere_radius, "zero or positive and finite");
-  }
-  if (!(body.area >= 0) || !std::isfinite(body.area)) {
-    reject(body, "wetted area [m^2]", body.area, "zero or positive and finite");
-  }
-  if (!body.centre_of_volume.allFinite()) {
-    reject(body, "distance of its centre of volume [m]", body.centre_of_volume.norm(), "finite");
-  }
+  const auto requireSize = [&body](const char* quantity, double value) {
+    require(value >= 0 && std::isfinite(value), body, quantity, value,
+            "zero or positive and finite");
+  };
+  requireSize("volume [m^3]", body.volume);
+  requireSize("radius of the sphere [m]", body.sphere_radius);
+  requireSize("wetted area [m^2]", body.area);
+  require(body.centre_of_volume.allFinite(), body, "distance of its centre of volume [m]",
+          body.centre_of_volume.norm(), "finite");
 }
 
 void checkFrame(const FluidBody& body, const FrameOffset& frame) {
-  if (!frame.translation.allFinite()) {
-    reject(body, "distance of its frame from the centre of mass [m]", frame.translation.norm(),
-           "finite");
-  }
+  require(frame.translation.allFinite(), body, "distance of its frame from the centre of mass [m]",
+          frame.translation.norm(), "finite");
   constexpr double kRounding = 1e-6;  // tolerance for a rotation stored in single precision
   const Matrix3 rest = frame.rotation * frame.rotation.transpose() - Matrix3::Identity();
   const double error = rest.cwiseAbs().maxCoeff();
-  if (!(error <= kRounding))
-    reject(body, "error of its frame's rotation matrix", error, "at most 1e-6");
-  if (!(frame.rotation.determinant() > 0)) {
-    reject(body, "determinant of its frame's rotation matrix", frame.rotation.determinant(),
-           "1: a rotation, not a mirror");
-  }
+  require(error <= kRounding, body, "error of its frame's rotation matrix", error, "at most 1e-6");
+  const double determinant = frame.rotation.determinant();
+  require(determinant > 0, body, "determinant of its frame's rotation matrix", determinant,
+          "1: a rotation, not a mirror");
 }
 
 // Limits the distance of centre of volume and centre of mass to 2^23 sizes, the precision of float.
@@ -90,9 +83,9 @@ void checkLever(const FluidBody& body, const BodyModel& model) {
   constexpr double kSizes = 8388608;
   const double size = std::max(std::sqrt(body.area), portable::cbrt(body.volume));
   const double lever = model.centre_of_volume.norm();
-  if (model.displaced_mass > 0 && !(lever <= kSizes * size))
-    reject(body, "distance of its centre of volume from the centre of mass [m]", lever,
-           "at most 2^23 times its size");
+  require(!(model.displaced_mass > 0) || lever <= kSizes * size, body,
+          "distance of its centre of volume from the centre of mass [m]", lever,
+          "at most 2^23 times its size");
 }
 
 // Symmetrises K and sets entries of the size of rounding to 0: the change of frame leaves an

@@ -247,7 +247,10 @@ void drift(FlightLanes& bodies, int at, const Mask& active) {
   const Pairs start{load6(bodies.twist_B, at), load6(bodies.momentum_B, at)};
   now.motion = select(moves, scaleWithin(after, energy) * now.motion, start);
   storeOrientation(bodies.orientation, at, now.orientation);
-  store(bodies.displacement_W, at, now.displacement_W);
+  // One by one: GCC 12 warns of a loop over them.
+  store(bodies.displacement_W[0] + at, now.displacement_W.x);
+  store(bodies.displacement_W[1] + at, now.displacement_W.y);
+  store(bodies.displacement_W[2] + at, now.displacement_W.z);
   store6(bodies.twist_B, at, now.motion.twist);
   store6(bodies.momentum_B, at, now.motion.momentum);
 }
