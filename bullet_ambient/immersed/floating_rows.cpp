@@ -83,15 +83,20 @@ Vector6 kickByWavesAndWind(AmbientBody& ambient, const RigidState& now, double d
 
 namespace {
 
+// Returns the mass of a body less that of the fluid above that it displaces [kg].
+double weighingMass(const SurfaceModel& model) {
+  return model.above.mass - model.above.displaced_mass;
+}
+
 /// Weight and buoyancy of a body, in B.
 struct HydrostaticLoad {
   Vector6 lift;          ///< of the water
   Vector6 wrench;        ///< of both
   double potential = 0;  ///< of both [J]
 
-  /// @param mass less that of the fluid above that the body displaces [kg]
-  HydrostaticLoad(const SurfacePlane& plane, const WetVolume& wet, double mass)
+  HydrostaticLoad(const SurfaceModel& model, const SurfacePlane& plane, const WetVolume& wet)
       : lift(hydrostaticWrench(wet, plane).vector()), wrench(lift) {
+    const double mass = weighingMass(model);
     wrench.tail<3>() -= mass * plane.gravity * plane.normal;
     potential = hydrostaticEnergy(wet, plane) - mass * plane.gravity * plane.height;
   }
@@ -124,21 +129,11 @@ BoundedTwist withinPotential(const BeforeRows& before, const HydrostaticLoad& af
   return {x - std::copysign(part, rate) * response, removed};
 }
 
-// Returns the mass of a body less that of the fluid above that it displaces [kg].
-double weighingMass(const SurfaceModel& model) {
-  return model.above.mass - model.above.displaced_mass;
-}
-
-HydrostaticLoad hydrostaticsAt(const SurfaceModel& model, const SurfacePlane& plane_B,
-                               const WetVolume& wet) {
-  return {plane_B, wet, weighingMass(model)};
-}
-
 // Returns weight and buoyancy of a body at its last flotation.
 HydrostaticLoad hydrostaticsOf(const AmbientBody& ambient) {
   const SurfaceModel& model = *ambient.surface();
   const Flotation& flotation = ambient.flotation();
-  return hydrostaticsAt(model, flotation.plane, wetVolume(model, flotation));
+  return {model, flotation.plane, wetVolume(model, flotation)};
 }
 
 // Returns the same with the energy at a plane in B that differs from that of the flotation by the
@@ -200,7 +195,7 @@ Vector6 StepModel::floatAt(const AmbientBody& ambient, const FrameOffset& pose,
   const SurfacePlane plane_B = seenFrom(movedPlane(ambient, time), pose);
   const WetVolume wet = wetVolumeAt(model, plane_B, waterOf(ambient));
   displace(model, wet, at_surface_->model);
-  return hydrostaticsAt(model, plane_B, wet).wrench;
+  return HydrostaticLoad(model, plane_B, wet).wrench;
 }
 
 double errorOfBuoyancy(const SurfaceModel& model, const SurfacePlane& plane, double speed,
@@ -240,7 +235,7 @@ double reachWithRows(AmbientBody& ambient, const RigidState& start, const Surrou
     const SurfacePlane plane_B =
         seenFrom(floating.plane_W, turned.toRotationMatrix(), start.position + t * velocity_W);
     const WetVolume wet = wetVolumeAt(model, plane_B, waterOf(ambient));
-    return hydrostaticsAt(model, plane_B, wet).potential - t * velocity_W.dot(pushed_W);
+    return HydrostaticLoad(model, plane_B, wet).potential - t * velocity_W.dot(pushed_W);
   };
   const Vector6& x = floating.twist_before_rows;
   const double kinetic = x.dot(ambient.flotation().inertia.full() * x) / 2;

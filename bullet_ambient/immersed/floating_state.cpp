@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/motion/surface/flotation_lanes.h"
+#include "bullet_ambient/motion/surface/flotation.h"
 
 namespace ambient {
 namespace {
@@ -95,16 +95,19 @@ Vector3 leanOf(const RegionSample& sample, const Vector3& gravity) noexcept {
   return (gravity - sample.below.acceleration).dot(gravity.normalized()) * sample.tilt;
 }
 
+namespace {
+
+// Returns the surface near a position as a plane in W: normal against gravity as the water feels
+// it, g - a, and as it is inclined, leanOf(); through the surface point straight above or below
+// the position. @pre hasSurface()
 SurfacePlane planeNear(const Vector3& position, const RegionSample& sample,
-                       const Vector3& gravity) noexcept {
+                       const Vector3& gravity) {
   Vector3 felt = gravity - sample.below.acceleration;
   if (!sample.tilt.isZero(0)) felt += leanOf(sample, gravity);
   const Vector3 normal = -felt.normalized();
   const Vector3 above = position - sample.height * gravity.normalized();
   return {normal, normal.dot(above), sample.below.density - sample.above.density, felt.norm()};
 }
-
-namespace {
 
 // Returns where a body is as it is filled: above and below a surface, holds are full of the fluid
 // there, else the body is at it.

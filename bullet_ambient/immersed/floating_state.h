@@ -17,12 +17,6 @@ bool hasSurface(const RegionSample& sample, const Vector3& gravity) noexcept;
 /// (84) [m/s^2]. @pre hasSurface()
 Vector3 leanOf(const RegionSample& sample, const Vector3& gravity) noexcept;
 
-/// Returns the surface near a position as a plane in W: normal against gravity as the water feels
-/// it, g - a, and as it is inclined, leanOf(); through the surface point straight above or below
-/// the position. @pre hasSurface()
-SurfacePlane planeNear(const Vector3& position, const RegionSample& sample,
-                       const Vector3& gravity) noexcept;
-
 /// A body near the surface of a region.
 struct NearSurface {
   SurfaceSide side = SurfaceSide::kAt;

@@ -159,10 +159,9 @@ void findSidePush(AmbientBody& ambient, const MotionView& now, double duration) 
   const SurfaceModel& model = *ambient.surface();
   const SurfacePlane& plane_F = flotationNow(ambient, now).immersion_F.plane;
   const Quaternion& q = now.state.orientation;
-  const auto inWorld = [&q](const Wrench& f) { return Wrench{q * f.torque, q * f.force}; };
   FlowAlongBody& flow = *ambient.flow_along;
-  flow.side_push_W = inWorld(model.fluid_frame.toB(computeSidePush(*model.hull, plane_F)));
-  if (duration > 0) flow.growth_W = inWorld(resistanceOfGrowth(ambient, now.state, duration));
+  flow.side_push_W = turned(q, model.fluid_frame.toB(computeSidePush(*model.hull, plane_F)));
+  if (duration > 0) flow.growth_W = turned(q, resistanceOfGrowth(ambient, now.state, duration));
 }
 
 namespace {
@@ -192,8 +191,6 @@ double lesserOf(double a, double b) {
   if (!(a * b > 0)) return 0;
   return std::abs(a) < std::abs(b) ? a : b;
 }
-
-Vector3 upOf(const Vector3& gravity) { return -gravity.normalized(); }
 
 }  // namespace
 
@@ -278,7 +275,7 @@ void StationSamples::addMeans(Medium RegionSample::*side, RegionSample& sample) 
 void StationSamples::fitSurface(const Vector3& gravity, RegionSample& sample) const noexcept {
   if (!surface_ || !hasSurface(sample, gravity)) return;
   constexpr double kUpright = 1e-6;  // part of the squares that tells no slope of an upright axis
-  const Vector3 up = upOf(gravity), felt = gravity - sample.below.acceleration;
+  const Vector3 up = -gravity.normalized(), felt = gravity - sample.below.acceleration;
   const Vector3 slope = up - felt / felt.dot(up);  // that of the plane across `felt`
   Matrix3 squares = Matrix3::Zero();
   Vector3 sum = Vector3::Zero();

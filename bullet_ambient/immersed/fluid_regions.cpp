@@ -192,23 +192,18 @@ std::vector<SurfaceKind> surfacesOf(const FluidRegion& region) {
 }
 
 template <class Kind>
-void discount(std::map<Kind, int>& counts, const Kind& kind) {
-  const auto found = counts.find(kind);
-  if (--found->second == 0) counts.erase(found);
-}
-
-template <class Kind>
-std::vector<Kind> missingOf(const std::map<Kind, int>& counts, const std::vector<Kind>& kinds) {
+std::vector<Kind> missingOf(const std::multiset<Kind>& known, const std::vector<Kind>& kinds) {
   std::vector<Kind> missing;
   for (const Kind& kind : kinds)
-    if (counts.count(kind) == 0) missing.push_back(kind);
+    if (known.find(kind) == known.end()) missing.push_back(kind);
   return missing;
 }
 
 template <class Kind>
-std::vector<Kind> allOf(const std::map<Kind, int>& counts, const std::vector<Kind>& further) {
+std::vector<Kind> allOf(const std::multiset<Kind>& known, const std::vector<Kind>& further) {
   std::set<Kind> all(further.begin(), further.end());
-  for (const auto& [kind, count] : counts) all.insert(kind);
+  for (auto kind = known.begin(); kind != known.end(); kind = known.upper_bound(*kind))
+    all.insert(*kind);
   return {all.begin(), all.end()};
 }
 
@@ -265,8 +260,8 @@ bool FluidRegions::remove(RegionId id) {
 }
 
 void FluidRegions::insert(Entry& entry) {
-  for (const FluidKind& kind : mediaOf(entry.region)) ++media_[kind];
-  for (const SurfaceKind& kind : surfacesOf(entry.region)) ++surfaces_[kind];
+  for (const FluidKind& kind : mediaOf(entry.region)) media_.insert(kind);
+  for (const SurfaceKind& kind : surfacesOf(entry.region)) surfaces_.insert(kind);
   index_.add(entry);
   const FluidRegion& region = entry.region;
   may_differ_ = may_differ_ || region.bounds || hasFlow(region) || region.layers ||
@@ -277,8 +272,8 @@ void FluidRegions::insert(Entry& entry) {
 
 void FluidRegions::withdraw(const Entry& entry) {
   index_.remove(entry);
-  for (const FluidKind& kind : mediaOf(entry.region)) discount(media_, kind);
-  for (const SurfaceKind& kind : surfacesOf(entry.region)) discount(surfaces_, kind);
+  for (const FluidKind& kind : mediaOf(entry.region)) media_.erase(media_.find(kind));
+  for (const SurfaceKind& kind : surfacesOf(entry.region)) surfaces_.erase(surfaces_.find(kind));
   has_changed = true;
 }
 

@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -196,9 +197,9 @@ class FluidRegions {
 
   std::map<RegionId, Entry> entries_;
   RegionIndex index_;
-  // Number of regions that have each fluid.
-  std::map<FluidKind, int> media_;
-  std::map<SurfaceKind, int> surfaces_;
+  // Fluids of all regions, each as often as regions have it.
+  std::multiset<FluidKind> media_;
+  std::multiset<SurfaceKind> surfaces_;
   int next_ = 0;
   bool may_differ_ = false, have_layers_ = false;
 };

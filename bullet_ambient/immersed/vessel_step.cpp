@@ -7,63 +7,37 @@
 
 #include "bullet_ambient/immersed/flow_along.h"
 #include "bullet_ambient/motion/surface/hold_exchange.h"
-#include "bullet_ambient/motion/surface/slopping.h"
 
 namespace ambient {
-namespace {
-
-/// A body in a region with waves.
-struct AtWaves {
-  const AmbientBody& ambient;
-  const FluidRegions& regions;
-  const FluidRegion& region;
-  Matrix3 R_WF;
-  Vector3 origin_W, up;
-};
-
-/// Whether an opening is so near to the plane that waves may reach it: their slope is below 1.
-bool isNearOpening(const AtWaves& at, const SurfacePlane& plane_F, const OpeningShape& opening) {
-  const double reach = at.ambient.surface()->radius;
-  const auto& edges = opening.edges();
-  return std::any_of(edges.begin(), edges.end(), [&](const OpeningShape::Edge& edge) {
-    return std::abs(plane_F.depth(edge.middle)) < reach;
-  });
-}
-
-/// Height of the surface over or under a place above the plane, along its normal [m]; 0 where the
-/// surface is not finite.
-double riseAt(const AtWaves& at, const Vector3& place_F) {
-  const SurfacePlane& plane_W = at.ambient.floating->plane_W;
-  const Vector3 place_W = at.origin_W + at.R_WF * place_F;
-  RegionCall call(at.regions);
-  const RegionSample sample =
-      sampleRegion(at.region, place_W, at.regions.time, at.ambient.def->medium);
-  if (!sample.is_finite) return 0;
-  return plane_W.normal.dot(place_W + sample.height * at.up) - plane_W.height;
-}
-
-}  // namespace
-
 void findRimWaves(AmbientBody& ambient, const MotionView& now,
                   const FluidRegions& regions) noexcept {
   VesselState& vessel = *ambient.vessel;
   if (!vessel.waves) return;
   const SurfaceModel& model = *ambient.surface();
-  const FrameOffset& frame = model.fluid_frame;
-  const Matrix3 R = now.rotation();
-  const AtWaves at{ambient,
-                   regions,
-                   *vessel.waves,
-                   R * frame.rotation,
-                   now.centre() + R * frame.translation,
-                   -now.gravity.normalized()};
+  const SurfacePlane& plane_W = ambient.floating->plane_W;
+  const Matrix3 R = now.rotation(), R_WF = R * model.fluid_frame.rotation;
+  const Vector3 origin_W = now.centre() + R * model.fluid_frame.translation;
+  const Vector3 up = -now.gravity.normalized();
+  // Waves may reach an opening that is near to the plane: their slope is below 1.
+  const auto isNear = [&](const OpeningShape::Edge& edge) {
+    return std::abs(vessel.plane_F.depth(edge.middle)) < model.radius;
+  };
+  // Height of the surface over the plane at a place, along its normal; 0 where it is not finite.
+  const auto riseAt = [&](const OpeningShape::Edge& edge) {
+    const Vector3 place_W = origin_W + R_WF * edge.middle;
+    RegionCall call(regions);
+    const RegionSample sample =
+        sampleRegion(*vessel.waves, place_W, regions.time, ambient.def->medium);
+    if (!sample.is_finite) return 0.0;
+    return plane_W.normal.dot(place_W + sample.height * up) - plane_W.height;
+  };
   forEachOpening(*model.holds, &vessel.changes,
                  [&](const HoldShapes::Opening& opening, std::size_t number) {
                    std::vector<double>& rises = vessel.rises[number];
+                   const auto& edges = opening.shape.edges();
                    std::fill(rises.begin(), rises.end(), 0.0);
-                   if (opening.to >= 0 || !isNearOpening(at, vessel.plane_F, opening.shape)) return;
-                   for (std::size_t i = 0; i < rises.size(); ++i)
-                     rises[i] = riseAt(at, opening.shape.edges()[i].middle);
+                   if (opening.to >= 0 || std::none_of(edges.begin(), edges.end(), isNear)) return;
+                   for (std::size_t i = 0; i < rises.size(); ++i) rises[i] = riseAt(edges[i]);
                  });
 }
 
@@ -266,12 +240,12 @@ Vector6 sloshForRows(AmbientBody& ambient, const RigidState& now, double duratio
   const WaterAt at = waterAt(ambient, now.orientation.toRotationMatrix(), now.position);
   sloshing.moved = sloshing.now;
   joinVessel(at.sloshing(), x, sloshing.moved.data());
-  const Vector6 end =
+  const Sloshed end =
       exchangeSloshing(at.sloshing(), ambient.flotation().inverse,
                        ambient.def->holds.sloshing_damping, duration, x, sloshing.moved.data());
   vessel.before_rows = WaterLeft(at, sloshing.moved.data(),
                                  energyOfSloshing(at.sloshing(), sloshing.moved.data()).sum());
-  return end;
+  return end.twist;
 }
 
 Vector6 arriveWithWater(AmbientBody& ambient, const Matrix3& to_world, const Vector3& position_W,

@@ -58,52 +58,6 @@ const char* sentenceOf(Warning warning) {
   return "";
 }
 
-std::string tooLong(const AttachDef& def) {
-  const std::string sentence =
-      "bullet_ambient: the world's step is too long for the motion of a " + nameOf(def) +
-      ": errors of its velocity add up to more than 5 per cent; take shorter steps, or allow it "
-      "more substeps, say "
-      "flight.max_substeps = 256";
-  const bool may_chatter = def.flow.law == PressureLaw::kPublished && !def.flow.own_law;
-  const std::string way_out =
-      may_chatter ? "; if it has flat sides, the default law, PressureLaw::kForm, needs neither"
-                  : "";
-  return sentence + way_out + "; further bodies of which this is true are only counted";
-}
-
-std::string shortPeriod(const AttachDef& def, double period, double step) {
-  return "bullet_ambient: a " + nameOf(def) + " floats with a period of " + std::to_string(period) +
-         " s and is moved by joints or " + "contacts in steps of " + std::to_string(step) +
-         " s: in less than four steps a period it swings too slowly; take shorter steps";
-}
-
-std::string fastJoint(const AttachDef& def, double turns, double step) {
-  char numbers[80];
-  std::snprintf(numbers, sizeof numbers, "%.3g turns in a step of %.3g s", turns, step);
-  return "bullet_ambient: the world's step is too long for the motion of a " + nameOf(def) +
-         ": its joint turns it by " + numbers +
-         "; from half a turn on it meets the flow from few sides; take shorter steps; further "
-         "bodies of which this is true are only counted";
-}
-
-std::string openJoint(const AttachDef& def, const AttachDef* other) {
-  const std::string partner = !other ? "one without fluid"
-                              : other->name.empty()
-                                  ? "one with fluid body '" + other->fluid_body->name + "'"
-                                  : nameOf(*other);
-  return "bullet_ambient: a joint of a " + nameOf(def) + " and " + partner +
-         " comes apart: the solver does not hold it; take more iterations, " +
-         "btContactSolverInfo::m_numIterations, shorter steps, or a btMultiBody";
-}
-
-std::string sunk(const AttachDef& def, std::size_t hold) {
-  const Hold& filled = def.fluid_body->holds[hold];
-  char volume[32];
-  std::snprintf(volume, sizeof volume, "%.4g m^3", filled.volume);
-  return "bullet_ambient: a " + nameOf(def) + " sinks: its hold '" + filled.name + "' of " +
-         volume + " is full of water";
-}
-
 }  // namespace
 
 std::string nameOf(const AttachDef& def) {
@@ -111,14 +65,11 @@ std::string nameOf(const AttachDef& def) {
   return "body with fluid body '" + def.fluid_body->name + "'";
 }
 
-bool Warnings::wasReported(Warning warning) const noexcept {
-  return was_reported_[static_cast<int>(warning)].load(std::memory_order_relaxed);
-}
-
 void Warnings::warnOnce(Warning warning) noexcept { warnOnce(warning, sentenceOf(warning)); }
 
 void Warnings::warnOnce(Warning warning, const char* sentence) noexcept {
-  if (wasReported(warning) || was_reported_[static_cast<int>(warning)].exchange(true)) return;
+  std::atomic<bool>& was_reported = was_reported_[static_cast<int>(warning)];
+  if (was_reported.load(std::memory_order_relaxed) || was_reported.exchange(true)) return;
   try {
     report(sentence);
   } catch (...) {
@@ -128,7 +79,7 @@ void Warnings::warnOnce(Warning warning, const char* sentence) noexcept {
 
 template <class MakeSentence>
 void Warnings::warnByMaking(Warning warning, const MakeSentence& make) noexcept {
-  if (wasReported(warning)) return;
+  if (was_reported_[static_cast<int>(warning)].load(std::memory_order_relaxed)) return;
   try {
     warnOnce(warning, make().c_str());
   } catch (...) {
@@ -137,27 +88,60 @@ void Warnings::warnByMaking(Warning warning, const MakeSentence& make) noexcept 
 }
 
 void Warnings::warnOfShortPeriod(const AttachDef& def, double frequency, double step) noexcept {
-  warnByMaking(Warning::kShortPeriod, [&] { return shortPeriod(def, 2 * kPi / frequency, step); });
+  warnByMaking(Warning::kShortPeriod, [&] {
+    return "bullet_ambient: a " + nameOf(def) + " floats with a period of " +
+           std::to_string(2 * kPi / frequency) + " s and is moved by joints or " +
+           "contacts in steps of " + std::to_string(step) +
+           " s: in less than four steps a period it swings too slowly; take shorter steps";
+  });
 }
 
 void Warnings::warnOfOpenJoint(const AttachDef& def, const AttachDef* other) noexcept {
-  warnByMaking(Warning::kOpenJoint, [&] { return openJoint(def, other); });
+  warnByMaking(Warning::kOpenJoint, [&] {
+    const std::string partner = !other ? "one without fluid"
+                                : other->name.empty()
+                                    ? "one with fluid body '" + other->fluid_body->name + "'"
+                                    : nameOf(*other);
+    return "bullet_ambient: a joint of a " + nameOf(def) + " and " + partner +
+           " comes apart: the solver does not hold it; take more iterations, " +
+           "btContactSolverInfo::m_numIterations, shorter steps, or a btMultiBody";
+  });
 }
 
 void Warnings::warnOfFastJoint(const AttachDef& def, double turns, double step) noexcept {
-  warnByMaking(Warning::kFastJoint, [&] { return fastJoint(def, turns, step); });
+  warnByMaking(Warning::kFastJoint, [&] {
+    char numbers[80];
+    std::snprintf(numbers, sizeof numbers, "%.3g turns in a step of %.3g s", turns, step);
+    return "bullet_ambient: the world's step is too long for the motion of a " + nameOf(def) +
+           ": its joint turns it by " + numbers +
+           "; from half a turn on it meets the flow from few sides; take shorter steps; further "
+           "bodies of which this is true are only counted";
+  });
 }
 
 void Warnings::warnOfSunkVessel(const AttachDef& def, std::size_t hold) noexcept {
   try {
-    report(sunk(def, hold));
+    const Hold& filled = def.fluid_body->holds[hold];
+    char volume[32];
+    std::snprintf(volume, sizeof volume, "%.4g m^3", filled.volume);
+    report("bullet_ambient: a " + nameOf(def) + " sinks: its hold '" + filled.name + "' of " +
+           volume + " is full of water");
   } catch (...) {
     // A failure to make the sentence must not unwind through the step.
   }
 }
 
 void Warnings::warnOfLongSteps(const AttachDef& def) noexcept {
-  warnByMaking(Warning::kTooLong, [&] { return tooLong(def); });
+  warnByMaking(Warning::kTooLong, [&] {
+    const bool may_chatter = def.flow.law == PressureLaw::kPublished && !def.flow.own_law;
+    return "bullet_ambient: the world's step is too long for the motion of a " + nameOf(def) +
+           ": errors of its velocity add up to more than 5 per cent; take shorter steps, or allow "
+           "it more substeps, say flight.max_substeps = 256" +
+           (may_chatter
+                ? "; if it has flat sides, the default law, PressureLaw::kForm, needs neither"
+                : "") +
+           "; further bodies of which this is true are only counted";
+  });
 }
 
 void Warnings::report(const std::string& sentence) noexcept {

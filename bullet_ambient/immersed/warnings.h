@@ -69,7 +69,6 @@ class Warnings {
   void setReport(std::function<void(const std::string&)> report) { report_ = std::move(report); }
 
  private:
-  bool wasReported(Warning warning) const noexcept;
   /// Reports what make() returns, which is asked for only if the warning is new.
   template <class MakeSentence>
   void warnByMaking(Warning warning, const MakeSentence& make) noexcept;

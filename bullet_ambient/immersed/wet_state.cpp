@@ -79,11 +79,9 @@ WetState wholly(const AmbientBody& ambient, const RigidState& pose, bool is_wet)
   return state;
 }
 
-WetState cutBy(const SurfacePlane& plane_W, const SurfaceModel& model, const AmbientBody& ambient,
+WetState cutBy(const SurfacePlane& plane_B, const SurfaceModel& model, const AmbientBody& ambient,
                const RigidState& pose) {
   const FluidBody& shape = *model.shape;
-  const SurfacePlane plane_B =
-      seenFrom(plane_W, pose.orientation.toRotationMatrix(), pose.position);
   const Immersion immersion = immersionOf(model, plane_B);
   if (immersion.isDry() || (plane_B.sides_F && !(immersion.wet.volume > 0)))
     return wholly(ambient, pose, false);
@@ -122,21 +120,18 @@ WetState inRegion(const AmbientBody& ambient, const MotionView& now, const Regio
       hold || around.is_alone ? PoolSides{} : findSides(ambient, now, regions, entry, 0);
   RegionCall call(regions);
   RegionSample sample = sampleRegion(entry.region, position, regions.time, ambient.def->medium);
-  const int media = ambient.models->findSurface(SurfaceKind(entry.region));
-  const Vector3& gravity = now.gravity;
   if (hold) {
     replaceSurfaceByHold(*hold, ambient, now, sample);
   } else if (needsStations(ambient, around)) {
     const StationSamples stations(ambient, now, regions, around, sample);
     stations.addMeans(&RegionSample::below, sample);
-    stations.fitSurface(gravity, sample);
+    stations.fitSurface(now.gravity, sample);
   }
-  if (media < 0 || !hasSurface(sample, gravity))
-    return wholly(ambient, now.state, !sample.isAbove());
-  SurfacePlane plane_W = planeNear(position, sample, gravity);
-  if (sides.count > 0) plane_W.sides_F = &sides;
-  return cutBy(plane_W, ambient.models->surfaces[static_cast<std::size_t>(media)].model, ambient,
-               now.state);
+  NearSurface near = nearSurface(ambient, now, SurfaceKind(entry.region), sample, position, 0);
+  if (near.media < 0) return wholly(ambient, now.state, near.side != SurfaceSide::kAbove);
+  if (sides.count > 0) near.plane_B.sides_F = &sides;
+  return cutBy(near.plane_B, ambient.models->surfaces[static_cast<std::size_t>(near.media)].model,
+               ambient, now.state);
 }
 
 /// Height above zero of the lowest corner of what is open of a hold; infinite: nothing is.
@@ -180,8 +175,7 @@ HoldWater waterIn(const VesselState& vessel, std::size_t i, const SurfacePlane& 
   const Hold& hold = vessel.shape->holds[i];
   const HoldState& state = vessel.holds[i];
   const HoldShape shape(hold);
-  const HoldFill fill =
-      fillHold(shape, up_F, state.filled(), std::numeric_limits<double>::quiet_NaN());
+  const HoldFill fill = fillHold(shape, up_F, state.filled());
   const WetVolume& wet = fill.water;
   HoldWater water;
   water.volume = state.volume;

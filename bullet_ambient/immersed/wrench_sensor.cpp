@@ -4,7 +4,6 @@
 #include "bullet_ambient/immersed/floating_state.h"
 #include "bullet_ambient/immersed/vessel_step.h"
 #include "bullet_ambient/motion/surface/flotation.h"
-#include "bullet_ambient/motion/surface/flotation_lanes.h"
 #include "bullet_ambient/spatial/rotation.h"
 
 namespace ambient {
@@ -51,8 +50,7 @@ void readRows(AmbientBody& ambient, const Twist& change_W,
   const Twist change_B = turned(q.conjugate(), change_W);
   if (ambient.surface()) sensor.model = *StepModel(ambient, time_step);
   const Matrix6& inertia = settled_inertia ? *settled_inertia : sensor.model.inertia;
-  const Wrench impulse_B = Wrench::fromVector(inertia * change_B.vector());
-  sensor.impulse_W = {q * impulse_B.torque, q * impulse_B.force};
+  sensor.impulse_W = turned(q, Wrench::fromVector(inertia * change_B.vector()));
 }
 
 void finishBodyReading(AmbientBody& ambient, Outcome kind, const MotionView& now,
@@ -74,10 +72,6 @@ void finishBodyReading(AmbientBody& ambient, Outcome kind, const MotionView& now
 }
 
 namespace {
-
-Wrench turned(const Matrix3& rotation, const Wrench& f) {
-  return {rotation * f.torque, rotation * f.force};
-}
 
 Wrench without(Wrench all, const Wrench& part) { return all -= part; }
 

@@ -12,6 +12,11 @@ Quaternion rotationFromVector(const Vector3& r);
 /// Turns both vectors of a twist by a unit quaternion. Costs little more than one product q * v,
 /// and has the bits of two.
 Twist turned(const Quaternion& q, const Twist& x);
+/// Rotates a wrench by a quaternion or a matrix.
+template <class Rotation>
+Wrench turned(const Rotation& R, const Wrench& f) {
+  return {R * f.torque, R * f.force};
+}
 
 /// Rotation vector of a unit quaternion [rad], length <= pi; accurate for tiny rotations, too.
 Vector3 rotationVector(const Quaternion& q);

@@ -190,8 +190,9 @@ MomentumPhase step(const MomentumEquations& equations, const MomentumPhase& s, d
 MomentumEquations::MomentumEquations(const FlightTask& task, const RigidState& start,
                                      FlightCount& count)
     : task_(task), pivot_(start.position), count_(count) {
-  const WorldMomentum momentum = worldMomentum(task.model, start);
-  start_ = {start.orientation.coeffs(), start.position, momentum.linear, momentum.angular};
+  const Vector6 momentum = pairOfTwist(task.model, start.twist.vector()).momentum;
+  const Twist momentum_W = turned(start.orientation, Twist::fromVector(momentum));
+  start_ = {start.orientation.coeffs(), start.position, momentum_W.linear, momentum_W.angular};
 }
 
 MomentumPhase MomentumEquations::rate(const MomentumPhase& s) const {
@@ -214,8 +215,11 @@ RigidState MomentumEquations::stateOf(const MomentumPhase& s) const {
   RigidState state;
   state.orientation = unit(s.orientation);
   state.position = s.position;
-  state.twist =
-      twistOf(task_.model, {s.linear, s.angular, pivot_}, state.orientation, state.position);
+  // x = K^-1 (R^T (L - (y - pivot) x P), R^T P)
+  const Vector3 about_centre = s.angular - (s.position - pivot_).cross(s.linear);
+  const Matrix3 to_body = state.orientation.toRotationMatrix().transpose();
+  const Momentum m{to_body * about_centre, to_body * s.linear};
+  state.twist = Twist::fromVector(pairOfMomentum(task_.model, m.vector()).twist);
   return state;
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bullet_ambient/force/loads/surface_loads.h"
-#include "bullet_ambient/motion/surface/flotation_lanes.h"
+#include "bullet_ambient/motion/surface/flotation.h"
 #include "bullet_ambient/motion/surface/surface_flight.h"
 #include "tests/support/bodies/body_models.h"
 #include "tests/support/bodies/part_bodies.h"
@@ -64,11 +64,8 @@ class FloatingRun {
     if (sloshing.now.size() != water.size()) sloshing.resize(water.size());
     Flotation flotation = this->flotation();
     FlightResult body{state, memory, {}};
-    SurfaceFlight flight{
-        {model_, kStill, surroundings_, velocity_above, settings, duration, inside()},
-        body,
-        waves,
-        flotation};
+    SurfaceFlight flight{model_,   kStill,   surroundings_, velocity_above, settings,
+                         duration, inside(), body,          waves,          flotation};
     SurfaceFlight* const flights[] = {&flight};
     flyAtSurface(flights, 1);
     state = body.state;

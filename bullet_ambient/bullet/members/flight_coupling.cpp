@@ -169,11 +169,9 @@ SurfaceFlight surfaceFlight(AmbientBody& ambient, Flight& flight) {
   AMBIENT_ASSERT(model);
   if (ambient.vessel)
     start.twist = Twist::fromVector(start.twist.vector() + ambient.vessel->change_B);
-  return {{*model, floating.plane_W, task.surroundings, floating.velocity_above, task.settings,
-           task.duration, waterAtFlotation(ambient)},
-          flight.body,
-          floating.waves,
-          ambient.floating->flotation};
+  return {*model,         floating.plane_W,  task.surroundings,         floating.velocity_above,
+          task.settings,  task.duration,     waterAtFlotation(ambient), flight.body,
+          floating.waves, floating.flotation};
 }
 
 void flyNearSurface(AmbientBody* const* bodies, Flight* const* flights, int count) {

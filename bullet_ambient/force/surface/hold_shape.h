@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "bullet_ambient/base/pi.h"
@@ -51,7 +52,7 @@ struct HoldFill {
 /// @param volume [m^3]; up to 1e-12 of the hold it is empty, from 1 - 1e-12 on full
 /// @param guess height to begin with [m]; NaN: HoldShape::levelNear()
 HoldFill fillHold(const HoldShape& shape, const Vector3& normal, double volume,
-                  double guess) noexcept;
+                  double guess = std::numeric_limits<double>::quiet_NaN()) noexcept;
 
 /// Takes what stands in a hold off the wet part of a closed vessel, docs/theory.md eq. (135).
 /// Volume, moment and depth integral become those of both; the waterplane remains that outside.

@@ -17,14 +17,6 @@
 
 namespace ambient {
 
-namespace {
-
-double largestEigenvalue(const Eigen::Matrix3d& symmetric) {
-  return symmetricEigen(symmetric).values[2];
-}
-
-}  // namespace
-
 Vector6 IsotropicResponse::beyond(const Vector6& momentum, const Vector6& change) const {
   constexpr double kRounding = 1e-12;
   const Vector6 even = *this * momentum;
@@ -41,60 +33,49 @@ IsotropicResponse makeIsotropicResponse(const Matrix6& inverse_inertia,
   const Matrix3 L = root.lower();
   const Eigen::Matrix3d angular = L.transpose() * inverse_inertia.topLeftCorner<3, 3>() * L;
   const Eigen::Matrix3d linear = inverse_inertia.bottomRightCorner<3, 3>();
-  return {largestEigenvalue(angular) * root.inverse(), largestEigenvalue(linear)};
+  return {symmetricEigen(angular).values[2] * root.inverse(), symmetricEigen(linear).values[2]};
 }
 
 namespace {
 
-Eigen::Vector3d eigenvalues(const Eigen::Matrix3d& symmetric) {
-  return symmetricEigen(symmetric).values;
+void require(bool is_fine, const FluidBody& body, const char* quantity, double value,
+             const char* limit) {
+  if (!is_fine) reject(body, quantity, value, limit);
 }
 
 void checkMass(const FluidBody& body, const MassProperties& mass) {
-  if (!(mass.mass > 0) || !std::isfinite(mass.mass)) {
-    reject(body, "mass [kg]", mass.mass, "positive and finite");
-  }
-  for (const double entry : mass.inertia.reshaped()) {
-    if (!std::isfinite(entry)) {
-      reject(body, "moment of inertia [kg m^2]", entry,
-             "finite (for a body that must not turn, use its angular factor)");
-    }
-  }
-  const double smallest = eigenvalues(mass.inertia)[0];
-  if (!(smallest > 0)) {
-    reject(body, "smallest principal moment of inertia [kg m^2]", smallest, "positive");
-  }
+  require(mass.mass > 0 && std::isfinite(mass.mass), body, "mass [kg]", mass.mass,
+          "positive and finite");
+  for (const double entry : mass.inertia.reshaped())
+    require(std::isfinite(entry), body, "moment of inertia [kg m^2]", entry,
+            "finite (for a body that must not turn, use its angular factor)");
+  const double smallest = symmetricEigen<3>(mass.inertia).values[0];
+  require(smallest > 0, body, "smallest principal moment of inertia [kg m^2]", smallest,
+          "positive");
 }
 
 void checkShape(const FluidBody& body) {
-  if (!(body.volume >= 0) || !std::isfinite(body.volume)) {
-    reject(body, "volume [m^3]", body.volume, "zero or positive and finite");
-  }
-  if (!(body.sphere_radius >= 0) || !std::isfinite(body.sphere_radius)) {
-    reject(body, "radius of the sphere [m]", body.sphere_radius, "zero or positive and finite");
-  }
-  if (!(body.area >= 0) || !std::isfinite(body.area)) {
-    reject(body, "wetted area [m^2]", body.area, "zero or positive and finite");
-  }
-  if (!body.centre_of_volume.allFinite()) {
-    reject(body, "distance of its centre of volume [m]", body.centre_of_volume.norm(), "finite");
-  }
+  const auto requireSize = [&body](const char* quantity, double value) {
+    require(value >= 0 && std::isfinite(value), body, quantity, value,
+            "zero or positive and finite");
+  };
+  requireSize("volume [m^3]", body.volume);
+  requireSize("radius of the sphere [m]", body.sphere_radius);
+  requireSize("wetted area [m^2]", body.area);
+  require(body.centre_of_volume.allFinite(), body, "distance of its centre of volume [m]",
+          body.centre_of_volume.norm(), "finite");
 }
 
 void checkFrame(const FluidBody& body, const FrameOffset& frame) {
-  if (!frame.translation.allFinite()) {
-    reject(body, "distance of its frame from the centre of mass [m]", frame.translation.norm(),
-           "finite");
-  }
+  require(frame.translation.allFinite(), body, "distance of its frame from the centre of mass [m]",
+          frame.translation.norm(), "finite");
   constexpr double kRounding = 1e-6;  // tolerance for a rotation stored in single precision
   const Matrix3 rest = frame.rotation * frame.rotation.transpose() - Matrix3::Identity();
   const double error = rest.cwiseAbs().maxCoeff();
-  if (!(error <= kRounding))
-    reject(body, "error of its frame's rotation matrix", error, "at most 1e-6");
-  if (!(frame.rotation.determinant() > 0)) {
-    reject(body, "determinant of its frame's rotation matrix", frame.rotation.determinant(),
-           "1: a rotation, not a mirror");
-  }
+  require(error <= kRounding, body, "error of its frame's rotation matrix", error, "at most 1e-6");
+  const double determinant = frame.rotation.determinant();
+  require(determinant > 0, body, "determinant of its frame's rotation matrix", determinant,
+          "1: a rotation, not a mirror");
 }
 
 // Limits the distance of centre of volume and centre of mass to 2^23 sizes, the precision of float.
@@ -102,9 +83,9 @@ void checkLever(const FluidBody& body, const BodyModel& model) {
   constexpr double kSizes = 8388608;
   const double size = std::max(std::sqrt(body.area), portable::cbrt(body.volume));
   const double lever = model.centre_of_volume.norm();
-  if (model.displaced_mass > 0 && !(lever <= kSizes * size))
-    reject(body, "distance of its centre of volume from the centre of mass [m]", lever,
-           "at most 2^23 times its size");
+  require(!(model.displaced_mass > 0) || lever <= kSizes * size, body,
+          "distance of its centre of volume from the centre of mass [m]", lever,
+          "at most 2^23 times its size");
 }
 
 // Symmetrises K and sets entries of the size of rounding to 0: the change of frame leaves an
@@ -191,7 +172,7 @@ BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_fr
       (!resistance || (resistance->matrix.isDiagonal(0) && resistance->centre.isZero(0)));
   model.loads = std::move(loads);
   model.reference_length = std::sqrt(fluid_body.area);
-  model.largest_mass = eigenvalues(model.inertia.bottomRightCorner<3, 3>())[2];
+  model.largest_mass = symmetricEigen<3>(model.inertia.bottomRightCorner<3, 3>()).values[2];
   AMBIENT_ASSERT(model.largest_mass > 0 && model.reference_length >= 0);
   return model;
 }
@@ -238,21 +219,6 @@ double settlingIn(const BodyModel& model, const Growth& growth, double duration)
 
 Wrench gyroscopicWrench(const DualPair& motion) {
   return gyroscopicWrench(Momentum::fromVector(motion.momentum), Twist::fromVector(motion.twist));
-}
-
-WorldMomentum worldMomentum(const BodyModel& model, const RigidState& state) {
-  const Vector6 m = pairOfTwist(model, state.twist.vector()).momentum;
-  const Twist m_W = turned(state.orientation, Twist::fromVector(m));
-  return {m_W.linear, m_W.angular, state.position};
-}
-
-Twist twistOf(const BodyModel& model, const WorldMomentum& momentum, const Quaternion& orientation,
-              const Vector3& position) {
-  const Vector3 about_centre =
-      momentum.angular - (position - momentum.pivot).cross(momentum.linear);
-  const Matrix3 to_body = orientation.toRotationMatrix().transpose();
-  const Momentum m{to_body * about_centre, to_body * momentum.linear};
-  return Twist::fromVector(pairOfMomentum(model, m.vector()).twist);
 }
 
 namespace {

@@ -8,11 +8,41 @@
 #include "bullet_ambient/force/law/surface_load.h"
 #include "bullet_ambient/force/medium/medium.h"
 #include "bullet_ambient/force/medium/surface_plane.h"
+#include "bullet_ambient/motion/lanes/flight_lanes.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
 #include "bullet_ambient/spatial/vector_types.h"
 
 namespace ambient {
+
+/// Symmetric 6x6 matrix in the memory of its upper triangle.
+struct SymmetricMatrix : SymmetricOf<double> {
+  SymmetricMatrix() = default;
+  explicit SymmetricMatrix(const SymmetricOf<double>& m) : SymmetricOf<double>(m) {}
+  /// Takes the upper triangle.
+  explicit SymmetricMatrix(const Matrix6& m) {
+    for (int row = 0; row < 6; ++row)
+      for (int column = row; column < 6; ++column)
+        entries[symmetricEntry(row, column)] = m(row, column);
+  }
+
+  Matrix6 full() const {
+    Matrix6 m;
+    for (int row = 0; row < 6; ++row)
+      for (int column = row; column < 6; ++column)
+        m(row, column) = m(column, row) = entries[symmetricEntry(row, column)];
+    return m;
+  }
+
+  /// The part that acts on velocities of translation.
+  Matrix3 bottomRight() const {
+    Matrix3 m;
+    for (int row = 0; row < 3; ++row)
+      for (int column = row; column < 3; ++column)
+        m(row, column) = m(column, row) = entries[symmetricEntry(row + 3, column + 3)];
+    return m;
+  }
+};
 
 /// Vector x and its image K x under the inertia: a twist and its momentum, or an acceleration and
 /// its wrench; in B. Inner products a.K b of pairs need no multiplication by K.
@@ -217,20 +247,6 @@ inline Wrench gyroscopicWrench(const Momentum& m, const Twist& x) {
   return {m.angular.cross(x.angular) + m.linear.cross(x.linear), m.linear.cross(x.angular)};
 }
 Wrench gyroscopicWrench(const DualPair& x);
-
-/// Linear and angular momentum of body and fluid in world axes, angular about `pivot`. Both are
-/// constant without loads.
-struct WorldMomentum {
-  Vector3 linear;   ///< P [kg m/s]
-  Vector3 angular;  ///< L about pivot [kg m^2/s]
-  Vector3 pivot;    ///< [m]
-};
-WorldMomentum worldMomentum(const BodyModel& model, const RigidState& state);
-
-/// Twist in B at a pose (y, R) for a given world momentum:
-/// x = K^-1 (R^T (L - (y - pivot) x P), R^T P).
-Twist twistOf(const BodyModel& model, const WorldMomentum& momentum, const Quaternion& orientation,
-              const Vector3& position);
 
 /// Motion that the wake of a smooth body has taken up, w of docs/theory.md eq. (51b): in world
 /// axes, relative to the ambient flow.

@@ -15,12 +15,7 @@ inline SpatialsOf<double> plain(const Vector6& a) {
 }
 inline PairsOf<double> plain(const DualPair& a) { return {plain(a.twist), plain(a.momentum)}; }
 
-inline SymmetricOf<double> plain(const Matrix6& m) {
-  SymmetricOf<double> a;
-  for (int i = 0; i < 6; ++i)
-    for (int j = i; j < 6; ++j) a.entries[symmetricEntry(i, j)] = m(i, j);
-  return a;
-}
+inline SymmetricOf<double> plain(const Matrix6& m) { return SymmetricMatrix(m); }
 
 inline Vector3 asEigen(const VectorsOf<double>& a) { return {a.x, a.y, a.z}; }
 inline Vector6 asEigen(const SpatialsOf<double>& a) {

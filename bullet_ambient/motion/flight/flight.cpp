@@ -35,6 +35,21 @@ double velocityScale(const FlightTask& task) {
   return std::sqrt(model.largest_mass * pull * model.reference_length);
 }
 
+int substepsFor(double duration, double substep, int most) noexcept {
+  if (!(substep > 0)) return 1;
+  const double wanted = std::ceil(duration / substep * (1 - 1e-9));
+  return wanted < most ? std::max(1, static_cast<int>(wanted)) : most;
+}
+
+void enterFrame(const Surroundings& s, RigidState& state) noexcept {
+  state.twist.linear -= state.orientation.conjugate() * s.ambient_velocity;
+}
+void leaveFrame(const Surroundings& s, double t, RigidState& state) noexcept {
+  state.position += t * s.ambient_velocity + t * t / 2 * s.ambient_acceleration;
+  state.twist.linear +=
+      state.orientation.conjugate() * (s.ambient_velocity + t * s.ambient_acceleration);
+}
+
 namespace {
 
 static_assert(kFlightsTogether == kFlightLanes);
@@ -47,12 +62,6 @@ constexpr double kAcceptance = 2;         // error over tolerance above which a 
 int maxSubsteps(const FlightTask& task) {
   if (task.settings.max_substeps > 0) return task.settings.max_substeps;
   return task.model.mass < task.model.largest_mass / 2 ? 64 : 16;
-}
-
-int substepsFor(double duration, double substep, int most) {
-  if (!(substep > 0)) return 1;
-  const double wanted = std::ceil(duration / substep * (1 - 1e-9));
-  return wanted < most ? std::max(1, static_cast<int>(wanted)) : most;
 }
 
 // Progress of one body through a step.
@@ -229,16 +238,6 @@ class Leapfrog {
 void flyLeapfrog(Flight* const* flights, int count) noexcept { Leapfrog(flights, count).fly(); }
 
 namespace {
-
-// Conversions to the frame that moves with the ambient flow, and after time t [s] back to W.
-void enterFrame(const Surroundings& s, RigidState& state) {
-  state.twist.linear -= state.orientation.conjugate() * s.ambient_velocity;
-}
-void leaveFrame(const Surroundings& s, double t, RigidState& state) {
-  state.position += t * s.ambient_velocity + t * t / 2 * s.ambient_acceleration;
-  state.twist.linear +=
-      state.orientation.conjugate() * (s.ambient_velocity + t * s.ambient_acceleration);
-}
 
 bool isFluidAtRest(const Surroundings& s) {
   return s.ambient_velocity.cwiseAbs().sum() + s.ambient_acceleration.cwiseAbs().sum() == 0;

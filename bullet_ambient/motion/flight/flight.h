@@ -94,6 +94,13 @@ struct FlightTask {
 /// motion.
 double velocityScale(const FlightTask& task);
 
+/// Number of substeps of at most a length [s]; 0: it is not known, one.
+int substepsFor(double duration, double substep, int most) noexcept;
+
+/// Conversions to the frame that moves with the ambient flow, and after a time t [s] back to W.
+void enterFrame(const Surroundings& s, RigidState& state) noexcept;
+void leaveFrame(const Surroundings& s, double t, RigidState& state) noexcept;
+
 /// Computes the potential energy of docs/theory.md eq. (64) without T: `of_water`, energy of
 /// surface and waves, minus the work of constant forces on the way [J].
 /// `pose`: B in axes of W, and the displacement of the centre of mass since the motion began, in a

@@ -207,7 +207,7 @@ void drift(FlightLanes& bodies, int at, const Mask& active) {
   const Lanes zero = Lanes{};
   const Matrices inverse(bodies.inverse_inertia, at);
   const Lanes precision = load(bodies.precision + at);
-  Motions now{{load(bodies.orientation, at), load(bodies.orientation[3] + at)},
+  Motions now{loadOrientation(bodies.orientation, at),
               load(bodies.displacement_W, at),
               {load6(bodies.twist_B, at), load6(bodies.momentum_B, at)}};
   const Lanes energy = inner(now.motion, now.motion);
@@ -246,8 +246,8 @@ void drift(FlightLanes& bodies, int at, const Mask& active) {
   store(bodies.energy_removed + at, load(bodies.energy_removed + at) + removed);
   const Pairs start{load6(bodies.twist_B, at), load6(bodies.momentum_B, at)};
   now.motion = select(moves, scaleWithin(after, energy) * now.motion, start);
-  store(bodies.orientation, at, now.orientation.u);
-  store(bodies.orientation[3] + at, now.orientation.w);
+  storeOrientation(bodies.orientation, at, now.orientation);
+  // One by one: GCC 12 warns of a loop over them.
   store(bodies.displacement_W[0] + at, now.displacement_W.x);
   store(bodies.displacement_W[1] + at, now.displacement_W.y);
   store(bodies.displacement_W[2] + at, now.displacement_W.z);

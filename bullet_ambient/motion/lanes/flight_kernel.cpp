@@ -62,8 +62,7 @@ inline void readStarts(StartLanes& bodies) noexcept {
                              load(bodies.rotation + 6, at)};
     const Orientations q = orientationsOf(rows);
     const Spatials twist_W = load6(bodies.twist_W, at);
-    store(bodies.orientation, at, q.u);
-    store(bodies.orientation[3] + at, q.w);
+    storeOrientation(bodies.orientation, at, q);
     store6(bodies.twist_B, at, toBody(q, twist_W));
   }
 }
@@ -83,7 +82,7 @@ inline Spatials withoutTraces(const Spatials& a, const Lanes& least) {
 inline void findEnds(EndLanes& bodies) noexcept {
   const Lanes inverse_duration = all(1 / bodies.duration), least = all(bodies.least);
   for (int at = 0; at < kFlightLanes; at += kWidth) {
-    const Orientations q{load(bodies.orientation, at), load(bodies.orientation[3] + at)};
+    const Orientations q = loadOrientation(bodies.orientation, at);
     const Spatials twist_B = load6(bodies.twist_B, at);
     const Spatials twist_W = toWorld(q, twist_B);
     store6(bodies.twist_W, at, withoutTraces(twist_W, least));
@@ -145,7 +144,7 @@ template <class Matrices>
 void predictRowVelocity(RowLanes& bodies, int at, const Mask&) {
   growResistance<Matrices>(bodies, at);
   const Matrices inertia(bodies.inertia, at), inverse(bodies.inverse_inertia, at);
-  const Orientations q = orientationOf(bodies, at);
+  const Orientations q = loadOrientation(bodies.orientation, at);
   const Lanes duration = load(bodies.kick_time + at);
   const Spatials x = load6(bodies.twist_B, at);
   const Pairs motion{x, inertia * x};
@@ -182,7 +181,7 @@ void predictRowVelocity(RowLanes& bodies, int at, const Mask&) {
 template <class Matrices>
 void conserve(RowLanes& bodies, int at, const Mask&) {
   const Matrices inertia(bodies.inertia, at), inverse(bodies.inverse_inertia, at);
-  const Orientations q = orientationOf(bodies, at);
+  const Orientations q = loadOrientation(bodies.orientation, at);
   const Spatials x = toBody(q, load6(bodies.velocity_W, at));
   const Spatials turning = toBody(q, load6(bodies.turning_W, at));
   const Spatials by_rows = toBody(q, load6(bodies.by_rows_W, at));
@@ -200,7 +199,7 @@ void conserve(RowLanes& bodies, int at, const Mask&) {
 /// Implements FlightKernel::transport for the lanes from `at` on.
 template <class Matrices>
 void transport(RowLanes& bodies, int at, const Mask&) {
-  const Orientations q = orientationOf(bodies, at);
+  const Orientations q = loadOrientation(bodies.orientation, at);
   Spatials m = load6(bodies.momentum_W, at);
   m.angular = m.angular - cross(load(bodies.displacement_W, at), m.linear);
   const Spatials m_B = toBody(q, m);
@@ -220,7 +219,7 @@ inline void setMotion(FlightLanes& bodies, int at, const Mask& active, const Pai
 template <class Matrices>
 void applyGravity(FlightLanes& bodies, int at, const Mask& active) {
   const Matrices inverse(bodies.inverse_inertia, at);
-  const Orientations q = orientationOf(bodies, at);
+  const Orientations q = loadOrientation(bodies.orientation, at);
   Spatials wrench = externalWrench(bodies, at, q);
   if (bodies.has_resistance) {
     if (anyOf(load(bodies.settling + at) > Lanes{})) {
@@ -264,7 +263,8 @@ struct Energies {
 inline Energies energies(const FlightLanes& bodies, int at) {
   const Pairs x = motionOf(bodies, at);
   const Vectors buoyancy = load(bodies.buoyancy_W, at);
-  const Vectors arm = orientationOf(bodies, at).toWorld(load(bodies.centre_of_volume_B, at));
+  const Vectors arm =
+      loadOrientation(bodies.orientation, at).toWorld(load(bodies.centre_of_volume_B, at));
   const Vectors force = load(bodies.force_W, at) + buoyancy;
   const Lanes risen = Lanes{} - dot(force, load(bodies.displacement_W, at));
   return {inner(x, x), risen - dot(buoyancy, arm), risen};

@@ -2,17 +2,13 @@
 
 #include <type_traits>
 
-#include "bullet_ambient/motion/lanes/viscous_kernel.h"
+#include "bullet_ambient/motion/lanes/body_kernel.h"
 
 // Reading of BodyLanes, and steps on them, that several kernels share. For sources that are
 // compiled once per instruction set, see spatial_lanes.h.
 
 namespace ambient {
 namespace {
-
-inline Orientations orientationOf(const BodyLanes& bodies, int at) {
-  return {load(bodies.orientation, at), load(bodies.orientation[3] + at)};
-}
 
 /// Returns weight, buoyancy and inertial forces of the flow in B, docs/theory.md eq. (18) and (19).
 inline Spatials externalWrench(const BodyLanes& bodies, int at, const Orientations& q) {
@@ -26,9 +22,7 @@ inline Spatials externalWrench(const BodyLanes& bodies, int at, const Orientatio
 /// w x v): of Munk's moment and of the gyroscope.
 template <class Matrices>
 Spatials turningWrench(const Matrices& inertia, const Pairs& x) {
-  const Vectors &w = x.twist.angular, &l = x.momentum.angular, &p = x.momentum.linear;
-  const Spatials gyroscopic{cross(l, w) + cross(p, x.twist.linear), cross(p, w)};
-  return gyroscopic + inertia * Spatials{zeroVectors(), cross(w, x.twist.linear)};
+  return gyroscopic(x) + inertia * Spatials{zeroVectors(), cross(x.twist.angular, x.twist.linear)};
 }
 
 /// Returns the bodies that the fluid stops in less time than it takes them to turn, eq. (124).
@@ -148,7 +142,7 @@ Pairs underLoad(FlightLanes& bodies, int at, const Mask& active, const Pairs& x,
   if (bodies.has_resistance)
     error = error / (1 + time * settlingRate<Matrices>(bodies, at, sampled));
   store(bodies.error + at, error);
-  const Spatials load_W = toWorld(orientationOf(bodies, at), load_B);
+  const Spatials load_W = toWorld(loadOrientation(bodies.orientation, at), load_B);
   store6(bodies.load_W, at, select(active, load_W, load6(bodies.load_W, at)));
   const Pairs response{inverse * load_B, load_B};
   return whereViscous(

@@ -120,6 +120,13 @@ struct Orientations {
     return a + all(2) * (cross(u, t) - w * t);
   }
 };
+inline Orientations loadOrientation(const FlightLane (&from)[4], int at) {
+  return {load(from, at), load(from[3] + at)};
+}
+inline void storeOrientation(FlightLane (&to)[4], int at, const Orientations& q) {
+  store(to, at, q.u);
+  store(to[3] + at, q.w);
+}
 inline Orientations operator*(const Orientations& a, const Orientations& b) {
   return {a.w * b.u + b.w * a.u + cross(a.u, b.u), a.w * b.w - dot(a.u, b.u)};
 }

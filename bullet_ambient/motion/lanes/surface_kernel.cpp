@@ -1,12 +1,9 @@
 #include "bullet_ambient/base/instruction_set.h"
-#include "bullet_ambient/motion/lanes/added_mass_change.h"
 #include "bullet_ambient/motion/lanes/body_kernel.h"
+#include "bullet_ambient/motion/lanes/floating_kernel.h"
 #include "bullet_ambient/motion/lanes/motion_lanes.h"
 #include "bullet_ambient/motion/lanes/spatial_lanes.h"
 #include "bullet_ambient/motion/lanes/surface_lanes.h"
-#include "bullet_ambient/motion/lanes/viscous_kernel.h"
-#include "bullet_ambient/motion/lanes/water_kernel.h"
-#include "bullet_ambient/motion/lanes/wave_kernel.h"
 
 // Compiled once per instruction set; AMBIENT_KERNEL() adds its name to that of the kernel.
 
@@ -33,13 +30,10 @@ void computeFlotation(FlotationLanes& flotation, int at) {
   store(flotation.is_indefinite + at, is_fine ? Lanes{} : all(1));
   Waterplanes section{load(flotation.area + at), load(flotation.centroid, at), {}};
   for (int i = 0; i < 6; ++i) section.spread[i] = load(flotation.spread[i] + at);
-  const Lanes specific_weight = load(flotation.specific_weight + at);
   Modes modes;
-  setRestoring(section, load(flotation.moment, at), load(flotation.normal, at), specific_weight,
-               modes);
-  setWaves({section.area, load(flotation.volume + at), load(flotation.heave_inertia + at),
-            load(flotation.damping + at), specific_weight, load(flotation.gravity + at)},
-           modes);
+  setRestoring(section, load(flotation.moment, at), load(flotation.normal, at),
+               load(flotation.specific_weight + at), modes);
+  setWaves(flotation, at, modes);
   forEachNumber(flotation.modes, modes,
                 [&](FlightLane& to, const Lanes& from) { store(to + at, from); });
   store(flotation.frequency + at, squareRoot(frequencySquared(modes, inertia)));
@@ -57,27 +51,10 @@ Lanes halfKick(const FlightLanes& bodies, int at) { return 0.5 * load(bodies.kic
 
 void see(SurfaceLanes& bodies, int at, const Mask&) {
   const Vectors normal_W = load(bodies.normal_W, at);
-  store(bodies.flotation.normal, at, orientationOf(bodies.flight, at).toBody(normal_W));
+  store(bodies.flotation.normal, at,
+        loadOrientation(bodies.flight.orientation, at).toBody(normal_W));
   store(bodies.flotation.height + at,
         load(bodies.height_W + at) - dot(normal_W, load(bodies.flight.displacement_W, at)));
-}
-
-void shiftWater(SurfaceLanes& bodies, int at, const Mask& active) {
-  const Mask has_water = active & (load(bodies.has_water + at) > Lanes{});
-  if (!anyOf(has_water)) return;
-  FlightLanes& flight = bodies.flight;
-  const FullMatrices before(flight.inertia, at), change(bodies.water->change, at);
-  SymmetricOf<Lanes> after;
-  for (int i = 0; i < kSymmetricEntries; ++i)
-    after.entries[i] = before.entries[i] + change.entries[i];
-  const AfterShiftOf<Lanes> shifted =
-      afterShift<Lanes>({before, after, load6(bodies.water->momentum, at),
-                         load(bodies.water->energy2 + at), load(bodies.flotation.normal, at)},
-                        load6(flight.twist_B, at));
-  const Mask moves = has_water & shifted.is_fine;
-  setTwist(flight, at, moves, shifted.twist);
-  for (int i = 0; i < kSymmetricEntries; ++i)
-    store(flight.inertia[i] + at, moves ? after.entries[i] : before.entries[i]);
 }
 
 void changeInertia(SurfaceLanes& bodies, int at, const Mask& active) {
@@ -106,7 +83,7 @@ void changeInertia(SurfaceLanes& bodies, int at, const Mask& active) {
 Spatials wrenchAt(const SurfaceLanes& bodies, int at) {
   const FlightLanes& flight = bodies.flight;
   const FlotationLanes& flotation = bodies.flotation;
-  const Spatials dry = externalWrench(flight, at, orientationOf(flight, at));
+  const Spatials dry = externalWrench(flight, at, loadOrientation(flight.orientation, at));
   const Vectors up = load(flotation.specific_weight + at) * load(flotation.normal, at);
   return {dry.angular + cross(load(flotation.moment, at), up),
           dry.linear + load(flotation.volume + at) * up};
@@ -129,7 +106,7 @@ void kickByGravity(SurfaceLanes& bodies, int at, const Mask& active) {
 
 void exchangeWithWaves(SurfaceLanes& bodies, int at, const Mask& active) {
   const Modes of_body = modesAt(bodies.flotation, at);
-  const Orientations q = orientationOf(bodies.flight, at);
+  const Orientations q = loadOrientation(bodies.flight.orientation, at);
   const ModesAtPose<Lanes> modes{of_body, {q.toWorld(of_body.tilt[0]), q.toWorld(of_body.tilt[1])}};
   WavesOf<Lanes> waves;
   forEachNumber(waves, bodies.waves,
@@ -144,28 +121,10 @@ void exchangeWithWaves(SurfaceLanes& bodies, int at, const Mask& active) {
   });
 }
 
-void exchangeWithSloshing(SurfaceLanes& bodies, int at, const Mask& active) {
-  const FullMatrices inverse(bodies.flight.inverse_inertia, at);
-  Spatials x = load6(bodies.flight.twist_B, at);
-  Lanes energy = load(bodies.slosh_energy + at);
-  for (SloshOf<FlightLane>& lanes : bodies.water->slosh) {
-    SloshOf<Lanes> mode;
-    forEachNumber(mode, lanes, [&](Lanes& to, const FlightLane& from) { to = load(from + at); });
-    x = exchangeSlosh<Lanes>(mode, inverse, halfKick(bodies.flight, at), x);
-    store(lanes.way + at, mode.way);
-    store(lanes.velocity + at, mode.velocity);
-    const Lanes own =
-        0.5 * mode.mass * (mode.velocity * mode.velocity + mode.square * mode.way * mode.way);
-    energy = mode.mass > Lanes{} ? energy + own : energy;
-  }
-  store(bodies.slosh_energy + at, energy);
-  setTwist(bodies.flight, at, active, x);
-}
-
 void applyLastLoad(SurfaceLanes& bodies, int at, const Mask& active) {
   FlightLanes& flight = bodies.flight;
   growResistance<FullMatrices>(flight, at);
-  const Spatials load_B = toBody(orientationOf(flight, at), load6(flight.load_W, at));
+  const Spatials load_B = toBody(loadOrientation(flight.orientation, at), load6(flight.load_W, at));
   const Pairs x = motionOf(flight, at);
   const Pairs response{FullMatrices(flight.inverse_inertia, at) * load_B, load_B};
   const Pairs kicked = passiveKick(x, x, response, halfKick(flight, at));
@@ -175,7 +134,8 @@ void applyLastLoad(SurfaceLanes& bodies, int at, const Mask& active) {
 void predictLoad(SurfaceLanes& bodies, int at, const Mask&) {
   FlightLanes& flight = bodies.flight;
   growResistance<FullMatrices>(flight, at);
-  store6(flight.predicted_load_B, at, toBody(orientationOf(flight, at), load6(flight.load_W, at)));
+  store6(flight.predicted_load_B, at,
+         toBody(loadOrientation(flight.orientation, at), load6(flight.load_W, at)));
   const Lanes time = halfKick(flight, at);
   const Pairs x = underResistance(flight, at, motionOf(flight, at), time);
   sampleLoad<FullMatrices>(flight, at, x, time, false);
@@ -191,7 +151,8 @@ void applyLoad(SurfaceLanes& bodies, int at, const Mask& active) {
 
 /// Returns the velocity of the water minus that of the fluid above, in B.
 Spatials windAt(const SurfaceLanes& bodies, int at) {
-  return {zeroVectors(), orientationOf(bodies.flight, at).toBody(load(bodies.wind_W, at))};
+  return {zeroVectors(),
+          loadOrientation(bodies.flight.orientation, at).toBody(load(bodies.wind_W, at))};
 }
 
 void sampleWind(SurfaceLanes& bodies, int at, const Mask&) {
@@ -213,7 +174,8 @@ void measure(SurfaceLanes& bodies, int at, const Mask&) {
   const Vectors buoyancy = load(flight.buoyancy_W, at);
   const Vectors displacement = load(flight.displacement_W, at);
   const Vectors arm =
-      displacement + orientationOf(flight, at).toWorld(load(flight.centre_of_volume_B, at));
+      displacement +
+      loadOrientation(flight.orientation, at).toWorld(load(flight.centre_of_volume_B, at));
   const Lanes of_water =
       load(bodies.flotation.specific_weight + at) * load(bodies.flotation.depth_integral + at) +
       load(bodies.waves.heave_energy + at) + load(bodies.waves.tilt_energy + at) +
@@ -239,18 +201,9 @@ void computeFlotations(FlotationLanes& flotation) noexcept {
 
 }  // namespace
 
-const SurfaceKernel AMBIENT_KERNEL(kSurfaceKernel){computeFlotations,
-                                                   forAll<see>,
-                                                   forAll<shiftWater>,
-                                                   forAll<changeInertia>,
-                                                   forAll<kickByGravity>,
-                                                   forAll<exchangeWithWaves>,
-                                                   forAll<exchangeWithSloshing>,
-                                                   forAll<applyLastLoad>,
-                                                   forAll<predictLoad>,
-                                                   forAll<applyLoad>,
-                                                   forAll<sampleWind>,
-                                                   forAll<kickByWind>,
-                                                   forAll<measure>};
+const SurfaceKernel AMBIENT_KERNEL(kSurfaceKernel){
+    computeFlotations,         forAll<see>,           forAll<changeInertia>, forAll<kickByGravity>,
+    forAll<exchangeWithWaves>, forAll<applyLastLoad>, forAll<predictLoad>,   forAll<applyLoad>,
+    forAll<sampleWind>,        forAll<kickByWind>,    forAll<measure>};
 
 }  // namespace ambient

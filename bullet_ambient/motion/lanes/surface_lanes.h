@@ -100,41 +100,6 @@ struct alignas(64) FlotationLanes {
   FlightLane frequency;  ///< largest natural frequency [1/s]
 };
 
-/// A mode of the water in a hold that sloshes, for the motion of its body, docs/theory.md eq.
-/// (152). `Real`: as above.
-template <class Real>
-struct SloshOf {
-  SpatialsOf<Real> motion;  ///< N: N.x is the velocity of the pivot for a twist x in B
-  Real mass;                ///< m_1 [kg]; 0: there is no mode
-  Real square;              ///< omega^2 [1/s^2]
-  Real damping;             ///< zeta [1]
-  Real way, velocity;       ///< q [m], u [m/s]
-};
-
-namespace {
-
-template <class To, class From, class Act>
-inline void forEachNumber(SloshOf<To>& to, const SloshOf<From>& from, const Act& act) {
-  forEachNumber(to.motion.angular, from.motion.angular, act);
-  forEachNumber(to.motion.linear, from.motion.linear, act);
-  act(to.mass, from.mass);
-  act(to.square, from.square);
-  act(to.damping, from.damping);
-  act(to.way, from.way);
-  act(to.velocity, from.velocity);
-}
-
-}  // namespace
-
-/// Water in the holds of bodies, for exchangeSloshing() and shiftWater().
-struct alignas(64) WaterLanes {
-  SloshOf<FlightLane> slosh[2];  ///< modes of one hold of each body
-  // Change by water that has moved in the flow, docs/theory.md eq. (142), (154).
-  FlightLane change[kSymmetricEntries];  ///< of K by it
-  FlightLane momentum[6];                ///< that its sloshing gives the body, in B
-  FlightLane energy2;                    ///< twice the energy that this gives [J]
-};
-
 /// Bodies in flight near a surface. `flight` holds pose, motion, forces, loads, and the inertia of
 /// the last computeFlotations(). Kernels compute the bodies that are active in `flight`.
 struct alignas(64) SurfaceLanes {
@@ -152,9 +117,7 @@ struct alignas(64) SurfaceLanes {
 
   WavesOf<FlightLane> waves;
 
-  FlightLane has_water;         ///< 1: there is water in the holds
-  FlightLane slosh_energy;      ///< of its modes [J]
-  WaterLanes* water = nullptr;  ///< null: no body has water in its holds; not owned
+  FlightLane slosh_energy;  ///< of the water in the holds [J]
 
   FlightLane kinetic2, potential;  ///< results of measure(): x.K x, and eq. (64) without T [J]
 };
@@ -167,9 +130,6 @@ struct SurfaceKernel {
   void (*computeFlotations)(FlotationLanes&) noexcept;
   /// Sets normal and height of the flotation to the plane of the surface in B at the present pose.
   void (*see)(SurfaceLanes&) noexcept;
-  /// Adds the change by the water in the holds to the inertia of the flight, and changes the twist
-  /// by it, eq. (142), (154).
-  void (*shiftWater)(SurfaceLanes&) noexcept;
   /// Changes the inertia from that of the flight to that of the flotation, and the twist by the
   /// change of added mass over drift_time; eq. (66) to (68b).
   void (*changeInertia)(SurfaceLanes&) noexcept;
@@ -178,9 +138,6 @@ struct SurfaceKernel {
   /// Projects the states of the waves on the modes of the flotation, eq. (72), and applies the
   /// waves for half a kick, eq. (71).
   void (*exchangeWaves)(SurfaceLanes&) noexcept;
-  /// Lets the modes `slosh` and the bodies act on each other for half a kick, eq. (153), and adds
-  /// their energy thereafter to slosh_energy.
-  void (*exchangeSloshing)(SurfaceLanes&) noexcept;
   /// Applies the load of the last kick, flight.load_W; eq. (23).
   void (*applyLastLoad)(SurfaceLanes&) noexcept;
   /// Predicts the motion in the middle of the kick from the last load: sets flight.sample_twist and

@@ -1,6 +1,6 @@
 #include "bullet_ambient/motion/flight/flight.h"
 #include "bullet_ambient/motion/links/link_kernel.h"
-#include "bullet_ambient/motion/surface/flotation_lanes.h"
+#include "bullet_ambient/motion/surface/flotation.h"
 
 namespace ambient {
 

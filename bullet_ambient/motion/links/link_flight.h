@@ -1,46 +1,76 @@
 #pragma once
 
+#include <vector>
+
 #include "bullet_ambient/motion/links/link_dynamics.h"
-#include "bullet_ambient/motion/links/link_kick.h"
 
 namespace ambient {
 
-/// Keeps momentum and energy of a tree relative to its flow, docs/theory.md eq. (80a). Forces
-/// change both in a substep by known amounts; the velocity at the end is corrected to have the
-/// resulting values. They are not known, and nothing is corrected, if links are in different flows,
-/// if a fixed base is in a flow that moves, or if velocities are prescribed. Only the constructor
+/// Kicks a tree by the surface loads on its links, docs/theory.md eq. (81) and (123): drag
+/// implicit, link by link, and so is resistance; lift explicit, without work. Only the constructor
 /// allocates.
-class LinkIntegrals {
+class LinkKick {
  public:
-  explicit LinkIntegrals(const LinkTree& tree);
+  explicit LinkKick(const LinkTree& tree);
 
-  /// Stores momentum and energy of the velocity `u`. @pre `dynamics` has the pose
-  void store(LinkDynamics& dynamics, const CoordinatesIn& u) noexcept;
-  /// Adds the changes of momentum and energy by the forces at the middle of a substep of h [s];
-  /// `u`: middle velocity. @pre `dynamics` has this pose and velocity
-  void addForces(LinkDynamics& dynamics, const CoordinatesIn& u, double h) noexcept;
+  /// True if any link has surface loads.
+  bool hasLoads() const noexcept;
 
-  /// Corrects `u` to the stored momentum and energy, eq. (80a): a change of the base's velocity
-  /// corrects the momentum, and a factor on the rest of the motion the energy. If that factor is
-  /// not between 2/3 and 3/2, scales the whole motion to the stored energy instead, up by at most
-  /// 3/2. If momentum and energy are not known and `is_coarse`, only scales down to the stored
-  /// energy, and returns the energy removed [J]; otherwise returns 0. Keeps the factor of
-  /// `dynamics` like lockJoints(). @pre `dynamics` has the pose
-  double impose(LinkDynamics& dynamics, CoordinatesOut u, bool is_coarse) noexcept;
-  /// Corrects `u` to the stored momentum by the base's velocity alone; joints keep their
-  /// velocities. Keeps the factor of `dynamics` like lockJoints(). @pre `dynamics` has the pose
-  void imposeMomentum(LinkDynamics& dynamics, CoordinatesOut u) noexcept;
+  /// Evaluates and stores the loads at the velocity `u` and the pose of `dynamics`, with the
+  /// passivity guard.
+  FlightCount sample(LinkDynamics& dynamics, const CoordinatesIn& u) noexcept;
+  /// Does so for rows, which see one kick of a time h [s]: loads of fluid that turns with a link
+  /// are the mean of that kick, docs/theory.md eq. (87).
+  FlightCount sampleForRows(LinkDynamics& dynamics, const CoordinatesIn& u, double h) noexcept;
+  /// Stores the loads that links remember as those at the velocity `u` and the pose of `dynamics`,
+  /// and evaluates the others.
+  FlightCount recall(LinkDynamics& dynamics, const CoordinatesIn& u) noexcept;
+  /// Makes links remember the last sample. @pre `dynamics` has its pose
+  void remember(const LinkDynamics& dynamics) const noexcept;
+  /// Returns the error of docs/theory.md eq. (25): size of the velocity change in the time h [s] by
+  /// the difference between the last sample and its prediction by the sample before, over that of
+  /// the motion. @pre kick() was called after that sample, at its pose
+  double error(LinkDynamics& dynamics, double h) noexcept;
+
+  /// True if the fluid settles a link at the last sample within h [s], settlingIn().
+  bool isStiff(double h) const noexcept;
+
+  /// Replaces `u` by the velocity after the time h [s] under the loads of the last sample alone,
+  /// and under generalized forces `force` (null: none). The loads grow with the square of each
+  /// link's speed. In one flow that the tree can follow, the energy relative to the flow does not
+  /// grow for any h. Leaves `dynamics` with the factor of M, not of H.
+  void kick(LinkDynamics& dynamics, double h, CoordinatesOut u,
+            const Coordinates* force = nullptr) noexcept;
+  /// Predicts the velocity for the next sample, an approximation of kick(): drag slows each link
+  /// down as if it were alone, and the tree takes the nearest motion, eq. (81a). @pre factor() of
+  /// H, at a pose nearby
+  void foresee(LinkDynamics& dynamics, double h, CoordinatesOut u) noexcept;
 
  private:
-  Vector6 momentumAbout(const Vector3& point_W) const noexcept;
+  /// Load of a link at its twist y relative to the flow, in its frame: -drag K y + lift.
+  struct Sample {
+    double drag = 0;      ///< [1/s], >= 0
+    double speed = 0;     ///< |y| in the norm of K [sqrt(J)]
+    Wrench lift;          ///< part of the load without power at y
+    Wrench load;          ///< speed 0: whatever the twist
+    Growth growth;        ///< of the resistance C
+    double settling = 0;  ///< of C over K in translation [1/s]
+
+    /// Returns the load at another twist y' with momentum K y' and speed |y'|.
+    Wrench at(const Wrench& momentum, double its_speed) const;
+  };
+
+  template <class LoadOn>
+  void sampleAll(LinkDynamics& dynamics, const CoordinatesIn& u, const LoadOn& load_on) noexcept;
+  void applyLift(LinkDynamics& dynamics, CoordinatesOut u) noexcept;
 
   const LinkTree& tree_;
-  bool is_known_ = false;
-  bool floats_ = false;
-  Vector6 momentum_;   // relative to the flow, about reference_, in W
-  double energy_ = 0;  // twice the kinetic energy [J]
-  Vector3 reference_;  // point in W that moves with the flow [m]
-  Coordinates flow_, x_, momenta_;
+  std::vector<Sample> samples_;
+  std::vector<double> drags_;
+  std::vector<Wrench> drag_impulses_, lift_impulses_, load_errors_;
+  std::vector<InertiaBlocks> resistances_;  ///< C of the links at the last sample
+  bool has_resistance_ = false;             ///< a link of the last sample has one
+  Coordinates change_, flow_;
 };
 
 struct LinkFlightSettings {

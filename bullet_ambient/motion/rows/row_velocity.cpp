@@ -9,9 +9,9 @@
 #include "bullet_ambient/motion/flight/flight.h"
 #include "bullet_ambient/motion/lanes/body_kernel.h"
 #include "bullet_ambient/motion/lanes/flight_lanes.h"
-#include "bullet_ambient/motion/lanes/viscous_kernel.h"
 #include "bullet_ambient/spatial/cholesky.h"
 #include "bullet_ambient/spatial/inertia.h"
+#include "bullet_ambient/spatial/rotation.h"
 
 namespace ambient {
 
@@ -62,15 +62,11 @@ std::optional<Matrix6> settledInertia(const BodyModel& model, const SurfaceLoad&
 
 namespace {
 
-Wrench turnedBy(const Quaternion& q, const Wrench& wrench) {
-  return {q * wrench.torque, q * wrench.force};
-}
-
 /// Sets the forces on a body with a mean wrench in B that acts over the step besides.
 void setForcesWith(const Wrench& mean_B, const FlightTask& task, const Quaternion& orientation,
                    int lane, RowLanes& lanes) {
   Surroundings with = task.surroundings;
-  with.applied += turnedBy(orientation, mean_B);
+  with.applied += turned(orientation, mean_B);
   setForces(lanes, lane, {task.model, with, task.settings, task.duration});
 }
 
@@ -124,10 +120,10 @@ RowLoad setStart(const FlightTask& task, const RigidState& start, const Wrench& 
   lanes.settling[lane] = 0;
   RowLoad row;
   if (!task.model.loads) return row;
-  const Wrench last_B = turnedBy(start.orientation.conjugate(), last_W);
+  const Wrench last_B = turned(start.orientation.conjugate(), last_W);
   if (const auto mean = upheldLoad(task, relative, last_B, row.count)) {
     setForcesWith(*mean, task, start.orientation, lane, lanes);
-    row.mean_W = turnedBy(start.orientation, *mean);
+    row.mean_W = turned(start.orientation, *mean);
     return row;
   }
   const SurfaceLoad load = computeSurfaceLoad(task.model, relative, s);

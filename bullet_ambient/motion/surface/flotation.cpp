@@ -6,10 +6,9 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "bullet_ambient/motion/body/one_body.h"
-#include "bullet_ambient/motion/lanes/added_mass_change.h"
+#include "bullet_ambient/motion/flight/flight.h"
 #include "bullet_ambient/motion/lanes/body_kernel.h"
-#include "bullet_ambient/motion/lanes/water_kernel.h"
-#include "bullet_ambient/motion/lanes/wave_kernel.h"
+#include "bullet_ambient/motion/lanes/floating_kernel.h"
 #include "bullet_ambient/spatial/inertia.h"
 
 namespace ambient {
@@ -21,7 +20,7 @@ SurfacePlace placeAt(const SurfaceModel& model, const SurfacePlane& plane_B,
   place.inertia = SymmetricMatrix(inertiaAt(model, place.immersion_F));
   if (!water.states) return place;
   *water.inside = waterInside(*model.holds, water.states, place.immersion_F.plane,
-                              {model.fluid_frame, model.excess_density}, water.modes);
+                              model.fluid_frame, model.excess_density, water.modes);
   if (!water.inside->is_any) return place;
   place.inside_F = water.inside;
   for (int i = 0; i < kSymmetricEntries; ++i)
@@ -35,37 +34,38 @@ WaterLeft::WaterLeft(const WaterAt& at, const Sloshing* states, double sloshing_
       energy(sloshing_energy),
       position_W(at.position_W) {}
 
-WaterMoved moveWater(const WaterLeft& before, const WaterAt& after, Sloshing* states) noexcept {
-  WaterMoved moved;
+Vector6 shiftWater(const WaterLeft& before, const WaterAt& after, const Vector6& x,
+                   SymmetricMatrix& inertia, Sloshing* states) noexcept {
+  using Spatial = SpatialsOf<double>;
+  SymmetricMatrix changed = inertia;
   for (int i = 0; i < kSymmetricEntries; ++i)
-    moved.inertia.entries[i] = after.place.inside_F->inertia.entries[i] - before.inertia.entries[i];
+    changed.entries[i] += after.place.inside_F->inertia.entries[i] - before.inertia.entries[i];
   const SloshingAt at = after.sloshing();
-  moved.energy2 = 2 * (before.energy - projectOnModes(at, before.energy, states));
+  const double given2 = 2 * (before.energy - projectOnModes(at, before.energy, states));
   // The momentum before, about the centre of mass after it, less that after.
   const Momentum now_W = momentumOfSloshing(at, states);
   const Momentum& then_W = before.momentum_W;
   const Vector3 displacement_W = after.position_W - before.position_W;
   const Matrix3 to_body = after.to_world.transpose();
-  moved.given = {to_body * (then_W.angular - displacement_W.cross(then_W.linear) - now_W.angular),
-                 to_body * (then_W.linear - now_W.linear)};
-  return moved;
-}
-
-Vector6 shiftWater(const WaterLeft& before, const WaterAt& after, const Vector6& x,
-                   SymmetricMatrix& inertia, Sloshing* states) noexcept {
-  const WaterMoved moved = moveWater(before, after, states);
-  SymmetricMatrix changed = inertia;
-  for (int i = 0; i < kSymmetricEntries; ++i) changed.entries[i] += moved.inertia.entries[i];
-  const AfterShiftOf<double> shifted =
-      afterShift<double>({inertia,
-                          changed,
-                          {plain(moved.given.angular), plain(moved.given.linear)},
-                          moved.energy2,
-                          plain(after.place.plane.normal)},
-                         plain(x));
-  if (!shifted.is_fine) return x;
+  const Spatial given{
+      plain(Vector3(to_body *
+                    (then_W.angular - displacement_W.cross(then_W.linear) - now_W.angular))),
+      plain(Vector3(to_body * (then_W.linear - now_W.linear)))};
+  const PositiveFactor<double> factor(changed);
+  if (!factor.isPositive()) return x;
+  const Spatial start = plain(x), own = inertia * start, momentum = own + given;
+  const double allowed2 = dot(start, own) + given2;
+  const Spatial free = factor.solve(momentum);
+  // A torque along the tilt: the part of the spin across the normal.
+  const VectorsOf<double> normal = plain(after.place.plane.normal),
+                          tilt = free.angular - dot(normal, free.angular) * normal;
+  const Spatial response = factor.solve({tilt, {0, 0, 0}});
+  const double a = dot(response.angular, tilt), b = dot(tilt, tilt);
+  const double excess = dot(free, momentum) - allowed2, square = b * b - a * excess;
+  const bool turns = a > 0 && square > 0;
+  const Spatial end = free - (turns ? excess / (b + std::sqrt(square)) : 0.0) * response;
   inertia = changed;
-  return asEigen(shifted.twist);
+  return asEigen(scaleWithin(dot(end, changed * end), larger(allowed2, 0.0)) * end);
 }
 
 bool isStable(const SurfaceModel& model, const Flotation& flotation) noexcept {
@@ -219,6 +219,116 @@ Wrench waveWrench(const FloatingModes& modes, const Matrix3& to_world, const Wav
     wrench.torque -= modes.strength[i + 1] * axis.dot(tilt_B) * axis;
   }
   return wrench;
+}
+
+namespace {
+
+constexpr int kSpread[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
+
+void setPlane(FlotationLanes& lanes, int body, const SurfacePlane& plane) {
+  setLane(lanes.normal, body, plane.normal);
+  lanes.height[body] = plane.height;
+  lanes.gravity[body] = plane.gravity;
+  lanes.specific_weight[body] = plane.density * plane.gravity;
+}
+
+void setWetVolume(FlotationLanes& lanes, int body, const WetVolume& wet) {
+  lanes.volume[body] = wet.volume;
+  lanes.depth_integral[body] = wet.depth_integral;
+  setLane(lanes.moment, body, wet.moment);
+}
+
+/// Added mass along the normal per unit density, without its factor, times c of docs/theory.md
+/// eq. (69) [m^3].
+double heaveInertia(const SurfaceModel& model, const SurfacePlace& place) {
+  if (!(model.excess_density > 0)) return 0;
+  const Vector3& s = place.plane.normal;
+  const Matrix3 fluid = place.inertia.bottomRight() - model.above.inertia.bottomRightCorner<3, 3>();
+  const double heave = model.heave_factor / model.added_density * s.dot(fluid * s);
+  // The volume outside counts, and the factors are those of the added mass alone.
+  const double inside = place.inside_F ? -place.inside_F->below.volume : 0;
+  const double factors = model.heave_factor * (model.excess_density / model.added_density);
+  return std::max(0.0, inside > 0 ? heave + (1 - factors) * inside : heave);
+}
+
+}  // namespace
+
+void setPlace(FlotationLanes& lanes, int body, const SurfaceModel& model,
+              const SurfacePlace& place) noexcept {
+  setPlane(lanes, body, place.plane);
+  const WetVolume wet = wetVolume(model, place);
+  setWetVolume(lanes, body, wet);
+  const Waterplane& section = wet.waterplane;
+  lanes.area[body] = section.area;
+  setLane(lanes.centroid, body, section.centroid);
+  for (int i = 0; i < 6; ++i) lanes.spread[i][body] = section.spread(kSpread[i][0], kSpread[i][1]);
+  lanes.heave_inertia[body] = heaveInertia(model, place);
+  lanes.damping[body] = model.wave_damping;
+  setLane(lanes.inertia, body, place.inertia);
+  setLane(lanes.least, body, SymmetricMatrix(kLeastShare * model.above.inertia));
+}
+
+void setFlotation(FlotationLanes& lanes, int body, const SurfaceModel& model,
+                  const Flotation& flotation) noexcept {
+  setPlane(lanes, body, flotation.plane);
+  setWetVolume(lanes, body, wetVolume(model, flotation));
+  forEachNumber(lanes.modes, flotation.modes,
+                [&](FlightLane& to, const double& from) { to[body] = from; });
+}
+
+void readFlotation(const FlotationLanes& lanes, int body, Flotation& flotation) noexcept {
+  flotation.inverse = symmetricOf(lanes.inverse, body);
+  forEachNumber(flotation.modes, lanes.modes,
+                [&](double& to, const FlightLane& from) { to = from[body]; });
+  flotation.frequency = lanes.frequency[body];
+}
+
+void computeFlotations(FlotationLanes& lanes, const SurfaceModel* const* models,
+                       SurfacePlace* const* places, int count) noexcept {
+  kSurfaceKernels.fastest()->computeFlotations(lanes);
+  const auto isIndefinite = [&](int i) {
+    return lanes.active[i] > 0 && lanes.is_indefinite[i] > 0;
+  };
+  bool is_any = false;
+  for (int i = 0; i < count; ++i) {
+    if (!isIndefinite(i)) continue;
+    is_any = true;
+    SymmetricMatrix& inertia = places[i]->inertia;
+    inertia = SymmetricMatrix(positiveInertia(*models[i], inertia.full()));
+    setPlace(lanes, i, *models[i], *places[i]);
+    setLane(lanes.least, i, SymmetricMatrix(Matrix6::Zero()));
+  }
+  if (!is_any) return;
+  kSurfaceKernels.fastest()->computeFlotations(lanes);
+  for (int i = 0; i < count; ++i)
+    if (isIndefinite(i))
+      setLane(lanes.inverse, i, SymmetricMatrix(models[i]->above.inverse_inertia));
+}
+
+void completeFlotations(const SurfaceModel* const* models, Flotation* const* flotations,
+                        int count) noexcept {
+  AMBIENT_ASSERT(count >= 0 && count <= kFlightLanes);
+  FlotationLanes lanes{};
+  SurfacePlace* places[kFlightLanes] = {};
+  for (int i = 0; i < count; ++i) {
+    lanes.active[i] = 1;
+    setPlace(lanes, i, *models[i], *flotations[i]);
+    places[i] = flotations[i];
+  }
+  computeFlotations(lanes, models, places, count);
+  for (int i = 0; i < count; ++i) {
+    readFlotation(lanes, i, *flotations[i]);
+  }
+}
+
+Flotation flotationAt(const SurfaceModel& model, const SurfacePlane& plane_B,
+                      const VesselWater& water) noexcept {
+  Flotation flotation;
+  static_cast<SurfacePlace&>(flotation) = placeAt(model, plane_B, water);
+  const SurfaceModel* const models = &model;
+  Flotation* const flotations = &flotation;
+  completeFlotations(&models, &flotations, 1);
+  return flotation;
 }
 
 }  // namespace ambient

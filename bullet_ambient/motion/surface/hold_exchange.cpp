@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/base/elementary.h"
+#include "bullet_ambient/base/pi.h"
 
 namespace ambient {
 namespace {
@@ -15,14 +17,17 @@ constexpr double kNoWater = -std::numeric_limits<double>::infinity();  // height
 
 /// Returns what is on the side of a hold whose level moves towards another height: the area is the
 /// mean on the way, so that the level does not pass it, whatever the shape.
-WaterSide waterSideOf(const HoldShape& shape, const HoldState& state, double level, double towards,
-                      const Vector3& normal) {
+WaterSide waterSideOf(const HoldsInStep& h, int hold, double towards) {
+  const HoldShape& shape = h.shape(hold);
+  const Vector3& normal = h.plane_F.normal;
+  const double level = h.level(hold);
   const auto [low, high] = computeExtent(shape.hull(), normal);
   const double end = std::clamp(towards, low, high), head = end - level;
-  const double change = computeWetVolume(shape.hull(), {normal, end, 0, 0}).volume - state.filled();
+  const double change =
+      computeWetVolume(shape.hull(), {normal, end, 0, 0}).volume - h.states[hold].filled();
   const double area = head * change > 0 ? change / head : 1;  // else nothing flows
-  return {level, area, std::min(state.volume, std::max(0.0, -change)),
-          std::max(0.0, std::min(shape.capacity() - state.filled(), change))};
+  return {level, area, std::min(h.states[hold].volume, std::max(0.0, -change)),
+          std::max(0.0, std::min(shape.capacity() - h.states[hold].filled(), change))};
 }
 
 /// An opening to the sea; made by seaAt().
@@ -36,10 +41,9 @@ struct SeaAt {
   const double* dataInside() const { return inside ? inside->data() : nullptr; }
 };
 
-SeaAt seaAt(const HoldShapes::Opening& opening, std::size_t number, const SurfacePlane& plane_F,
-            const ExchangeStep& step) {
-  return {opening.shape, plane_F, step.rises ? &(*step.rises)[number] : nullptr,
-          step.waves ? step.waves->at(number) : nullptr};
+SeaAt seaAt(const HoldsInStep& h, const HoldShapes::Opening& opening, std::size_t number) {
+  return {opening.shape, h.plane_F, h.step.rises ? &(*h.step.rises)[number] : nullptr,
+          h.step.waves ? h.step.waves->at(number) : nullptr};
 }
 
 /// Whether an opening is above a height, the sea and all waves, so that nothing flows.
@@ -82,8 +86,8 @@ double sloppedIn(const HoldShape& shape, const SeaAt& sea, const HoldState& stat
                  double& available) {
   HoldState after = state;
   addWater(in, after);
-  const double lift =
-      std::max(0.0, in * (levelOf(shape, sea.plane_F.normal, after) - sea.plane_F.height));
+  const double level = fillHold(shape, sea.plane_F.normal, after.filled()).height;
+  const double lift = std::max(0.0, in * (level - sea.plane_F.height));
   const double share = lift > available ? available / lift : 1;
   const double crest = std::max(0.0, extentOf(sea.inside).second);
   const double lost = std::max(share * lift, std::max(0.0, -share * in) * crest);
@@ -91,40 +95,34 @@ double sloppedIn(const HoldShape& shape, const SeaAt& sea, const HoldState& stat
   return share * in;
 }
 
-void exchangeWithSea(const HoldShape& shape, const SeaAt& sea, const ExchangeStep& step,
-                     HoldState& state, std::size_t hold) {
-  const Vector3& normal = sea.plane_F.normal;
+void exchangeWithSea(const HoldsInStep& h, const HoldShapes::Opening& opening, std::size_t number) {
+  const SeaAt sea = seaAt(h, opening, number);
+  HoldState& state = h.states[opening.from];
   if (!(state.volume > 0) && isClear(sea, kNoWater)) return;
-  const double level = levelOf(shape, normal, state);
+  const double level = h.level(opening.from);
   if (isClear(sea, level)) return;
-  WaterSide outside{sea.plane_F.height},
-      inside = waterSideOf(shape, state, level, aimOf(sea, level), normal);
+  WaterSide outside{h.plane_F.height}, inside = waterSideOf(h, opening.from, aimOf(sea, level));
   outside.rises = sea.data();
   inside.rises = sea.dataInside();
-  double in =
-      volumeThrough(sea.opening, {normal, sea.plane_F.gravity}, outside, inside, step.duration);
+  double in = volumeThrough(sea.opening, h.up(), outside, inside, h.step.duration);
   if (sea.inside && in != 0) {
-    const double energy = step.waves->energy[hold];
-    double available = energy - step.waves->lost[hold];
-    in = sloppedIn(shape, sea, state, in, available);
-    step.waves->lost[hold] = energy - available;
+    double& lost = h.step.waves->lost[static_cast<std::size_t>(opening.from)];
+    const double energy = h.step.waves->energy[static_cast<std::size_t>(opening.from)];
+    double available = energy - lost;
+    in = sloppedIn(h.shape(opening.from), sea, state, in, available);
+    lost = energy - available;
   }
   addWater(in, state);
   state.inflow += in;
 }
 
-void exchangeBetween(const HoldShapes& holds, const HoldShapes::Opening& door,
-                     const SurfacePlane& plane_F, double duration, HoldState* states) {
-  HoldState &from = states[door.from], &to = states[door.to];
+void exchangeBetween(const HoldsInStep& h, const HoldShapes::Opening& door) {
+  HoldState &from = h.states[door.from], &to = h.states[door.to];
   if (!(from.volume > 0) && !(to.volume > 0)) return;
-  const HoldShape& here = holds.shapes[static_cast<std::size_t>(door.from)];
-  const HoldShape& there = holds.shapes[static_cast<std::size_t>(door.to)];
-  const Vector3& normal = plane_F.normal;
-  const double level = levelOf(here, normal, from), other = levelOf(there, normal, to);
-  if (door.shape.isAbove(std::max(level, other), normal)) return;
-  const double passed = volumeThrough(door.shape, {normal, plane_F.gravity},
-                                      waterSideOf(here, from, level, other, normal),
-                                      waterSideOf(there, to, other, level, normal), duration);
+  const double level = h.level(door.from), other = h.level(door.to);
+  if (door.shape.isAbove(std::max(level, other), h.plane_F.normal)) return;
+  const double passed = volumeThrough(door.shape, h.up(), waterSideOf(h, door.from, other),
+                                      waterSideOf(h, door.to, level), h.step.duration);
   addWater(-passed, from);
   addWater(passed, to);
 }
@@ -136,42 +134,33 @@ bool hasOneAir(const HoldShapes::Opening& opening, const HoldState* states) {
 }
 
 /// Exchanges through an opening that is not shut; `number`: its own among all.
-void exchangeThrough(const HoldShapes& holds, const HoldShapes::Opening& opening,
-                     std::size_t number, const SurfacePlane& plane_F, const ExchangeStep& step,
-                     HoldState* states) {
-  if (!hasOneAir(opening, states)) {
-    exchangeSealed(holds, opening, plane_F, step, states);
+void exchangeThrough(const HoldsInStep& h, const HoldShapes::Opening& opening, std::size_t number) {
+  if (!hasOneAir(opening, h.states)) {
+    exchangeSealed(h, opening);
   } else if (opening.to < 0) {
-    const auto hold = static_cast<std::size_t>(opening.from);
-    exchangeWithSea(holds.shapes[hold], seaAt(opening, number, plane_F, step), step, states[hold],
-                    hold);
+    exchangeWithSea(h, opening, number);
   } else {
-    exchangeBetween(holds, opening, plane_F, step.duration, states);
-    shareAir(holds, states[opening.from].air_group, states);
+    exchangeBetween(h, opening);
+    shareAir(h, h.states[opening.from].air_group);
   }
 }
 
 /// Whether nothing flows: all openings are above the water on both sides, and each hold with water
 /// has one to the air.
-bool areClear(const HoldShapes& holds, const SurfacePlane& plane_F, const ExchangeStep& step,
-              HoldState* states) {
-  const auto level = [&](int hold) {
-    return states[hold].volume > 0
-               ? levelOf(holds.shapes[static_cast<std::size_t>(hold)], plane_F.normal, states[hold])
-               : kNoWater;
-  };
+bool areClear(const HoldsInStep& h) {
+  const auto level = [&](int hold) { return h.states[hold].volume > 0 ? h.level(hold) : kNoWater; };
   bool are_clear = true;
-  forEachOpening(holds, step.changes, [&](const HoldShapes::Opening& opening, std::size_t number) {
+  h.forEach([&](const HoldShapes::Opening& opening, std::size_t number) {
     if (!are_clear) return;
     const double here = level(opening.from);
     are_clear = opening.to < 0
-                    ? isClear(seaAt(opening, number, plane_F, step), here)
-                    : opening.shape.isAbove(std::max(here, level(opening.to)), plane_F.normal);
+                    ? isClear(seaAt(h, opening, number), here)
+                    : opening.shape.isAbove(std::max(here, level(opening.to)), h.plane_F.normal);
   });
-  for (int i = 0; are_clear && i < static_cast<int>(holds.shapes.size()); ++i) {
-    if (!(states[i].volume > 0)) continue;
+  for (int i = 0; are_clear && i < h.count(); ++i) {
+    if (!(h.states[i].volume > 0)) continue;
     are_clear = false;
-    forEachOpening(holds, step.changes, [&](const HoldShapes::Opening& opening, std::size_t) {
+    h.forEach([&](const HoldShapes::Opening& opening, std::size_t) {
       are_clear = are_clear || (opening.from == i && opening.to < 0);
     });
   }
@@ -207,7 +196,7 @@ bool staysDry(const HoldShapes& holds, const SurfacePlane& plane_F, const Exchan
               HoldState* states) noexcept {
   return std::none_of(states, states + holds.shapes.size(),
                       [](const HoldState& state) { return state.volume > 0 || state.pump > 0; }) &&
-         (!step.are_open || areClear(holds, plane_F, step, states));
+         (!step.are_open || areClear({holds, plane_F, step, states}));
 }
 
 Matrix6 exchangeWater(const HoldShapes& holds, const SurfacePlane& plane_F,
@@ -215,29 +204,101 @@ Matrix6 exchangeWater(const HoldShapes& holds, const SurfacePlane& plane_F,
   AMBIENT_ASSERT(step.duration >= 0 && step.atmosphere > 0);
   for (std::size_t i = 0; i < holds.shapes.size(); ++i)
     runPump(holds.shapes[i], step.duration, step.modes ? &step.modes[i] : nullptr, states[i]);
-  if (step.are_open && areClear(holds, plane_F, step, states)) {
+  const HoldsInStep h{holds, plane_F, step, states};
+  if (step.are_open && areClear(h)) {
     for (std::size_t i = 0; i < holds.shapes.size(); ++i) {
       states[i].is_sealed = false;
       states[i].air = 0;
     }
   } else if (step.are_open) {
-    sealHolds(holds, plane_F, step, states);
-    forEachOpening(holds, step.changes,
-                   [&](const HoldShapes::Opening& opening, std::size_t number) {
-                     exchangeThrough(holds, opening, number, plane_F, step, states);
-                   });
+    sealHolds(h);
+    h.forEach([&h](const HoldShapes::Opening& opening, std::size_t number) {
+      exchangeThrough(h, opening, number);
+    });
   }
   Matrix6 come = Matrix6::Zero();
   for (std::size_t i = 0; i < holds.shapes.size(); ++i) {
     states[i].change += states[i].volume;
     if (states[i].change < 0) loseDregs(holds.shapes[i], states[i]);
     if (!(states[i].inflow > 0) || !(states[i].volume > 0)) continue;
-    const HoldFill fill = fillHold(holds.shapes[i], plane_F.normal, states[i].volume,
-                                   std::numeric_limits<double>::quiet_NaN());
+    const HoldFill fill = fillHold(holds.shapes[i], plane_F.normal, states[i].volume);
     come += std::min(1.0, states[i].inflow / states[i].volume) *
             carriedInertia(fill.water.volume, modesOf(holds.shapes[i], fill, plane_F));
   }
   return come;
+}
+
+namespace {
+
+/// Waves in one hold.
+struct HoldWaves {
+  HoldWaves(const WaterAt& at, std::size_t hold, const Sloshing& state)
+      : frame(at.model.fluid_frame), modes(at.place.inside_F->modes[hold]) {
+    const double gravity = at.place.plane.gravity;
+    for (int i = 0; i < 2; ++i) {
+      const SloshMode& mode = modes.modes[i];
+      if (!(mode.volume > 0) || !state.is_known) continue;
+      const double way = (at.to_world * mode.axis).dot(state.displacement_W);
+      crests[i] = crestOf(mode, way, gravity);
+      energy += mode.volume * mode.square / gravity * way * way / 2;
+    }
+  }
+
+  double highest() const { return modes.height + std::abs(crests[0]) + std::abs(crests[1]); }
+  /// Height of the surface over the level at a place in F [m].
+  double riseAt(const Vector3& place_F) const {
+    const Vector3 place = frame.rotation * place_F + frame.translation - modes.middle;
+    double rise = 0;
+    for (int i = 0; i < 2; ++i) {
+      if (crests[i] == 0) continue;
+      const double share = 2 * modes.modes[i].axis.dot(place) / modes.modes[i].length;
+      rise += crests[i] * portable::sin(kPi / 2 * std::clamp(share, -1.0, 1.0));
+    }
+    return rise;
+  }
+
+  const FrameOffset& frame;
+  const HoldModes& modes;
+  double crests[2] = {0, 0};  ///< at the walls [m]
+  double energy = 0;          ///< over rho g [m^4]
+};
+
+}  // namespace
+
+void findWavesInside(const WaterAt& at, const OpeningChanges* changes, const Sloshing* states,
+                     WavesInside& waves) noexcept {
+  const HoldShapes& holds = *at.model.holds;
+  const Vector3& up = at.place.immersion_F.plane.normal;
+  AMBIENT_ASSERT(at.place.inside_F && waves.energy.size() == holds.shapes.size());
+  std::fill(waves.reaches.begin(), waves.reaches.end(), std::uint8_t{0});
+  std::fill(waves.lost.begin(), waves.lost.end(), 0.0);
+  waves.is_any = false;
+  if (!(at.place.plane.gravity > 0)) return;
+  for (std::size_t hold = 0; hold < holds.shapes.size(); ++hold) {
+    const HoldWaves of(at, hold, states[hold]);
+    waves.energy[hold] = of.energy;
+    if (!(of.energy > 0)) continue;
+    const double highest = of.highest();
+    forEachOpening(holds, changes, [&](const HoldShapes::Opening& opening, std::size_t number) {
+      if (opening.to >= 0 || static_cast<std::size_t>(opening.from) != hold) return;
+      if (opening.shape.isAbove(highest, up)) return;
+      waves.reaches[number] = 1;
+      waves.is_any = true;
+      std::vector<double>& rises = waves.rises[number];
+      for (std::size_t i = 0; i < rises.size(); ++i)
+        rises[i] = of.riseAt(opening.shape.edges()[i].middle);
+    });
+  }
+}
+
+double loseSlopped(double weight, const WavesInside& waves, Sloshing* states) noexcept {
+  double lost = 0;
+  for (std::size_t i = 0; i < waves.lost.size(); ++i) {
+    if (!(waves.lost[i] > 0)) continue;
+    states[i].displacement_W *= std::sqrt(std::max(0.0, 1 - waves.lost[i] / waves.energy[i]));
+    lost += waves.lost[i];
+  }
+  return weight * lost;
 }
 
 }  // namespace ambient

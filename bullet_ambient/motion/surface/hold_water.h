@@ -7,8 +7,7 @@
 
 #include "bullet_ambient/force/surface/hold_flow.h"
 #include "bullet_ambient/force/surface/hold_shape.h"
-#include "bullet_ambient/motion/surface/sloshing.h"
-#include "bullet_ambient/motion/surface/symmetric_matrix.h"
+#include "bullet_ambient/motion/body/body_model.h"
 
 namespace ambient {
 
@@ -122,6 +121,51 @@ struct WaterInside {
   }
 };
 
+/// What the water in a hold does against its level surface, from step to step: the pendulums of its
+/// modes, docs/theory.md eq. (152). World vectors, so that a vessel turns under its water.
+struct Sloshing {
+  bool is_known = false;            ///< false: the water moves with the vessel and is level
+  Vector3 displacement_W{0, 0, 0};  ///< q [m]
+  Vector3 velocity_W{0, 0, 0};      ///< u, relative to the water around [m/s]
+};
+
+/// Modes of the water in the holds of a body at a pose.
+struct SloshingAt {
+  double density;          ///< of the water less that of the fluid above [kg/m^3]
+  const HoldModes* modes;  ///< in B
+  std::size_t count;       ///< of holds
+  Matrix3 to_world;        ///< B to W
+};
+
+/// Lets water that is not yet known move with a body of the twist x, in B relative to the water
+/// around, as if it had been level for ever.
+void joinVessel(const SloshingAt& at, const Vector6& x, Sloshing* states) noexcept;
+
+/// Energy of the pendulums [J].
+struct SloshingEnergy {
+  double kinetic = 0, potential = 0;
+  double sum() const { return kinetic + potential; }
+};
+SloshingEnergy energyOfSloshing(const SloshingAt& at, const Sloshing* states) noexcept;
+
+/// Momentum of the pendulums, world axes, about the centre of mass of the body [N m s, N s].
+Momentum momentumOfSloshing(const SloshingAt& at, const Sloshing* states) noexcept;
+
+/// Takes the states to other modes, which never adds energy. Those of holds without modes become
+/// not known. `energy`: with the modes before [J]. Returns the energy thereafter [J].
+double projectOnModes(const SloshingAt& at, double energy, Sloshing* states) noexcept;
+
+/// Twist in B, relative to the water around, and energy of the pendulums [J].
+struct Sloshed {
+  Vector6 twist;
+  double energy = 0;
+};
+/// Lets pendulums and body act on each other for `duration` [s], docs/theory.md eq. (153): the sum
+/// of x.K x / 2 and the energy of the pendulums does not grow, whatever the duration. x: twist
+/// before; `inverse`: K^-1; `damping`: HoldSettings::sloshing_damping.
+Sloshed exchangeSloshing(const SloshingAt& at, const SymmetricMatrix& inverse, double damping,
+                         double duration, const Vector6& x, Sloshing* states) noexcept;
+
 /// Sloshing in the holds of a body, one of each.
 struct VesselSloshing {
   std::vector<Sloshing> now;    ///< from step to step
@@ -143,21 +187,16 @@ struct VesselWater {
   double damping = 0.03;               ///< HoldSettings::sloshing_damping
 };
 
-/// Body with holds: pose of F in B, and density of the water less that of the fluid above [kg/m^3].
-struct HoldsInBody {
-  const FrameOffset& fluid_frame;
-  double density;
-};
-
 /// Finds the levels of the water in the holds and sums over it. Cost: one to three clips of each
 /// hold with water.
 /// @param holds of the body
 /// @param states one of each hold
 /// @param plane_F of the water outside
-/// @param body whose frame and density the inertia has
+/// @param frame pose of F in B
+/// @param density of the water less that of the fluid above [kg/m^3]
 /// @param modes where those of each hold are kept; null: nowhere
 WaterInside waterInside(const HoldShapes& holds, const HoldState* states,
-                        const SurfacePlane& plane_F, const HoldsInBody& body,
+                        const SurfacePlane& plane_F, const FrameOffset& frame, double density,
                         HoldModes* modes = nullptr) noexcept;
 
 /// Tells if all holds are full of water.
@@ -174,8 +213,5 @@ void fillCoveredHolds(const HoldShapes& holds, const OpeningChanges* changes,
 /// water has passed; x: twist of the vessel in B, relative to the water around.
 void mixSloshing(const HoldState* states, const HoldModes* before, const SloshingAt& after,
                  const Vector6& x, Sloshing* sloshing) noexcept;
-
-/// Returns the height of the level in a hold along a normal in F; keeps it in the state.
-double levelOf(const HoldShape& shape, const Vector3& normal, HoldState& state) noexcept;
 
 }  // namespace ambient

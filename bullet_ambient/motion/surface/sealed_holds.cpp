@@ -13,30 +13,9 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kFull = 1e-9;    // of a hold: it has no air
 constexpr double kEmpty = 1e-12;  // of a hold, that of fillHold()
 
-/// Holds of one body while their air is found, and water flows under pressure.
-struct Holds {
-  const HoldShapes& holds;
-  const SurfacePlane& plane_F;
-  const ExchangeStep& step;
-  HoldState* states;
-
-  int count() const { return static_cast<int>(holds.shapes.size()); }
-  const HoldShape& shape(int hold) const { return holds.shapes[static_cast<std::size_t>(hold)]; }
-  double level(int hold) const { return levelOf(shape(hold), plane_F.normal, states[hold]); }
-  double room(int hold) const {
-    return std::max(0.0, shape(hold).capacity() - states[hold].filled());
-  }
-  Outside outside() const { return {step.atmosphere, plane_F.density * plane_F.gravity}; }
-  double height(const Vector3& place) const { return plane_F.normal.dot(place); }
-  template <class Function>
-  void forEach(const Function& function) const {
-    forEachOpening(holds, step.changes, function);
-  }
-};
-
 /// Height from which on a place in a hold is not under its water. The air of a full hold has no
 /// height: there it is a little below the hold's top, where openings are.
-double airFrom(const Holds& h, int hold) {
+double airFrom(const HoldsInStep& h, int hold) {
   const double level = h.level(hold);
   if (h.room(hold) > kFull * h.shape(hold).capacity()) return level;
   const auto [low, high] = computeExtent(h.shape(hold).hull(), h.plane_F.normal);
@@ -44,7 +23,7 @@ double airFrom(const Holds& h, int hold) {
 }
 
 /// Whether a corner of an opening is above both heights, so that air passes.
-bool passesAir(const Holds& h, const OpeningShape& opening, double from, double to) {
+bool passesAir(const HoldsInStep& h, const OpeningShape& opening, double from, double to) {
   const double high = std::max(from, to);
   const auto& corners = opening.corners();
   return std::any_of(corners.begin(), corners.end(),
@@ -52,7 +31,7 @@ bool passesAir(const Holds& h, const OpeningShape& opening, double from, double 
 }
 
 /// Whether an edge of an opening is above a height and the waves there.
-bool passesAirOverWaves(const Holds& h, const OpeningShape& opening,
+bool passesAirOverWaves(const HoldsInStep& h, const OpeningShape& opening,
                         const std::vector<double>& rises, double from) {
   for (std::size_t i = 0; i < rises.size(); ++i) {
     const double height = h.height(opening.edges()[i].middle);
@@ -62,7 +41,7 @@ bool passesAirOverWaves(const Holds& h, const OpeningShape& opening,
 }
 
 /// Whether air passes from outside through an opening of a hold.
-bool isVented(const Holds& h, const HoldShapes::Opening& opening, std::size_t number) {
+bool isVented(const HoldsInStep& h, const HoldShapes::Opening& opening, std::size_t number) {
   const auto passes = [&](double from) {
     return h.step.rises ? passesAirOverWaves(h, opening.shape, (*h.step.rises)[number], from)
                         : passesAir(h, opening.shape, h.plane_F.height, from);
@@ -73,7 +52,7 @@ bool isVented(const Holds& h, const HoldShapes::Opening& opening, std::size_t nu
 }
 
 /// Air of a group of holds: products and volumes add up.
-SealedAir airOf(const Holds& h, int group) {
+SealedAir airOf(const HoldsInStep& h, int group) {
   SealedAir air;
   for (int i = 0; i < h.count(); ++i) {
     if (h.states[i].air_group != group) continue;
@@ -84,21 +63,21 @@ SealedAir airOf(const Holds& h, int group) {
 }
 
 /// Gives a group an amount of air, the same pressure in all its holds.
-void setProduct(const Holds& h, int group, double product) {
+void setProduct(const HoldsInStep& h, int group, double product) {
   const double volume = airOf(h, group).volume;
   for (int i = 0; i < h.count(); ++i)
     if (h.states[i].air_group == group)
       h.states[i].air = volume > 0 ? product * (h.room(i) / volume) : 0;
 }
 
-void joinGroups(const Holds& h, int one, int two) {
+void joinGroups(const HoldsInStep& h, int one, int two) {
   const auto [low, high] = std::minmax(one, two);
   for (int i = 0; i < h.count(); ++i)
     if (h.states[i].air_group == high) h.states[i].air_group = low;
 }
 
 /// Sets the groups: a number for each sealed hold, that of the first with the same air.
-void findGroups(const Holds& h) {
+void findGroups(const HoldsInStep& h) {
   for (int i = 0; i < h.count(); ++i) h.states[i].air_group = i;
   h.forEach([&](const HoldShapes::Opening& opening, std::size_t number) {
     const int group = h.states[opening.from].air_group;
@@ -116,7 +95,7 @@ void findGroups(const Holds& h) {
 }
 
 /// Sets what bounds the pressure of the air in a hold by its openings to the sea.
-void bound(const Holds& h, int hold, SealedAir& air) {
+void bound(const HoldsInStep& h, int hold, SealedAir& air) {
   double top = -kInfinite;
   h.forEach([&](const HoldShapes::Opening& opening, std::size_t) {
     if (opening.from == hold && opening.to < 0)
@@ -137,7 +116,7 @@ void bound(const Holds& h, int hold, SealedAir& air) {
 }
 
 /// Lets air pass at once where openings to the sea give it way.
-void bubbleOut(const Holds& h) {
+void bubbleOut(const HoldsInStep& h) {
   for (int i = 0; i < h.count(); ++i) {
     const int group = h.states[i].air_group;
     if (group < 0) continue;
@@ -149,7 +128,7 @@ void bubbleOut(const Holds& h) {
 }
 
 /// Lets air pass at once from one hold to another one where water over a door does not keep it.
-void bubbleThrough(const Holds& h, const HoldShapes::Opening& door, int from, int to) {
+void bubbleThrough(const HoldsInStep& h, const HoldShapes::Opening& door, int from, int to) {
   const int one = h.states[from].air_group, two = h.states[to].air_group;
   const double top = door.shape.top(h.plane_F.normal), submergence = h.level(to) - top;
   if (one == two || !(h.level(from) < top) || !(submergence >= 0)) return;
@@ -181,7 +160,7 @@ struct Side {
   }
 };
 
-Side airSideOf(const Holds& h, int hold) {
+Side airSideOf(const HoldsInStep& h, int hold) {
   if (hold < 0) return {hold, h.plane_F.height, kInfinite, kInfinite, kInfinite, -1};
   Side side{hold,         h.level(hold),           kInfinite, h.states[hold].volume,
             h.room(hold), h.states[hold].air_group};
@@ -195,10 +174,10 @@ Side airSideOf(const Holds& h, int hold) {
 /// Volumes that pass out of `here` are positive.
 class SealedOpening {
  public:
-  SealedOpening(const Holds& holds, const HoldShapes::Opening& opening)
+  SealedOpening(const HoldsInStep& holds, const HoldShapes::Opening& opening)
       : h_(holds),
         shape_(opening.shape),
-        up_{holds.plane_F.normal, holds.plane_F.gravity},
+        up_(holds.up()),
         here_(airSideOf(holds, opening.from)),
         there_(airSideOf(holds, opening.to)) {
     const double rise = shape_.outward().dot(up_.normal);
@@ -318,7 +297,7 @@ class SealedOpening {
     return side.air.product - after;
   }
 
-  const Holds& h_;
+  const HoldsInStep& h_;
   const OpeningShape& shape_;
   Upward up_;
   Side here_, there_;
@@ -335,45 +314,38 @@ void addWater(double volume, HoldState& state) noexcept {
   state.level = std::numeric_limits<double>::quiet_NaN();
 }
 
-void sealHolds(const HoldShapes& holds, const SurfacePlane& plane_F, const ExchangeStep& step,
-               HoldState* states) noexcept {
-  const Holds h{holds, plane_F, step, states};
+void sealHolds(const HoldsInStep& h) noexcept {
   findGroups(h);
   bool is_any = false;
   for (int i = 0; i < h.count(); ++i) {
-    HoldState& state = states[i];
+    HoldState& state = h.states[i];
     const bool was_sealed = state.is_sealed;
     state.is_sealed = state.air_group >= 0;
     is_any = is_any || state.is_sealed;
     if (!state.is_sealed) {
       state.air = 0;
     } else if (!was_sealed) {
-      state.air = step.atmosphere * h.room(i);
+      state.air = h.step.atmosphere * h.room(i);
     }
   }
   if (!is_any) return;
-  for (int i = 0; i < h.count(); ++i) shareAir(holds, i, states);
+  for (int i = 0; i < h.count(); ++i) shareAir(h, i);
   bubbleOut(h);
 }
 
-void shareAir(const HoldShapes& holds, int group, HoldState* states) noexcept {
-  if (group < 0) return;
-  const Holds h{holds, {}, {}, states};
-  setProduct(h, group, airOf(h, group).product);
+void shareAir(const HoldsInStep& h, int group) noexcept {
+  if (group >= 0) setProduct(h, group, airOf(h, group).product);
 }
 
-void exchangeSealed(const HoldShapes& holds, const HoldShapes::Opening& opening,
-                    const SurfacePlane& plane_F, const ExchangeStep& step,
-                    HoldState* states) noexcept {
-  const Holds h{holds, plane_F, step, states};
+void exchangeSealed(const HoldsInStep& h, const HoldShapes::Opening& opening) noexcept {
   if (opening.to >= 0) {
     bubbleThrough(h, opening, opening.from, opening.to);
     bubbleThrough(h, opening, opening.to, opening.from);
   }
   SealedOpening sealed(h, opening);
-  const double passed = sealed.volumeThrough(step.duration);
+  const double passed = sealed.volumeThrough(h.step.duration);
   sealed.apply(passed);
-  if (opening.to < 0) states[opening.from].inflow -= passed;
+  if (opening.to < 0) h.states[opening.from].inflow -= passed;
 }
 
 }  // namespace ambient

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "bullet_ambient/motion/flight/flight.h"
-#include "bullet_ambient/motion/surface/flotation_lanes.h"
+#include "bullet_ambient/motion/surface/flotation.h"
 #include "bullet_ambient/spatial/inertia.h"
 
 namespace ambient {
@@ -40,25 +39,18 @@ struct Progress {
   SurfacePlace later;             ///< where a substep has come to
   WaterInside inside;             ///< there
   WaterLeft left;                 ///< water in the holds where a substep begins
-  SloshAlong slosh[2];            ///< modes of one hold, before they act on the body
   SurfacePlace* place = nullptr;  ///< that of now: that of the flotation at the start, or `later`
 
-  const SurfaceModel& model() const { return flight->task.model; }
+  const SurfaceModel& model() const { return flight->model; }
   /// True: there is water in the holds.
   bool hasWater() const { return place->inside_F != nullptr; }
-  Sloshing* sloshing() const { return flight->task.water.sloshing->moved.data(); }
+  Sloshing* sloshing() const { return flight->water.sloshing->moved.data(); }
 };
-
-/// Number of substeps of at most a length [s].
-int substepsOf(double duration, double longest, int most) {
-  const double wanted = std::ceil(duration / longest * (1 - 1e-9));
-  return wanted < most ? std::max(1, static_cast<int>(wanted)) : most;
-}
 
 /// Whether the step may give energy to the body.
 bool mayGain(const Progress& progress) {
   const bool has_wind = progress.model().loads_above.loads && !progress.wind_W.isZero(0);
-  return has_wind || progress.flight->task.surroundings.hasTorque();
+  return has_wind || progress.flight->surroundings.hasTorque();
 }
 
 /// Flights of several bodies, one per lane.
@@ -99,43 +91,42 @@ class SurfaceFlights {
   bool isActive(int i) const { return lanes_.flight.active[i] > 0; }
 
   void begin(int i, SurfaceFlight& flight) {
-    const SurfaceTask& task = flight.task;
-    const Surroundings& s = task.surroundings;
-    const FlightTask above{task.model.above, s, task.settings, task.duration};
+    const Surroundings& s = flight.surroundings;
+    const FlightTask above{flight.model.above, s, flight.settings, flight.duration};
     Progress& p = progress_[i];
     p.flight = &flight;
     p.start = flight.body.state;
-    p.start.twist.linear -= p.start.orientation.conjugate() * s.ambient_velocity;
-    p.wind_W = s.ambient_velocity - task.velocity_above;
+    enterFrame(s, p.start);
+    p.wind_W = s.ambient_velocity - flight.velocity_above;
     setSurroundings(lanes_.flight, i, above);
     lanes_.flight.velocity_scale[i] =
-        velocityScale({task.model.below, s, task.settings, task.duration});
-    lanes_.flight.precision[i] = kDriftAccuracy * task.settings.tolerance;
-    setLane(lanes_.flight.centre_of_volume_B, i, task.model.above.centre_of_volume);
-    setLane(lanes_.normal_W, i, task.plane_W.normal);
+        velocityScale({flight.model.below, s, flight.settings, flight.duration});
+    lanes_.flight.precision[i] = kDriftAccuracy * flight.settings.tolerance;
+    setLane(lanes_.flight.centre_of_volume_B, i, flight.model.above.centre_of_volume);
+    setLane(lanes_.normal_W, i, flight.plane_W.normal);
     const SurfacePlane plane_B =
-        seenFrom(task.plane_W, p.start.orientation.toRotationMatrix(), p.start.position);
+        seenFrom(flight.plane_W, p.start.orientation.toRotationMatrix(), p.start.position);
     lanes_.height_W[i] = plane_B.height;
-    p.rounding = energyOfRounding(task.model, flight.flotation, plane_B);
+    p.rounding = energyOfRounding(flight.model, flight.flotation, plane_B);
     setLane(lanes_.wind_W, i, p.wind_W);
-    AMBIENT_ASSERT(task.duration > 0 && isUnit(task.plane_W.normal));
-    has_loads_below_ = has_loads_below_ || task.model.loads_below.loads;
+    AMBIENT_ASSERT(flight.duration > 0 && isUnit(flight.plane_W.normal));
+    has_loads_below_ = has_loads_below_ || flight.model.loads_below.loads;
     lanes_.flight.has_resistance =
-        lanes_.flight.has_resistance || task.model.loads_below.resistance;
-    has_loads_above_ = has_loads_above_ || task.model.loads_above.loads;
-    has_still_axis_ = has_still_axis_ || !task.model.still_axis_B.isZero(0);
-    p.most = task.settings.max_substeps > 0 ? task.settings.max_substeps : kSurfaceSubsteps;
+        lanes_.flight.has_resistance || flight.model.loads_below.resistance;
+    has_loads_above_ = has_loads_above_ || flight.model.loads_above.loads;
+    has_still_axis_ = has_still_axis_ || !flight.model.still_axis_B.isZero(0);
+    p.most = flight.settings.max_substeps > 0 ? flight.settings.max_substeps : kSurfaceSubsteps;
     p.frequency = flight.flotation.frequency;
     const double remembered =
-        flight.body.memory.substep > 0 ? flight.body.memory.substep : task.duration;
+        flight.body.memory.substep > 0 ? flight.body.memory.substep : flight.duration;
     p.substeps =
-        substepsOf(task.duration, std::min(remembered, kLongestPhase / p.frequency), p.most);
+        substepsFor(flight.duration, std::min(remembered, kLongestPhase / p.frequency), p.most);
   }
 
   void restartBody(int i) {
     Progress& p = progress_[i];
     const SurfaceFlight& flight = *p.flight;
-    const double h = flight.task.duration / p.substeps;
+    const double h = flight.duration / p.substeps;
     lanes_.flight.kick_time[i] = lanes_.flight.drift_time[i] = h;
     lanes_.is_stiff[i] = h * p.frequency > kLongestPhase * (1 + 1e-9) ? 1 : 0;
     setLane(lanes_.flight.orientation, i, p.start.orientation);
@@ -156,8 +147,7 @@ class SurfaceFlights {
     p.error = p.energy_removed = 0;
     p.has_gained = false;
     if (!p.hasWater()) return;
-    if (!lanes_.water) lanes_.water = &water_.emplace();
-    VesselSloshing& sloshing = *flight.task.water.sloshing;
+    VesselSloshing& sloshing = *flight.water.sloshing;
     sloshing.moved = sloshing.now;
     const SloshingAt at = waterAt(i).sloshing();
     joinVessel(at, p.start.twist.vector(), p.sloshing());
@@ -171,33 +161,28 @@ class SurfaceFlights {
             vectorOf(lanes_.flight.displacement_W, i)};
   }
 
-  /// Lets the water in the holds slosh for half of a kick, one hold of each body after the other.
+  /// Lets the water in the holds slosh for half of a kick.
   void slosh() {
-    for (std::size_t hold = 0; setSlosh(hold); ++hold) {
-      kernel_.exchangeSloshing(lanes_);
-      for (int i = 0; i < count_; ++i)
-        if (hasHold(i, hold))
-          moveSlosh(*lanes_.water, i, progress_[i].slosh, progress_[i].sloshing() + hold);
-    }
-  }
-  bool hasHold(int i, std::size_t hold) const {
-    const Progress& p = progress_[i];
-    return p.hasWater() && hold < p.model().holds->shapes.size();
-  }
-  /// Sets the lanes of sloshing. False: no body has water and so many holds.
-  bool setSlosh(std::size_t hold) {
-    bool is_any = false;
     for (int i = 0; i < count_; ++i) {
       Progress& p = progress_[i];
-      if (!p.hasWater()) continue;
-      for (SloshOf<FlightLane>& lanes : lanes_.water->slosh) lanes.mass[i] = 0;
-      if (!isActive(i) || !hasHold(i, hold)) continue;
-      is_any = true;
-      if (hold == 0) lanes_.slosh_energy[i] = 0;
-      ambient::setSlosh(*lanes_.water, i, waterAt(i).sloshing(), hold, p.flight->task.water.damping,
-                        p.sloshing()[hold], p.slosh);
+      if (!isActive(i) || !p.hasWater()) continue;
+      const Sloshed end =
+          exchangeSloshing(waterAt(i).sloshing(), symmetricOf(lanes_.flight.inverse_inertia, i),
+                           p.flight->water.damping, 0.5 * lanes_.flight.kick_time[i],
+                           twistOf(lanes_.flight.twist_B, i).vector(), p.sloshing());
+      setLane(lanes_.flight.twist_B, i, Twist::fromVector(end.twist));
+      lanes_.slosh_energy[i] = end.energy;
     }
-    return is_any;
+  }
+
+  /// Brings the water in the holds of a body to the place where it has come to.
+  void shiftWater(int i) {
+    Progress& p = progress_[i];
+    SymmetricMatrix inertia = symmetricOf(lanes_.flight.inertia, i);
+    const Vector6 x = ambient::shiftWater(
+        p.left, waterAt(i), twistOf(lanes_.flight.twist_B, i).vector(), inertia, p.sloshing());
+    setLane(lanes_.flight.twist_B, i, Twist::fromVector(x));
+    setLane(lanes_.flight.inertia, i, inertia);
   }
 
   /// Brings the active bodies back to the start of the step.
@@ -290,7 +275,6 @@ class SurfaceFlights {
       places[i] = &p.later;
       if (isActive(i)) findPlace(i);
     }
-    kernel_.shiftWater(lanes_);
     computeFlotations(lanes_.flotation, models, places, count_);
     kernel_.changeInertia(lanes_);
     for (int i = 0; i < count_; ++i)
@@ -306,13 +290,12 @@ class SurfaceFlights {
                                plane.density, plane.gravity, plane.sides_F};
     const Immersion before = p.place->immersion_F;
     const bool has_water = p.hasWater();
-    const VesselWater& at_start = p.flight->task.water;
+    const VesselWater& at_start = p.flight->water;
     VesselWater water;
     if (has_water) water = {at_start.states, &p.inside, at_start.sloshing->later.data()};
     p.later = placeAt(p.model(), plane_B, water);
     p.place = &p.later;
-    lanes_.has_water[i] = has_water ? 1 : 0;
-    if (has_water) setMoved(*lanes_.water, i, moveWater(p.left, waterAt(i), p.sloshing()));
+    if (has_water) shiftWater(i);
     setPlace(lanes_.flotation, i, p.model(), p.later);
     setLane(lanes_.centre_of_buoyancy, i, centreOfBuoyancy(p.model(), p.later));
     const MeanDepths depths = meanDepths(before, p.later.immersion_F);
@@ -340,7 +323,7 @@ class SurfaceFlights {
 
   Wrench loadAt(int i, const Twist& x) {
     Progress& p = progress_[i];
-    const Surroundings& s = p.flight->task.surroundings;
+    const Surroundings& s = p.flight->surroundings;
     const SurfaceLoad load = loadBelow(p.model(), *p.place, x, s.load_scale, s.flow);
     setGrowth(i, load.growth);
     ++p.count.load_evaluations;
@@ -410,17 +393,17 @@ class SurfaceFlights {
   /// Accepts the attempt, or sets a larger number of substeps for the next one.
   void acceptOrRepeat(int i, int attempt) {
     Progress& p = progress_[i];
-    const SurfaceTask& task = p.flight->task;
+    const SurfaceFlight& task = *p.flight;
     const double ratio = p.error / task.settings.tolerance, h = task.duration / p.substeps;
     const double next = ratio > 0 ? std::min(4 * h, 0.9 * h / std::sqrt(ratio)) : 4 * h;
-    const int needed = substepsOf(task.duration, kLongestPhase / p.frequency, p.most);
+    const int needed = substepsFor(task.duration, kLongestPhase / p.frequency, p.most);
     const bool is_coarse = ratio > kMostSurfaceError || p.has_gained;
     const bool is_fine = !is_coarse && needed <= p.substeps;
     const bool is_last = p.substeps == p.most || (attempt >= kSurfaceAttempts && !p.has_gained);
     if (!is_fine && !is_last) {
       const int more = p.has_gained ? 2 * p.substeps : p.substeps + 1;
       p.substeps =
-          std::min(p.most, std::max({more, needed, substepsOf(task.duration, next, p.most)}));
+          std::min(p.most, std::max({more, needed, substepsFor(task.duration, next, p.most)}));
       return;
     }
     if (p.has_gained) halt(i);
@@ -449,8 +432,6 @@ class SurfaceFlights {
   void finish(int i, double next_substep, bool is_coarse) {
     Progress& p = progress_[i];
     SurfaceFlight& flight = *p.flight;
-    const Surroundings& s = flight.task.surroundings;
-    const double t = flight.task.duration;
     const bool is_drift_coarse = lanes_.flight.is_coarse[i] > 0;
     p.count.coarse = is_coarse || is_drift_coarse;
     if (p.count.coarse) p.count.error = is_drift_coarse || p.count.halted ? 1 : p.error;
@@ -459,19 +440,17 @@ class SurfaceFlights {
     body.count = p.count;
     body.memory = {wrenchOf(lanes_.flight.load_W, i), p.growth, p.has_load, next_substep};
     body.state = stateOf(lanes_.flight, i, p.start.position);
-    body.state.position += t * s.ambient_velocity + t * t / 2 * s.ambient_acceleration;
-    body.state.twist.linear +=
-        body.state.orientation.conjugate() * (s.ambient_velocity + t * s.ambient_acceleration);
+    leaveFrame(flight.surroundings, flight.duration, body.state);
     forEachNumber(flight.waves, lanes_.waves,
                   [&](double& to, const FlightLane& from) { to = from[i]; });
     if (p.place == &p.later) {
       static_cast<SurfacePlace&>(flight.flotation) = p.later;
       if (p.later.inside_F) {
-        VesselSloshing& sloshing = *flight.task.water.sloshing;
-        *flight.task.water.inside = p.inside;  // with the modes, which change places
+        VesselSloshing& sloshing = *flight.water.sloshing;
+        *flight.water.inside = p.inside;  // with the modes, which change places
         std::swap(sloshing.modes, sloshing.later);
         std::swap(sloshing.now, sloshing.moved);
-        flight.flotation.inside_F = flight.task.water.inside;
+        flight.flotation.inside_F = flight.water.inside;
       }
       readFlotation(lanes_.flotation, i, flight.flotation);
     }
@@ -483,7 +462,6 @@ class SurfaceFlights {
   int count_;
   bool has_loads_below_ = false, has_loads_above_ = false, has_still_axis_ = false;
   SurfaceLanes lanes_{};
-  std::optional<WaterLanes> water_;
   Progress progress_[kFlightLanes];
 };
 

@@ -5,8 +5,9 @@
 
 namespace ambient {
 
-/// One body near a water surface over one step.
-struct SurfaceTask {
+/// One body near a water surface over one step: its state at the start of the step before
+/// flyAtSurface(), at its end afterwards.
+struct SurfaceFlight {
   const SurfaceModel& model;
   /// Plane of the surface at the start of the step, in W; only normal and height count. The plane
   /// moves with the water; the normal is against gravity as the water feels it.
@@ -15,13 +16,9 @@ struct SurfaceTask {
   const Surroundings& surroundings;
   Vector3 velocity_above;  ///< velocity of the fluid above, world axes [m/s]
   const FlightSettings& settings;
-  double duration;         ///< [s], > 0
-  VesselWater water = {};  ///< of the flotation
-};
+  double duration;    ///< [s], > 0
+  VesselWater water;  ///< of the flotation
 
-/// Task and state of a body: at the start of the step before flyAtSurface(), at its end afterwards.
-struct SurfaceFlight {
-  SurfaceTask task;
   FlightResult& body;  ///< twist absolute, in B
   WaveMemory& waves;
   Flotation& flotation;  ///< flotation at the pose of `body`

@@ -153,7 +153,7 @@ WetVolume wetVolumeAt(const SurfaceModel& model, const SurfacePlane& plane_B,
   if (frame.isIdentity() && !water) return wetVolumeInF(model, plane_B);
   const SurfacePlane plane_F = seenFrom(plane_B, frame);
   const WetVolume wet = wetVolumeInF(model, plane_F);
-  return (water ? waterInside(*model.holds, water, plane_F, {frame, model.excess_density}).with(wet)
+  return (water ? waterInside(*model.holds, water, plane_F, frame, model.excess_density).with(wet)
                 : wet)
       .inB(frame);
 }

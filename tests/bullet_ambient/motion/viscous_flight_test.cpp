@@ -7,7 +7,7 @@
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/motion/body/one_body.h"
-#include "bullet_ambient/motion/lanes/viscous_kernel.h"
+#include "bullet_ambient/motion/lanes/body_kernel.h"
 #include "bullet_ambient/spatial/cholesky.h"
 #include "tests/support/bodies/ellipsoid_body.h"
 #include "tests/support/bodies/free_body.h"

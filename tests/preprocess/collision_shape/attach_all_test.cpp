@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bullet_ambient/ambient.h"
-#include "bullet_ambient/motion/surface/flotation_lanes.h"
+#include "bullet_ambient/motion/surface/flotation.h"
 #include "bullet_ambient/saved_state.h"
 #include "preprocess/builder/shape_builder.h"
 #include "preprocess/collision_shape/fluid_body_cache.h"

@@ -48,8 +48,9 @@ class FreeBody {
   }
   /// Angular momentum about the origin of the world.
   Momentum worldMomentum() const {
-    const WorldMomentum m = ambient::worldMomentum(model_, state);
-    return {m.angular + m.pivot.cross(m.linear), m.linear};
+    const Vector6 m_B = pairOfTwist(model_, state.twist.vector()).momentum;
+    const Twist m = turned(state.orientation, Twist::fromVector(m_B));
+    return {m.angular + state.position.cross(m.linear), m.linear};
   }
 
  private:

@@ -7,7 +7,7 @@
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
-#include "bullet_ambient/motion/surface/flotation_lanes.h"
+#include "bullet_ambient/motion/surface/flotation.h"
 #include "bullet_ambient/spatial/rotation.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/support/bodies/vessel_bodies.h"

@@ -7,7 +7,7 @@
 
 #include "bullet_ambient/bullet/core/conversions.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
-#include "bullet_ambient/motion/surface/flotation_lanes.h"
+#include "bullet_ambient/motion/surface/flotation.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/collision_shape/collision_shape_body.h"

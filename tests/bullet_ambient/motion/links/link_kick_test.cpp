@@ -1,4 +1,4 @@
-#include "bullet_ambient/motion/links/link_kick.h"
+#include "bullet_ambient/motion/links/link_flight.h"
 
 #include <gtest/gtest.h>
 

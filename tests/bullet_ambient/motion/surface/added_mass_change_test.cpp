@@ -1,13 +1,12 @@
-#include "bullet_ambient/motion/lanes/added_mass_change.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "bullet_ambient/motion/body/body_model.h"
 #include "bullet_ambient/motion/body/one_body.h"
-#include "bullet_ambient/motion/surface/symmetric_matrix.h"
+#include "bullet_ambient/motion/lanes/floating_kernel.h"
 #include "demos/integrators/integrators.h"
 #include "tests/support/bodies/free_body.h"
 #include "tests/support/bodies/random_bodies.h"

@@ -5,7 +5,6 @@
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/motion/surface/flotation.h"
-#include "bullet_ambient/motion/surface/flotation_lanes.h"
 #include "tests/support/bodies/random_bodies.h"
 #include "tests/support/matrices.h"
 

@@ -189,8 +189,7 @@ double columnAt(double depth) {
 /// Energy of the water in the holds and of the air over it, docs/theory.md eq. (135), (148) [J].
 double energyOf(const HoldShapes& holds, const SurfacePlane& plane,
                 const std::vector<HoldState>& water) {
-  double energy =
-      kWeight * waterInside(holds, water.data(), plane, {{}, 1000}).below.depth_integral;
+  double energy = kWeight * waterInside(holds, water.data(), plane, {}, 1000).below.depth_integral;
   for (std::size_t i = 0; i < water.size(); ++i)
     energy += water[i].is_sealed
                   ? energyOfAir(water[i].air, holds.shapes[i].capacity() - water[i].volume, kAir)

@@ -1,5 +1,3 @@
-#include "bullet_ambient/motion/surface/sloshing.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <limits>
 
 #include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/motion/surface/hold_water.h"
 #include "bullet_ambient/spatial/cholesky.h"
 #include "tests/bullet_ambient/motion/surface/barge_runs.h"
 #include "tests/support/bodies/random_bodies.h"
@@ -55,7 +54,7 @@ TEST(Sloshing, OfAVesselThatIsHeldIsTheMidpointRule) {
   constexpr int kSteps = 100;
   for (int i = 0; i < kSteps; ++i) {
     const Vector6 x =
-        exchangeSloshing(water.at(), SymmetricMatrix(), 0, step, Vector6::Zero(), &state);
+        exchangeSloshing(water.at(), SymmetricMatrix(), 0, step, Vector6::Zero(), &state).twist;
     EXPECT_EQ(x.norm(), 0);
   }
   const double turned = kSteps * 2 * std::atan(rate * step / 2);
@@ -104,7 +103,8 @@ TEST(Sloshing, KeepsMomentumAndEnergyWithAnyBody) {
     const Vector6 momentum = momentumOf(x);
     const double damping = i % 2 == 0 ? 0.1 : 0, step = std::pow(10, arbitrary.between(-3, 1));
     const Vector6 end = exchangeSloshing(at, SymmetricMatrix(Cholesky<6>(inertia).inverse()),
-                                         damping, step, x, &state);
+                                         damping, step, x, &state)
+                            .twist;
     EXPECT_LT((momentumOf(end) - momentum).norm(), 1e-9 * momentum.norm());
     if (damping > 0) {
       EXPECT_LT(energyOf(end), energy);
