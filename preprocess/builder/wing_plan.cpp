@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "bullet_ambient/base/fnv1a.h"
-#include "preprocess/mesh/import/scene_triangles.h"
+#include "preprocess/mesh/import/mesh_import.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/wings/wing_numbers.h"
 #include "preprocess/mesh/wings/wing_search.h"

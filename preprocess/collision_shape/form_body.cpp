@@ -9,7 +9,7 @@
 #include "bullet_ambient/base/fnv1a.h"
 #include "bullet_ambient/spatial/vector_types.h"
 #include "preprocess/added_mass_tables/known_added_mass.h"
-#include "preprocess/base/matrices.h"
+#include "preprocess/base/numerics.h"
 #include "preprocess/collision_shape/solids.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/triangle_mesh.h"

@@ -30,7 +30,7 @@
 
 #include "bullet_ambient/base/elementary.h"
 #include "preprocess/mesh/geometry.h"
-#include "preprocess/mesh/import/scene_triangles.h"
+#include "preprocess/mesh/import/mesh_import.h"
 #include "preprocess/mesh/triangle_mesh.h"
 
 namespace ambient {

@@ -17,7 +17,7 @@
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/spatial/inertia.h"
-#include "preprocess/base/matrices.h"
+#include "preprocess/base/numerics.h"
 #include "preprocess/base/parallel_for.h"
 #include "preprocess/mesh/editable_mesh.h"
 #include "preprocess/mesh/mass_properties.h"

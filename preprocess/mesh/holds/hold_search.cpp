@@ -13,7 +13,6 @@
 #include "preprocess/mesh/defects/surface_crossing.h"
 #include "preprocess/mesh/geometry.h"
 #include "preprocess/mesh/holds/hold_labels.h"
-#include "preprocess/mesh/holds/level_rims.h"
 #include "preprocess/mesh/holds/pools.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mass_properties.h"

@@ -39,4 +39,23 @@ class TriangleTree {
   std::vector<Node> nodes_;
 };
 
+/// Point of a closed surface, and the solid behind it.
+struct SurfaceSample {
+  Eigen::Vector3d place, normal;  ///< normal into the fluid
+  Eigen::Vector3d middle;         ///< half way through the solid: on its mean surface
+  int triangle = 0;
+  double thickness = 0;  ///< way through the solid against the normal [m]
+  bool is_thin = false;  ///< thickness below 0.3 of the shortest way across it
+};
+
+/// Points spread evenly over a closed surface.
+struct SurfaceSamples {
+  std::vector<SurfaceSample> all;
+  double spacing = 0;  ///< root of the area of each [m]
+};
+
+/// Spreads points over the area, the same in every call. Cost: `count` times seven lines through
+/// the solid.
+SurfaceSamples sampleSurface(const TriangleMesh& mesh, const TriangleTree& tree, int count);
+
 }  // namespace ambient

@@ -13,7 +13,7 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
-#include "preprocess/base/matrices.h"
+#include "preprocess/base/numerics.h"
 #include "preprocess/base/parallel_for.h"
 #include "preprocess/mesh/check/mesh_checks.h"
 #include "preprocess/potential_flow/results/added_mass_parts.h"

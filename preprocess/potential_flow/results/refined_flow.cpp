@@ -7,7 +7,7 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/spatial/inertia.h"
-#include "preprocess/base/matrices.h"
+#include "preprocess/base/numerics.h"
 #include "preprocess/mesh/check/mesh_checks.h"
 #include "preprocess/mesh/geometry.h"
 #include "preprocess/mesh/mass_properties.h"
