@@ -11,7 +11,7 @@
 #include "preprocess/mesh/wings/wing_search.h"
 #include "preprocess/shape/json_schema.h"
 #include "preprocess/shape/shape_mesh.h"
-#include "preprocess/shape/wing_list.h"
+#include "preprocess/shape/shape_reader.h"
 
 namespace ambient {
 namespace {

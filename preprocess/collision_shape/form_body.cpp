@@ -18,7 +18,6 @@
 #include "preprocess/potential_flow/results/refined_flow.h"
 #include "preprocess/potential_flow/surface/shape_symmetry.h"
 #include "preprocess/reduced_loads/form_levels.h"
-#include "preprocess/reduced_loads/levels_by_rule.h"
 #include "preprocess/resistance/separation.h"
 #include "preprocess/resistance/stokes_resistance.h"
 

@@ -15,7 +15,6 @@
 #include "bullet_ambient/force/loads/face_loads.h"
 #include "preprocess/base/numerics.h"
 #include "preprocess/base/surface_form.h"
-#include "preprocess/reduced_loads/face_clusters.h"
 
 namespace ambient {
 namespace {

@@ -1,5 +1,3 @@
-#include "preprocess/reduced_loads/levels_by_rule.h"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -8,6 +6,7 @@
 #include "bullet_ambient/base/pi.h"
 #include "preprocess/base/numerics.h"
 #include "preprocess/base/surface_form.h"
+#include "preprocess/reduced_loads/form_levels.h"
 
 namespace ambient {
 namespace {

@@ -24,9 +24,9 @@
 #include "preprocess/mesh/wrap/surface_wrap.h"
 #include "preprocess/potential_flow/results/ellipsoid_added_mass.h"
 #include "preprocess/potential_flow/surface/flat_merging.h"
+#include "preprocess/potential_flow/surface/panel.h"
 #include "preprocess/potential_flow/surface/panel_surface.h"
 #include "preprocess/potential_flow/surface/panel_views.h"
-#include "preprocess/potential_flow/surface/quadrature_rules.h"
 #include "preprocess/potential_flow/surface/shape_symmetry.h"
 #include "preprocess/potential_flow/surface/surface_refinement.h"
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "preprocess/mesh/checked_mesh.h"
-#include "preprocess/mesh/defects/surface_check.h"
 #include "preprocess/mesh/defects/surface_crossing.h"
 #include "preprocess/mesh/defects/topology_defects.h"
 #include "preprocess/mesh/triangle_mesh.h"

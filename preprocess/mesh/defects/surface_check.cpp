@@ -1,4 +1,3 @@
-#include "preprocess/mesh/defects/surface_check.h"
 
 #include <algorithm>
 #include <cmath>

@@ -15,7 +15,6 @@
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/spatial/rotation.h"
-#include "preprocess/mesh/defects/surface_check.h"
 #include "preprocess/mesh/defects/surface_crossing.h"
 #include "preprocess/mesh/defects/topology_defects.h"
 #include "preprocess/mesh/geometry.h"

@@ -14,7 +14,6 @@
 #include "preprocess/mesh/wrap/surface_wrap.h"
 #include "preprocess/potential_flow/surface/flat_merging.h"
 #include "preprocess/potential_flow/surface/panel.h"
-#include "preprocess/potential_flow/surface/quadrature_rules.h"
 #include "preprocess/potential_flow/surface/shape_symmetry.h"
 #include "preprocess/potential_flow/surface/surface_refinement.h"
 

@@ -18,8 +18,8 @@
 #include "preprocess/potential_flow/operators/far_moments.h"
 #include "preprocess/potential_flow/operators/near_moments.h"
 #include "preprocess/potential_flow/solvers/block_product.h"
+#include "preprocess/potential_flow/surface/panel.h"
 #include "preprocess/potential_flow/surface/panel_pair.h"
-#include "preprocess/potential_flow/surface/quadrature_rules.h"
 
 namespace ambient {
 

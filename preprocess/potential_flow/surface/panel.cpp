@@ -5,7 +5,6 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "preprocess/potential_flow/surface/panel_views.h"
-#include "preprocess/potential_flow/surface/quadrature_rules.h"
 
 namespace ambient {
 

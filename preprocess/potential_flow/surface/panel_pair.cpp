@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "bullet_ambient/base/elementary.h"
-#include "preprocess/potential_flow/surface/quadrature_rules.h"
+#include "preprocess/potential_flow/surface/panel.h"
 
 namespace ambient {
 namespace {
