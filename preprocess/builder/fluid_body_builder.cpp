@@ -20,6 +20,7 @@
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/triangle_mesh.h"
+#include "preprocess/mesh/wings/triangle_tree.h"
 #include "preprocess/potential_flow/results/added_mass_parts.h"
 #include "preprocess/potential_flow/results/refined_flow.h"
 #include "preprocess/potential_flow/surface/surface_refinement.h"
@@ -34,9 +35,7 @@ namespace {
 
 /// Whether a point is in a closed mesh, whichever way its normals look.
 bool isIn(const TriangleMesh& mesh, const Vector3& point) {
-  double angle = 0;
-  for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) angle += solidAngle(mesh, t, point);
-  return std::abs(angle) > 2 * kPi;
+  return std::abs(solidAngle(mesh, point)) > 2 * kPi;
 }
 
 /// Points a little inside the faces of a closed mesh: near their corners, and in their middle.
@@ -116,10 +115,9 @@ NearestWall nearestWall(const std::vector<Hold>& holds, const Vector3& place) {
   NearestWall nearest;
   for (std::size_t i = 0; i < holds.size(); ++i) {
     const TriangleMesh walls = meshOf(holds[i].surface);
-    for (Eigen::Index t = 0; t < walls.triangleCount(); ++t) {
-      const double distance = (nearestPoint(cornersOf(walls, t), place) - place).norm();
-      if (distance < nearest.distance) nearest = {i, distance};
-    }
+    const int wall = TriangleTree(walls).nearest(place);
+    const double distance = (nearestPoint(cornersOf(walls, wall), place) - place).norm();
+    if (distance < nearest.distance) nearest = {i, distance};
   }
   return nearest;
 }

@@ -114,15 +114,13 @@ MirroredMesh withImage(const TriangleMesh& wet) {
   MirroredMesh mirrored;
   AMBIENT_ASSERT(wet.vertexCount() == 0 || wet.vertices.row(2).maxCoeff() <= 0);
   mirrored.image.resize(wet.vertexCount());
-  std::vector<Vector3d> vertices;
-  for (Index v = 0; v < wet.vertexCount(); ++v) vertices.push_back(wet.vertices.col(v));
+  std::vector<Vector3d> vertices = columnsOf(wet.vertices);
   for (Index v = 0; v < wet.vertexCount(); ++v) {
     const Vector3d point = wet.vertices.col(v);
     mirrored.image[v] = static_cast<int>(point.z() == 0 ? v : vertices.size());
     if (point.z() != 0) vertices.emplace_back(point.x(), point.y(), -point.z());
   }
-  std::vector<Vector3i> triangles;
-  for (Index t = 0; t < wet.triangleCount(); ++t) triangles.push_back(wet.triangles.col(t));
+  std::vector<Vector3i> triangles = columnsOf(wet.triangles);
   for (Index t = 0; t < wet.triangleCount(); ++t) {
     const Vector3i corners = wet.triangles.col(t);
     triangles.emplace_back(mirrored.image[corners[0]], mirrored.image[corners[2]],

@@ -20,6 +20,7 @@
 #include "preprocess/mesh/import/mesh_import.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mass_properties.h"
+#include "preprocess/mesh/wings/triangle_tree.h"
 #include "preprocess/potential_flow/results/refined_flow.h"
 #include "preprocess/shape/shape_mesh.h"
 

@@ -257,24 +257,12 @@ CheckedMesh orientShells(const TriangleMesh& mesh, const MeshEdges& edges,
 }
 
 CheckedMesh withoutUnusedVertices(const TriangleMesh& mesh, const std::string& name) {
-  std::vector<int> new_index(mesh.vertexCount(), -1);
-  for (Eigen::Index i = 0; i < mesh.triangles.size(); ++i) new_index[mesh.triangles.data()[i]] = 0;
-  int used = 0;
-  for (int& index : new_index) {
-    if (index == 0) index = used++;
-  }
-  CheckedMesh result{mesh, {}};
-  if (used == mesh.vertexCount()) return result;
-  result.mesh.vertices.resize(3, used);
-  for (Eigen::Index v = 0; v < mesh.vertexCount(); ++v) {
-    if (new_index[v] >= 0) result.mesh.vertices.col(new_index[v]) = mesh.vertices.col(v);
-  }
-  for (Eigen::Index i = 0; i < mesh.triangles.size(); ++i) {
-    result.mesh.triangles.data()[i] = new_index[mesh.triangles.data()[i]];
-  }
-  result.warnings.push_back(name + ": " + std::to_string(mesh.vertexCount() - used) +
-                            " vertices belong to no triangle and were left out");
-  return result;
+  TriangleMesh used = withUsedVertices(mesh.vertices, columnsOf(mesh.triangles));
+  const Eigen::Index unused = mesh.vertexCount() - used.vertexCount();
+  if (unused == 0) return {mesh, {}};
+  return {
+      std::move(used),
+      {name + ": " + std::to_string(unused) + " vertices belong to no triangle and were left out"}};
 }
 
 }  // namespace

@@ -151,33 +151,25 @@ constexpr double kSameLevel = 1e-9;  // of the depth
 class Divider {
  public:
   Divider(const TriangleMesh& mesh, const Vector3d& up, double level)
-      : mesh_(mesh), heights_(mesh.vertices.transpose() * up), level_(level) {
+      : heights_(mesh.vertices.transpose() * up),
+        level_(level),
+        vertices_(columnsOf(mesh.vertices)) {
     for (const auto& corners : mesh.triangles.colwise()) divide(corners);
   }
 
-  TriangleMesh mesh() const {
-    TriangleMesh divided = mesh_;
-    divided.vertices.conservativeResize(
-        3, mesh_.vertexCount() + static_cast<Eigen::Index>(added_.size()));
-    for (std::size_t i = 0; i < added_.size(); ++i)
-      divided.vertices.col(mesh_.vertexCount() + static_cast<Eigen::Index>(i)) = added_[i];
-    divided.triangles.resize(3, static_cast<Eigen::Index>(triangles_.size()));
-    for (std::size_t i = 0; i < triangles_.size(); ++i)
-      divided.triangles.col(static_cast<Eigen::Index>(i)) = triangles_[i];
-    return divided;
-  }
+  TriangleMesh mesh() const { return makeTriangleMesh(vertices_, triangles_); }
 
  private:
   bool isAbove(int vertex) const { return heights_[vertex] >= level_; }
 
   int vertexOn(int a, int b) {
     const auto [low, high] = std::minmax(a, b);
-    const int next = static_cast<int>(mesh_.vertexCount()) + static_cast<int>(added_.size());
-    const auto [place, is_new] = vertex_on_.emplace(std::pair(low, high), next);
+    const auto [place, is_new] =
+        vertex_on_.emplace(std::pair(low, high), static_cast<int>(vertices_.size()));
     if (is_new) {
-      const Vector3d from = mesh_.vertices.col(low), to = mesh_.vertices.col(high);
+      const Vector3d from = vertices_[low], to = vertices_[high];
       const double share = (level_ - heights_[low]) / (heights_[high] - heights_[low]);
-      added_.push_back(from + share * (to - from));
+      vertices_.push_back(from + share * (to - from));
     }
     return place->second;
   }
@@ -196,11 +188,10 @@ class Divider {
     triangles_.insert(triangles_.end(), {{a, p, q}, {p, b, c}, {p, c, q}});
   }
 
-  const TriangleMesh& mesh_;
   const Eigen::VectorXd heights_;
   const double level_;
   std::map<std::pair<int, int>, int> vertex_on_;  // an edge, (low, high)
-  std::vector<Vector3d> added_;
+  std::vector<Vector3d> vertices_;                // those of the mesh first
   std::vector<Eigen::Vector3i> triangles_;
 };
 

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
 #include "preprocess/base/numerics.h"
@@ -183,6 +184,20 @@ SurfaceSamples sampleSurface(const TriangleMesh& mesh, const TriangleTree& tree,
     samples.all.push_back(sample);
   }
   return samples;
+}
+
+std::optional<Thickness> findThinnestPart(const TriangleMesh& mesh) {
+  AMBIENT_ASSERT(isClosed(computeMeshEdges(mesh)));
+  constexpr Eigen::Index kMostRays = 2000;
+  const Eigen::Index step = std::max<Eigen::Index>(1, mesh.triangleCount() / kMostRays);
+  const TriangleTree tree(mesh);
+  std::optional<Thickness> thinnest;
+  for (Eigen::Index t = 0; t < mesh.triangleCount(); t += step) {
+    const double thickness = tree.leave(mesh.barycentre(t), -mesh.twiceArea(t).normalized());
+    if (!(thickness < (thinnest ? thinnest->thickness : TriangleTree::kNever))) continue;
+    thinnest = Thickness{thickness, static_cast<int>(t), mesh.barycentre(t)};
+  }
+  return thinnest;
 }
 
 }  // namespace ambient

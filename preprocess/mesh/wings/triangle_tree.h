@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "preprocess/mesh/triangle_mesh.h"
@@ -57,5 +58,17 @@ struct SurfaceSamples {
 /// Spreads points over the area, the same in every call. Cost: `count` times seven lines through
 /// the solid.
 SurfaceSamples sampleSurface(const TriangleMesh& mesh, const TriangleTree& tree, int count);
+
+/// The thinnest place of a body.
+struct Thickness {
+  double thickness = 0;  ///< distance from a barycentre straight inwards to the other side [m]
+  int triangle = 0;
+  Eigen::Vector3d barycentre = Eigen::Vector3d::Zero();  ///< [m]
+};
+
+/// Finds the least thickness over the barycentres of at most some 2000 triangles, evenly chosen;
+/// none if no ray meets another side. Cost O(T log T).
+/// @pre closed and outward oriented.
+std::optional<Thickness> findThinnestPart(const TriangleMesh& mesh);
 
 }  // namespace ambient

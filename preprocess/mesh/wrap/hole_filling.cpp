@@ -178,23 +178,20 @@ FilledMesh withHolesFilled(const TriangleMesh& mesh) {
   const std::vector<Cap> caps = makeCaps(mesh, edges, components);
   const std::vector<double> areas = areasOf(mesh, components);
   const double whole = std::accumulate(areas.begin(), areas.end(), 0.0);
-  FilledMesh filled{mesh};
+  FilledMesh filled;
   std::vector<bool> is_sheet(components.count, false);
   for (const Cap& cap : caps) {
     if (cap.area > kSheet * areas[cap.component]) is_sheet[cap.component] = true;
     if (cap.area > kSheet * whole) filled.is_sheet = true;
   }
-  std::vector<Vector3i> added;
+  std::vector<Vector3i> triangles = columnsOf(mesh.triangles);
   for (const Cap& cap : caps) {
     if (is_sheet[cap.component]) continue;
-    added.insert(added.end(), cap.triangles.begin(), cap.triangles.end());
+    triangles.insert(triangles.end(), cap.triangles.begin(), cap.triangles.end());
     filled.area += cap.area;
     ++filled.holes;
   }
-  const Eigen::Index before = mesh.triangleCount();
-  filled.mesh.triangles.conservativeResize(3, before + static_cast<Eigen::Index>(added.size()));
-  for (std::size_t i = 0; i < added.size(); ++i)
-    filled.mesh.triangles.col(before + static_cast<Eigen::Index>(i)) = added[i];
+  filled.mesh = makeTriangleMesh(mesh.vertices, triangles);
   return filled;
 }
 
