@@ -34,11 +34,10 @@ class SourceTriangles {
  public:
   SourceTriangles(const ShapeDescription& shape, double scale, const TriangleMesh& mesh) {
     const auto* file = std::get_if<MeshFile>(&shape.geometry);
-    const auto* sheet = std::get_if<MeshSheet>(&shape.geometry);
-    if (!file && !sheet) return;
-    scene_ = readSceneTriangles(file ? file->file : sheet->file);
-    scene_.mesh.vertices *= scale * (file ? file->scale : sheet->scale);
-    if (file) scene_.mesh.vertices = file->stretch.asDiagonal() * scene_.mesh.vertices;
+    if (!file) return;
+    scene_ = readSceneTriangles(file->file);
+    scene_.mesh.vertices *= scale * file->scale;
+    scene_.mesh.vertices = file->stretch.asDiagonal() * scene_.mesh.vertices;
     const TriangleTree tree(scene_.mesh);
     for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t)
       source_.push_back(tree.nearest(mesh.barycentre(t)));

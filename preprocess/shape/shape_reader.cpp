@@ -68,7 +68,9 @@ Geometry readSheet(const ShapeSource& from) {
   const std::string key = requireOneOf(from, {"size", "semi_axes", "file"});
   if (key == "file") {
     refuseKey(from, "faces", "has no meaning with \"file\": the mesh has its own");
-    return MeshSheet{fileOf(from), scaleOf(from)};
+    MeshFile mesh{fileOf(from), scaleOf(from)};
+    mesh.sheet = true;
+    return mesh;
   }
   refuseKey(from, "scale", "has no meaning without \"file\"");
   if (key == "size") return RectangleSheet{vectorOf<2>(from.shape["size"])};

@@ -149,8 +149,6 @@ ordered_json outcomeJson(const Outcome& outcome) {
 ImportedMesh importInput(const ShapeDescription& shape) {
   if (const auto* mesh = std::get_if<MeshFile>(&shape.geometry))
     return importMesh(mesh->file, mesh->scale);
-  if (const auto* sheet = std::get_if<MeshSheet>(&shape.geometry))
-    return importMesh(sheet->file, sheet->scale);
   raiseInputError(shape.source, "only meshes are checked: a shape without one is right");
 }
 
@@ -158,7 +156,7 @@ ImportedMesh importInput(const ShapeDescription& shape) {
 CheckedMesh checkInput(const ReadInput& input, const ShapeDescription& shape) {
   TriangleMesh mesh = input.imported.mesh;
   mesh.vertices *= input.arguments.options.scale;
-  CheckedMesh checked = checkMesh(mesh, shape.source, {isSheet(shape)});
+  CheckedMesh checked = checkMesh(mesh, shape.source, isSheet(shape));
   if (!isSheet(shape)) checked.addDefects(findCrossings(checked.mesh));
   return checked;
 }
