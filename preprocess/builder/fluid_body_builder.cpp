@@ -246,14 +246,6 @@ void requireNearOrigin(const TriangleMesh& mesh, const Eigen::Vector3d& origin,
                   kFarthest, " times its size of ", size, " m");
 }
 
-RefinedFlow solveFlow(const TriangleMesh& mesh, const BuildSettings& settings) {
-  try {
-    return solveRefinedFlow(mesh, settings.flow);
-  } catch (const std::runtime_error& error) {
-    raiseInputError(sourceOf(settings), error.what());
-  }
-}
-
 /// Refuses an added mass that is not finite, which no limit above has caught.
 void requireFinite(const Matrix6& added_mass, const TriangleMesh& mesh, const std::string& source) {
   if (added_mass.allFinite()) return;
@@ -286,14 +278,6 @@ void tellStage(const BuildSettings& settings, const std::string& stage) {
   if (settings.begin) settings.begin(stage);
 }
 
-void complete(FluidBody& body, const KnownViscousFlow& known, const BuildSettings& settings) {
-  try {
-    prepare(body, known, settings.flow.threads);
-  } catch (const std::runtime_error& error) {
-    raiseInputError(sourceOf(settings), error.what());
-  }
-}
-
 WaterlineTable waterlineOf(const FluidBody& body, const BuildSettings& settings) {
   WaterlineSettings waterline;
   waterline.subdivisions = settings.waterline_subdivisions;
@@ -302,13 +286,11 @@ WaterlineTable waterlineOf(const FluidBody& body, const BuildSettings& settings)
     tellStage(settings, "waterline table, " + std::to_string(done) + " of " +
                             std::to_string(attitudes) + " attitudes");
   };
-  try {
+  return withSource(sourceOf(settings) + ": waterline table", [&] {
     if (body.added_mass_parts.empty())
       throw std::runtime_error("the added mass is a sum, without parts that it could correct");
     return makeWaterlineTable(body, waterline);
-  } catch (const std::runtime_error& error) {
-    raiseInputError(sourceOf(settings), "waterline table: ", error.what());
-  }
+  });
 }
 
 /// Solves the flow about a mesh. Sets the added mass of the body, and where boundary layers leave
@@ -316,7 +298,8 @@ WaterlineTable waterlineOf(const FluidBody& body, const BuildSettings& settings)
 void takeFlow(const TriangleMesh& mesh, const BuildSettings& settings, FluidBody& body,
               KnownViscousFlow& viscous_flow) {
   tellStage(settings, "solving the flow");
-  const RefinedFlow flow = solveFlow(mesh, settings);
+  const RefinedFlow flow =
+      withSource(sourceOf(settings), [&] { return solveRefinedFlow(mesh, settings.flow); });
   if (flow.is_coarse && settings.warn) {
     settings.warn(
         sourceOf(settings) +
@@ -349,11 +332,8 @@ void takeWings(const TriangleMesh& mesh, const std::vector<int>& source_of,
   std::vector<std::uint8_t> labels;
   for (const int t : source_of)
     labels.push_back(settings.wings.labels[static_cast<std::size_t>(t)]);
-  try {
-    setWings(settings.wings, mesh, std::move(labels), settings.flow.sheet, body);
-  } catch (const std::runtime_error& error) {
-    raiseInputError(sourceOf(settings), error.what());
-  }
+  withSource(sourceOf(settings),
+             [&] { setWings(settings.wings, mesh, std::move(labels), settings.flow.sheet, body); });
 }
 
 }  // namespace
@@ -433,7 +413,7 @@ FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& se
   takeWings(mesh, divided.face, settings, body);
   AMBIENT_ASSERT(settings.sphere_radius >= 0);
   if (settings.sphere_radius > 0) setSphere(settings.sphere_radius, body);
-  complete(body, viscous_flow, settings);
+  withSource(sourceOf(settings), [&] { prepare(body, viscous_flow, settings.flow.threads); });
   if (settings.waterline_subdivisions == 0) return body;
   tellStage(settings, "waterline table");
   body.waterline = waterlineOf(body, settings);

@@ -98,11 +98,7 @@ TriangleMesh joined(const std::vector<Solid>& solids, TriangleMesh Solid::*surfa
 template <class Solve>
 auto solved(const CollisionShapeSettings& settings, const std::string& name, const Solve& solve) {
   tellStage(settings, "solving the flow");
-  try {
-    return solve();
-  } catch (const std::runtime_error& error) {
-    raiseInputError(name, error.what());
-  }
+  return withSource(name, solve);
 }
 
 struct AddedMass {

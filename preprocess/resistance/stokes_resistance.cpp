@@ -247,15 +247,6 @@ PanelGroups groupsOf(const TriangleMesh& mesh, const StokesSettings& settings) {
   return groups;
 }
 
-/// Whether all triangles but a few stand for a part of a smooth surface: they are the panels as
-/// they are.
-bool isSmooth(const TriangleMesh& mesh) {
-  constexpr double kFlatShare = 0.05;
-  const std::vector<FaceBulge> bulges = estimateBulges(mesh);
-  const auto flat = std::count(bulges.begin(), bulges.end(), FaceBulge{0, 0, 0});
-  return static_cast<double>(flat) < kFlatShare * static_cast<double>(bulges.size());
-}
-
 /// A fine closed mesh in fewer triangles: as many as asked for, or so many that its parts are not
 /// lost.
 TriangleMesh inPanels(const TriangleMesh& mesh, int panels) {
@@ -275,7 +266,7 @@ SurfaceLevels panelsOf(const TriangleMesh& mesh, const StokesSettings& settings)
   const TriangleMesh merged = mergeFlatTriangles(mesh, settings.sheet, most);
   if (merged.triangleCount() > most && !settings.sheet)
     return {undivided(inPanels(mesh, settings.panels)), {}, {}};
-  if (!settings.sheet && isSmooth(mesh)) return {undivided(mesh), {}, {}};
+  if (!settings.sheet && areSmooth(estimateBulges(mesh))) return {undivided(mesh), {}, {}};
   return refineInLevels(merged, settings.sheet, most);
 }
 

@@ -203,12 +203,8 @@ CheckedMesh checkImported(const MeshFile& shape, const ImportedMesh& imported) {
 TriangleMesh makeFactMesh(const Shape& shape, int faces, const std::string& source) {
   const ShapeFacts facts = factsOf(shape);
   if (!facts.mesh) throw std::logic_error(source + ": no mesh is made of this kind of shape");
-  try {
-    return facts.mesh(faces);
-  } catch (const std::runtime_error& error) {
-    if (source.empty()) throw;
-    raiseInputError(source, error.what());
-  }
+  if (source.empty()) return facts.mesh(faces);
+  return withSource(source, [&] { return facts.mesh(faces); });
 }
 
 /// One surface around all parts, which share the faces.

@@ -36,17 +36,13 @@ ordered_json estimateMesh(const TriangleMesh& mesh, const PotentialFlowSettings&
                           const std::string& name) {
   const ElapsedDisplay display("solving " + name);
   ordered_json estimate;
-  try {
-    if (const std::optional<FlowEstimate> flow = estimateFlow(mesh, settings)) {
-      estimate = {{"panels", flow->panels},
-                  {"other_panels", flow->other_panels},
-                  {"rotation_error", flow->rotation_error},
-                  {"translation_error", flow->translation_error}};
-    } else {
-      estimate["error"] = "none: the mesh is too large to be solved on more panels";
-    }
-  } catch (const std::runtime_error& error) {
-    raiseInputError(name, error.what());
+  if (const auto flow = withSource(name, [&] { return estimateFlow(mesh, settings); })) {
+    estimate = {{"panels", flow->panels},
+                {"other_panels", flow->other_panels},
+                {"rotation_error", flow->rotation_error},
+                {"translation_error", flow->translation_error}};
+  } else {
+    estimate["error"] = "none: the mesh is too large to be solved on more panels";
   }
   if (const auto thinnest = settings.sheet ? std::nullopt : findThinnestPart(mesh))
     estimate["thinnest"] = {{"thickness", thinnest->thickness},

@@ -115,13 +115,6 @@ constexpr double kLargePolyhedronChange = 0.1;
 // the potential at the edges of a box goes with r^(2/3).
 constexpr double kThinnedError = 0.3968502629920499;
 
-/// Whether all triangles but a few stand for a part of a smooth surface. To divide them would
-/// resolve the flow around facets that the body does not have.
-bool isSmooth(const std::vector<FaceBulge>& bulges) {
-  const auto flat = std::count(bulges.begin(), bulges.end(), FaceBulge{0, 0, 0});
-  return 20 * static_cast<std::size_t>(flat) < bulges.size();
-}
-
 /// Without what the mirrors and half turns of a body forbid, and stretched about its centre.
 Matrix6 withSymmetriesOf(const TriangleMesh& mesh, bool sheet, double stretch,
                          const Matrix6& added_mass) {
@@ -171,7 +164,7 @@ struct Division {
 Division divisionOf(const TriangleMesh& mesh, const PotentialFlowSettings& settings) {
   Division division;
   if (!settings.sheet) division.bulges = estimateBulges(mesh);
-  division.is_smooth = isSmooth(division.bulges);
+  division.is_smooth = areSmooth(division.bulges);
   division.basis = division.bulges.empty()
                        ? mergeFlatTriangles(mesh, settings.sheet, settings.max_panels)
                        : mesh;
@@ -304,7 +297,7 @@ std::optional<TriangleMesh> inTrianglesFor(int panels, const TriangleMesh& mesh)
   constexpr int kFewTriangles = 400;
   std::optional<TriangleMesh> fewer = inFewerTriangles(mesh, panels);
   const int divisible = std::max(kFewTriangles, panels / kPanelsPerTriangle);
-  if (!fewer || divisible >= panels || isSmooth(estimateBulges(*fewer))) return fewer;
+  if (!fewer || divisible >= panels || areSmooth(estimateBulges(*fewer))) return fewer;
   return inFewerTriangles(*fewer, divisible);
 }
 

@@ -116,13 +116,5 @@ PanelViews viewPanel(const Panel& panel, const Eigen::Vector3d* points, std::siz
 /// al. 1984).
 void computeNewtonPotentials(const Panel& panel, const Eigen::Vector3d* points, std::size_t count,
                              double* potentials);
-double computeNewtonPotential(const Panel& panel, const Eigen::Vector3d& x);
-
-/// int_S h_b(y) n.(x - y)/|x - y|^3 dy [1] for the three hat functions h_b at up to 16 points x,
-/// exact; their sum is the solid angle of the panel seen from x, positive on the side of the
-/// normal. In the panel's own plane: the principal value, 0, outside of the panel.
-void computeDoubleLayers(const Panel& panel, const Eigen::Vector3d* points, std::size_t count,
-                         Eigen::Vector3d* weights);
-Eigen::Vector3d computeDoubleLayer(const Panel& panel, const Eigen::Vector3d& x);
 
 }  // namespace ambient
