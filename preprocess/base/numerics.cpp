@@ -7,12 +7,12 @@
 namespace ambient {
 
 Matrix6 positivePart(const Matrix6& K) {
-  const Matrix6 symmetric = (K + K.transpose()) / 2;
+  const Matrix6 symmetric = symmetricPart(K);
   const SymmetricEigen<6> eigen = symmetricEigen<6>(symmetric);
   if (eigen.values[0] >= 0) return symmetric;
   const Matrix6 positive =
       eigen.vectors * eigen.values.cwiseMax(0).asDiagonal() * eigen.vectors.transpose();
-  return (positive + positive.transpose()) / 2;
+  return symmetricPart(positive);
 }
 
 void fixBlocksOfLargeProducts() {

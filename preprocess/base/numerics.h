@@ -6,6 +6,8 @@
 
 namespace ambient {
 
+inline Matrix6 symmetricPart(const Matrix6& K) { return (K + K.transpose()) / 2; }
+
 /// Nearest symmetric positive semi-definite matrix: negative eigenvalues become 0. Discretisation
 /// leaves tiny negative eigenvalues in the inertia of a fluid where the true ones are zero.
 /// @pre rotation and translation block are of similar size: unit of length = size of the body

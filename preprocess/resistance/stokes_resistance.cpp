@@ -361,13 +361,7 @@ Matrix6 computeStokesResistance(const TriangleMesh& mesh, const StokesSettings& 
     const auto coarse = static_cast<double>(levels.coarse->triangleCount());
     R = extrapolated(R, solveOnPanels(*levels.coarse, settings), fine / coarse);
   }
-  const MeshProperties properties = computeMassProperties(mesh, settings.sheet);
-  const Vector3 centre = properties.uniform.centre;
-  const double size = std::sqrt(properties.area);
-  Matrix6 unit = scaleResistance(shiftOrigin(R, centre), 1 / size);
-  unit = positivePart(symmetrised(unit, findSymmetries(mesh, centre)));
-  R = shiftOrigin(scaleResistance(unit, size), -centre);
-  return (R + R.transpose()) / 2;  // the shift rounds both halves apart
+  return withSymmetriesOf(mesh, settings.sheet, R, scaleResistance);
 }
 
 Vector6 ellipsoidResistance(const Vector3& semi_axes) {

@@ -187,20 +187,6 @@ MatrixX6 solveOddJump(const PanelSurface& surface, const MirroredMesh& mirrored,
   return jump;
 }
 
-/// -int g phi^T over the first panels.
-Matrix6 integrate(const PanelSurface& surface, const PanelMoments& moments, Index panels) {
-  Matrix6 K = Matrix6::Zero();
-  for (Index t = 0; t < panels; ++t) {
-    const Panel& panel = surface.panels[t];
-    for (int a = 0; a < 3; ++a) {
-      Vector6 g;
-      g << panel.corner[a].cross(panel.normal), panel.normal;
-      K -= g * moments[t].row(a);
-    }
-  }
-  return 0.5 * (K + K.transpose());
-}
-
 }  // namespace
 
 Matrix6 solveImageFlow(const TriangleMesh& body, int panels) {
@@ -215,7 +201,9 @@ Matrix6 solveImageFlow(const TriangleMesh& body, int panels) {
   const MatrixX6 jump = solveOddJump(surface, mirrored, near);
   const PanelMoments moments = computeExteriorMoments(surface, near, jump, kThreads);
   AMBIENT_ASSERT(jump.allFinite());
-  const Matrix6 K = integrate(surface, moments, wet.triangleCount());
+  Matrix6 K = Matrix6::Zero();
+  for (Index t = 0; t < wet.triangleCount(); ++t) K += panelInertia(surface.panels[t], moments[t]);
+  K = symmetricPart(K);
   return shiftOrigin(scaleShape(K, surface.length), -surface.centre);
 }
 

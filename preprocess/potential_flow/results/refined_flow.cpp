@@ -115,20 +115,6 @@ constexpr double kLargePolyhedronChange = 0.1;
 // the potential at the edges of a box goes with r^(2/3).
 constexpr double kThinnedError = 0.3968502629920499;
 
-/// Without what the mirrors and half turns of a body forbid, and stretched about its centre.
-Matrix6 withSymmetriesOf(const TriangleMesh& mesh, bool sheet, double stretch,
-                         const Matrix6& added_mass) {
-  const MeshProperties properties = computeMassProperties(mesh, sheet);
-  const Eigen::Vector3d& centre = properties.uniform.centre;
-  const double size = std::sqrt(properties.area);
-  AMBIENT_ASSERT(properties.area > 0 && stretch > 0);
-  Matrix6 unit = scaleShape(shiftOrigin(added_mass, centre), stretch / size);
-  unit = positivePart(symmetrised(unit, findSymmetries(mesh, centre)));
-  AMBIENT_ASSERT(isSymmetric(unit, 1e-9));
-  const Matrix6 shifted = shiftOrigin(scaleShape(unit, size), -centre);
-  return (shifted + shifted.transpose()) / 2;  // the shift rounds both halves apart
-}
-
 /// To panels that are infinitely thin at the edges, from one level of thinning to the next.
 Matrix6 extrapolatedAcrossEdges(const Matrix6& fine, const Matrix6& less_thinned) {
   return fine + kThinnedError / (1 - kThinnedError) * (fine - less_thinned);
@@ -206,7 +192,8 @@ RefinedFlow solveOn(const Division& division, const TriangleMesh& mesh,
     const double volume = computeMassProperties(mesh).volume;
     stretch = portable::cbrt(volume / (volume + correction.volume));
   }
-  refined.added_mass = withSymmetriesOf(mesh, settings.sheet, stretch, refined.added_mass);
+  refined.added_mass =
+      withSymmetriesOf(mesh, settings.sheet, refined.added_mass, scaleShape, stretch);
   return refined;
 }
 
@@ -255,7 +242,7 @@ RefinedFlow solvePolyhedron(const TriangleMesh& mesh, const PotentialFlowSetting
         flow.added_mass, solvePotentialFlow(*levels.less_thinned, undivided).added_mass);
   }
   refined.is_coarse = changeOf(flow.added_mass, refined.added_mass) > kLargePolyhedronChange;
-  refined.added_mass = withSymmetriesOf(mesh, false, 1, refined.added_mass);
+  refined.added_mass = withSymmetriesOf(mesh, false, refined.added_mass, scaleShape);
   return refined;
 }
 
@@ -270,7 +257,7 @@ RefinedFlow solveInOtherTriangles(const TriangleMesh& other, const TriangleMesh&
                                   const PotentialFlowSettings& settings) {
   RefinedFlow refined = solveOnPanels(other, settings);
   refined.is_coarse = false;
-  refined.added_mass = withSymmetriesOf(mesh, false, 1, refined.added_mass);
+  refined.added_mass = withSymmetriesOf(mesh, false, refined.added_mass, scaleShape);
   return refined;
 }
 
