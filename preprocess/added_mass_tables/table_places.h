@@ -67,4 +67,24 @@ RoundPlace capsulePlace(double radius, double height);
 /// Within `rounding` of a cone.
 RoundPlace conePlace(double radius, double height, double rounding);
 
+// Generated: tests/preprocess/added_mass_tables writes table_data.cpp.
+
+/// Revision of the tables, part of a fluid body's provenance. Raise it with every change.
+constexpr int kTableRevision = 1;
+
+/// Rotation and logarithm of translation, over the scales of BoxAxis.
+struct BoxTable {
+  ChebyshevSeries rotation, translation;
+};
+const BoxTable& boxTable();
+
+/// Entries over the scales of RoundPlace; of v_z and v_x the logarithms. A series without rows is
+/// 0.
+struct RoundTable {
+  ChebyshevSeries v_z, v_x, w_y, coupling;
+};
+const RoundTable& cylinderTable();
+const RoundTable& capsuleTable();
+const RoundTable& coneTable();
+
 }  // namespace ambient

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "bullet_ambient/base/ambient_assert.h"
+#include "preprocess/base/numerics.h"
 #include "preprocess/base/surface_triangles.h"
 
 namespace ambient {
@@ -44,21 +45,6 @@ void makeSurfaceForm(FluidBody& body, const FormFaces& make_faces) {
 }
 
 namespace {
-
-struct Node {
-  double place, weight;  // abscissa in [0, 1], and weight; weights add up to 1
-};
-
-/// Gauss-Legendre rules of 1, 2, 3 and 4 points.
-constexpr Node kNodes[4][4] = {{{0.5, 1}},
-                               {{0.2113248654051871, 0.5}, {0.7886751345948129, 0.5}},
-                               {{0.1127016653792583, 0.2777777777777778},
-                                {0.5, 0.4444444444444444},
-                                {0.8872983346207417, 0.2777777777777778}},
-                               {{0.06943184420297371, 0.17392742256872693},
-                                {0.33000947820757187, 0.32607257743127307},
-                                {0.6699905217924281, 0.32607257743127307},
-                                {0.9305681557970263, 0.17392742256872693}}};
 
 using Corners = std::array<Vector3, 3>;  // of a triangle
 
@@ -105,13 +91,13 @@ class PointMaker {
     const auto& [a, b, c, d] = corners;
     const int across = pointsAlong(std::max((b - a).norm(), (c - d).norm()), rule);
     const int up = pointsAlong(std::max((d - a).norm(), (c - b).norm()), rule);
+    const GaussRule &u = kGaussRules[across - 1], &v = kGaussRules[up - 1];
     for (int i = 0; i < across; ++i)
       for (int j = 0; j < up; ++j) {
-        const Node &u = kNodes[across - 1][i], &v = kNodes[up - 1][j];
-        const Vector3 low = a + u.place * (b - a), high = d + u.place * (c - d);
-        const Vector3 along = (1 - v.place) * (b - a) + v.place * (c - d);
-        points.push_back(
-            {low + v.place * (high - low), u.weight * v.weight * along.cross(high - low).norm()});
+        const Vector3 low = a + u.place[i] * (b - a), high = d + u.place[i] * (c - d);
+        const Vector3 along = (1 - v.place[j]) * (b - a) + v.place[j] * (c - d);
+        points.push_back({low + v.place[j] * (high - low),
+                          u.weight[i] * v.weight[j] * along.cross(high - low).norm()});
       }
   }
 

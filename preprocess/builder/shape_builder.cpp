@@ -103,15 +103,14 @@ std::string meshText(const ShapeDescription& shape) {
 /// Whether a shape may have holds: its mesh is read, or put together of several.
 bool mayHaveHolds(const ShapeDescription& shape) {
   const auto* mesh = std::get_if<MeshFile>(&shape.geometry);
-  return (mesh != nullptr && mesh->stand_in != MeshStandIn::kHull) ||
+  return (mesh != nullptr && !mesh->sheet && mesh->stand_in != MeshStandIn::kHull) ||
          std::holds_alternative<Compound>(shape.geometry);
 }
 
 /// The scale in the shape's own description.
 double ownScale(const ShapeDescription& shape) {
-  if (const auto* mesh = std::get_if<MeshFile>(&shape.geometry)) return mesh->scale;
-  if (const auto* sheet = std::get_if<MeshSheet>(&shape.geometry)) return sheet->scale;
-  return 1;
+  const auto* mesh = std::get_if<MeshFile>(&shape.geometry);
+  return mesh ? mesh->scale : 1;
 }
 
 HoldSearch searchFor(const ShapeDescription& shape, const ShapeBuildSettings& settings) {
@@ -191,13 +190,9 @@ BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& se
   if (!std::isfinite(settings.scale) || settings.scale <= 0) {
     raiseInputError(shape.source, "scale = ", settings.scale, " is not positive and finite");
   }
-  if (settings.flow.max_panels < 0) {
+  if (settings.flow.max_panels < 0 || settings.flow.max_panels > kMostDivisions) {
     raiseInputError(shape.source, "panels = ", settings.flow.max_panels,
-                    " is below 0 (0: no division)");
-  }
-  if (settings.flow.max_panels > kMostDivisions) {
-    raiseInputError(shape.source, "panels = ", settings.flow.max_panels, " is above ",
-                    kMostDivisions);
+                    " is not between 0 (no division) and ", kMostDivisions);
   }
   if (settings.least_faces < 0 || settings.least_faces > kMostDivisions) {
     raiseInputError(shape.source, "least faces = ", settings.least_faces,

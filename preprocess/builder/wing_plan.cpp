@@ -5,13 +5,13 @@
 #include <functional>
 
 #include "bullet_ambient/base/fnv1a.h"
-#include "preprocess/mesh/import/scene_triangles.h"
+#include "preprocess/mesh/import/mesh_import.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/wings/wing_numbers.h"
 #include "preprocess/mesh/wings/wing_search.h"
 #include "preprocess/shape/json_schema.h"
 #include "preprocess/shape/shape_mesh.h"
-#include "preprocess/shape/wing_list.h"
+#include "preprocess/shape/shape_reader.h"
 
 namespace ambient {
 namespace {
@@ -34,11 +34,10 @@ class SourceTriangles {
  public:
   SourceTriangles(const ShapeDescription& shape, double scale, const TriangleMesh& mesh) {
     const auto* file = std::get_if<MeshFile>(&shape.geometry);
-    const auto* sheet = std::get_if<MeshSheet>(&shape.geometry);
-    if (!file && !sheet) return;
-    scene_ = readSceneTriangles(file ? file->file : sheet->file);
-    scene_.mesh.vertices *= scale * (file ? file->scale : sheet->scale);
-    if (file) scene_.mesh.vertices = file->stretch.asDiagonal() * scene_.mesh.vertices;
+    if (!file) return;
+    scene_ = readSceneTriangles(file->file);
+    scene_.mesh.vertices *= scale * file->scale;
+    scene_.mesh.vertices = file->stretch.asDiagonal() * scene_.mesh.vertices;
     const TriangleTree tree(scene_.mesh);
     for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t)
       source_.push_back(tree.nearest(mesh.barycentre(t)));

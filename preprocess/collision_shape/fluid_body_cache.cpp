@@ -17,7 +17,7 @@
 #include "preprocess/builder/body_maker.h"
 #include "preprocess/collision_shape/collision_shape_body.h"
 #include "preprocess/collision_shape/form_body.h"
-#include "preprocess/collision_shape/form_image.h"
+#include "preprocess/collision_shape/shape_form.h"
 
 AMBIENT_BEGIN
 namespace {

@@ -9,7 +9,7 @@
 #include "bullet_ambient/base/fnv1a.h"
 #include "bullet_ambient/spatial/vector_types.h"
 #include "preprocess/added_mass_tables/known_added_mass.h"
-#include "preprocess/base/matrices.h"
+#include "preprocess/base/numerics.h"
 #include "preprocess/collision_shape/solids.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/triangle_mesh.h"
@@ -18,7 +18,6 @@
 #include "preprocess/potential_flow/results/refined_flow.h"
 #include "preprocess/potential_flow/surface/shape_symmetry.h"
 #include "preprocess/reduced_loads/form_levels.h"
-#include "preprocess/reduced_loads/levels_by_rule.h"
 #include "preprocess/resistance/separation.h"
 #include "preprocess/resistance/stokes_resistance.h"
 
@@ -99,11 +98,7 @@ TriangleMesh joined(const std::vector<Solid>& solids, TriangleMesh Solid::*surfa
 template <class Solve>
 auto solved(const CollisionShapeSettings& settings, const std::string& name, const Solve& solve) {
   tellStage(settings, "solving the flow");
-  try {
-    return solve();
-  } catch (const std::runtime_error& error) {
-    raiseInputError(name, error.what());
-  }
+  return withSource(name, solve);
 }
 
 struct AddedMass {

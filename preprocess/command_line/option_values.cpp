@@ -115,6 +115,7 @@ void requireOne(const InputOptions& options) {
 
 MeshFile withStandIn(MeshFile mesh, const InputOptions& options) {
   mesh.strict = mesh.strict || options.strict;
+  mesh.sheet = options.sheet;
   if (options.hull) mesh.stand_in = MeshStandIn::kHull;
   if (options.wrap) {
     mesh.stand_in = MeshStandIn::kWrap;
@@ -169,11 +170,7 @@ ShapeDescription describeInput(const std::filesystem::path& input, const InputOp
   requireOne(options);
   if (!hasExtension(input, ".json")) {
     ShapeDescription mesh;
-    if (options.sheet) {
-      mesh.geometry = MeshSheet{input, 1};
-    } else {
-      mesh.geometry = withStandIn({input, 1}, options);
-    }
+    mesh.geometry = withStandIn({input, 1}, options);
     mesh.source = input.string();
     return mesh;
   }
@@ -184,7 +181,7 @@ ShapeDescription describeInput(const std::filesystem::path& input, const InputOp
   if (options.sheet && !isSheet(shape)) {
     raiseInputError(shape.source, "--sheet needs a shape of type \"sheet\"");
   }
-  if (const auto* mesh = std::get_if<MeshFile>(&shape.geometry)) {
+  if (const auto* mesh = std::get_if<MeshFile>(&shape.geometry); mesh && !mesh->sheet) {
     shape.geometry = withStandIn(*mesh, options);
   } else if (options.hull || options.wrap) {
     raiseInputError(shape.source, options.hull ? "--hull" : "--wrap",

@@ -265,14 +265,6 @@ FloatingAttitude describe(const FloatingBody& body, const PackedHull& hull,
 
 namespace {
 
-[[noreturn]] void rejectFloating(const FloatingBody& body, const char* what, double value,
-                                 const std::string& limit) {
-  std::ostringstream sentence;
-  sentence << "fluid body '" << body.shape->name << "': " << what << " is " << value << "; must be "
-           << limit;
-  throw std::invalid_argument(sentence.str());
-}
-
 std::string textOf(double value) {
   std::ostringstream text;
   text << value;
@@ -282,7 +274,7 @@ std::string textOf(double value) {
 void checkFloating(const FloatingBody& body) {
   const auto require = [&](double value, const char* what) {
     if (!(value > 0) || !std::isfinite(value))
-      rejectFloating(body, what, value, "positive and finite");
+      reject(*body.shape, what, value, "positive and finite");
   };
   require(body.mass, "mass [kg]");
   require(body.density, "density of the water [kg/m^3]");
@@ -290,18 +282,19 @@ void checkFloating(const FloatingBody& body) {
   require(body.shape->volume, "volume [m^3]");
   require(static_cast<double>(body.shape->surface.triangles.size()) / 3, "number of triangles");
   if (!body.inertia.allFinite() || !body.centre_of_mass.allFinite())
-    rejectFloating(body, "an entry of centre of mass or inertia", NAN, "finite");
+    reject(*body.shape, "an entry of centre of mass or inertia", NAN, "finite");
   require(symmetricEigen<3>(body.inertia).values[0], "smallest principal moment [kg m^2]");
   // Below that the draught is lost in the rounding of the body's extents.
   constexpr double kLightest = 1e-6, kFarthest = 1e6;
   const double displaced = body.density * body.shape->volume;
   if (body.mass < kLightest * displaced)
-    rejectFloating(body, "mass [kg]", body.mass,
-                   "at least a millionth of that of its volume of water, " + textOf(displaced));
+    reject(*body.shape, "mass [kg]", body.mass,
+           ("at least a millionth of that of its volume of water, " + textOf(displaced)).c_str());
   const double size = extentsOf(*body.shape).maxCoeff();
   if (body.centre_of_mass.norm() > kFarthest * size)
-    rejectFloating(body, "distance of the centre of mass from the origin [m]",
-                   body.centre_of_mass.norm(), "at most a million times its size, " + textOf(size));
+    reject(*body.shape, "distance of the centre of mass from the origin [m]",
+           body.centre_of_mass.norm(),
+           ("at most a million times its size, " + textOf(size)).c_str());
 }
 
 // Even over the sphere, none of them along an axis or a diagonal, where the energy may be largest.

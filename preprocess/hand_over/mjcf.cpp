@@ -1,4 +1,3 @@
-#include "preprocess/hand_over/mjcf.h"
 
 #include <algorithm>
 #include <array>

@@ -10,11 +10,9 @@
 namespace ambient {
 
 EditableMesh::EditableMesh(const TriangleMesh& mesh)
-    : vertices(mesh.vertices), around(mesh.vertexCount()) {
-  for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) {
-    triangles.emplace_back(mesh.triangles.col(t));
-    for (const int v : triangles.back()) around[v].push_back(static_cast<int>(t));
-  }
+    : vertices(mesh.vertices), triangles(columnsOf(mesh.triangles)), around(mesh.vertexCount()) {
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (const int v : triangles[t]) around[v].push_back(static_cast<int>(t));
 }
 
 double EditableMesh::shapeOf(const Corners& t) const {

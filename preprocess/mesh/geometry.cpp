@@ -212,35 +212,6 @@ TriangleQuality qualityOf(const TriangleMesh& mesh, Index t) {
   return quality;
 }
 
-/// Distance along a ray to a triangle, negative if it misses. Moeller and Trumbore 1997.
-double distanceAlong(const Vector3d& origin, const Vector3d& direction, const TriangleMesh& mesh,
-                     Index t) {
-  const Vector3d a = mesh.corner(t, 0);
-  const Vector3d ab = mesh.corner(t, 1) - a, ac = mesh.corner(t, 2) - a;
-  const Vector3d p = direction.cross(ac);
-  const double determinant = ab.dot(p);
-  if (determinant == 0) return -1;
-  const Vector3d from_a = origin - a;
-  const double u = from_a.dot(p) / determinant;
-  const Vector3d q = from_a.cross(ab);
-  const double v = direction.dot(q) / determinant;
-  // Rays through an edge shall not slip between its triangles.
-  constexpr double kRounding = 1e-9;
-  if (u < -kRounding || v < -kRounding || u + v > 1 + kRounding) return -1;
-  return ac.dot(q) / determinant;
-}
-
-double thicknessAt(const TriangleMesh& mesh, Index t) {
-  const Vector3d origin = mesh.barycentre(t), inwards = -mesh.twiceArea(t).normalized();
-  double nearest = -1;
-  for (Index s = 0; s < mesh.triangleCount(); ++s) {
-    if (s == t || mesh.twiceArea(s).dot(inwards) <= 0) continue;
-    const double distance = distanceAlong(origin, inwards, mesh, s);
-    if (distance > 0 && (nearest < 0 || distance < nearest)) nearest = distance;
-  }
-  return nearest;
-}
-
 }  // namespace
 
 std::vector<TriangleQuality> findWorstTriangles(const TriangleMesh& mesh, int count) {
@@ -251,19 +222,6 @@ std::vector<TriangleQuality> findWorstTriangles(const TriangleMesh& mesh, int co
   });
   all.resize(std::min(all.size(), static_cast<std::size_t>(count)));
   return all;
-}
-
-std::optional<Thickness> findThinnestPart(const TriangleMesh& mesh) {
-  AMBIENT_ASSERT(isClosed(computeMeshEdges(mesh)));
-  constexpr Index kMostRays = 2000;
-  const Index step = std::max<Index>(1, mesh.triangleCount() / kMostRays);
-  std::optional<Thickness> thinnest;
-  for (Index t = 0; t < mesh.triangleCount(); t += step) {
-    const double thickness = thicknessAt(mesh, t);
-    if (thickness < 0 || (thinnest && thinnest->thickness <= thickness)) continue;
-    thinnest = Thickness{thickness, static_cast<int>(t), mesh.barycentre(t)};
-  }
-  return thinnest;
 }
 
 }  // namespace ambient

@@ -26,6 +26,17 @@ template <class... Parts>
   throw std::runtime_error(inputMessage(source, parts...));
 }
 
+/// Calls a function whose errors do not tell the file or shape that they come from.
+/// @throws std::runtime_error in one line that begins with `source`.
+template <class Body>
+auto withSource(const std::string& source, const Body& body) {
+  try {
+    return body();
+  } catch (const std::runtime_error& error) {
+    raiseInputError(source, error.what());
+  }
+}
+
 /// Refuses a file that is missing, a folder, a pipe or a device, which may never end. `kind`: kind
 /// of file, for the message.
 /// @throws std::runtime_error in one line that names the file.

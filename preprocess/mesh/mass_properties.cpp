@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/elementary.h"
+#include "preprocess/mesh/geometry.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/triangle_mesh.h"
 
@@ -19,29 +21,17 @@ struct Moments {
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
 };
 
-using Corners = Eigen::Matrix3d;  // one per column
-
-Corners cornersFrom(const TriangleMesh& mesh, Eigen::Index t, const Eigen::Vector3d& reference) {
-  Corners corners;
-  for (int k = 0; k < 3; ++k) corners.col(k) = mesh.corner(t, k) - reference;
-  return corners;
-}
-
-double areaOf(const Corners& p) {
-  return (p.col(1) - p.col(0)).cross(p.col(2) - p.col(0)).norm() / 2;
-}
-
 // Tetrahedron with one corner at the reference: int 1 = d/6, int x = d/24 s, int x x^T = d/120 (sum
 // of p p^T + s s^T), with d = a . (b x c) and s = a + b + c.
-Moments tetrahedronMoments(const Corners& p) {
+Moments tetrahedronMoments(const TriangleCorners& p) {
   const double d = p.col(0).dot(p.col(1).cross(p.col(2)));
   const Eigen::Vector3d s = p.rowwise().sum();
   return {d / 6, d / 24 * s, d / 120 * (p * p.transpose() + s * s.transpose())};
 }
 
 // Triangle of uniform mass per area: A, A/3 s, A/12 (sum of p p^T + s s^T).
-Moments triangleMoments(const Corners& p) {
-  const double area = areaOf(p);
+Moments triangleMoments(const TriangleCorners& p) {
+  const double area = (p.col(1) - p.col(0)).cross(p.col(2) - p.col(0)).norm() / 2;
   const Eigen::Vector3d s = p.rowwise().sum();
   return {area, area / 3 * s, area / 12 * (p * p.transpose() + s * s.transpose())};
 }
@@ -51,18 +41,13 @@ Moments sumMoments(const TriangleMesh& mesh, const Eigen::Vector3d& reference,
                    MomentsOf momentsOf) {
   Moments sum;
   for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) {
-    const Moments part = momentsOf(cornersFrom(mesh, t, reference));
+    const Moments part = momentsOf(cornersOf(mesh, t).colwise() - reference);
     sum.mass += part.mass;
     sum.first += part.first;
     sum.second += part.second;
   }
   return sum;
 }
-
-struct MassAndDistribution {
-  double mass = 0;
-  MassDistribution distribution;
-};
 
 // Rounding error of the sums over triangles, as a fraction of the body's size. Smaller deviations
 // from a symmetric value count as 0.
@@ -91,32 +76,31 @@ Eigen::Matrix3d withoutRounding(const Eigen::Matrix3d& spread) {
 // Two passes: the first finds the centre, the second integrates about it, where the second moments
 // need no subtraction, and finds what rounding has left of the first.
 template <class MomentsOf>
-MassAndDistribution distributionOf(const TriangleMesh& mesh, MomentsOf momentsOf) {
+std::pair<double, MassDistribution> distributionOf(const TriangleMesh& mesh, MomentsOf momentsOf) {
   const Eigen::Vector3d middle = mesh.bounds().center();
   const Moments about_middle = sumMoments(mesh, middle, momentsOf);
   const Eigen::Vector3d centre = middle + about_middle.first / about_middle.mass;
   const Moments moments = sumMoments(mesh, centre, momentsOf);
   const Eigen::Vector3d residue = moments.first / moments.mass;
   const Eigen::Matrix3d spread = withoutRounding(Eigen::Matrix3d(moments.second / moments.mass));
-  MassAndDistribution result;
-  result.mass = moments.mass;
-  result.distribution.centre = withoutRounding(centre + residue, middle, mesh.extents().norm());
-  result.distribution.inertia = spread.trace() * Eigen::Matrix3d::Identity() - spread;
-  return result;
+  MassDistribution distribution;
+  distribution.centre = withoutRounding(centre + residue, middle, mesh.extents().norm());
+  distribution.inertia = spread.trace() * Eigen::Matrix3d::Identity() - spread;
+  return {moments.mass, distribution};
 }
 
 }  // namespace
 
 MeshProperties computeMassProperties(const TriangleMesh& mesh) {
   AMBIENT_ASSERT(isClosed(computeMeshEdges(mesh)));
-  const MassAndDistribution inside = distributionOf(mesh, tetrahedronMoments);
-  const MassAndDistribution shell = distributionOf(mesh, triangleMoments);
-  return {inside.mass, shell.mass, inside.distribution, shell.distribution};
+  const auto [volume, inside] = distributionOf(mesh, tetrahedronMoments);
+  const auto [area, shell] = distributionOf(mesh, triangleMoments);
+  return {volume, area, inside, shell};
 }
 
 MeshProperties computeSheetMassProperties(const TriangleMesh& mesh) {
-  const MassAndDistribution sheet = distributionOf(mesh, triangleMoments);
-  return {0, sheet.mass, sheet.distribution, sheet.distribution};
+  const auto [area, sheet] = distributionOf(mesh, triangleMoments);
+  return {0, area, sheet, sheet};
 }
 
 double sumOfVolumes(const std::vector<TriangleMesh>& meshes) {

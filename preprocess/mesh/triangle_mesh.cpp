@@ -91,6 +91,17 @@ void DisjointSets::join(int a, int b) {
   parent_[std::max(root_a, root_b)] = std::min(root_a, root_b);
 }
 
+std::vector<int> DisjointSets::numbers() {
+  std::vector<int> number(parent_.size(), -1), of_element(parent_.size());
+  int count = 0;
+  for (std::size_t i = 0; i < parent_.size(); ++i) {
+    int& of_root = number[find(static_cast<int>(i))];
+    if (of_root < 0) of_root = count++;
+    of_element[i] = of_root;
+  }
+  return of_element;
+}
+
 void joinCorners(DisjointSets& corners, const TriangleMesh& mesh, const EdgePair& edge) {
   const auto cornerAt = [&](const HalfEdge& side, int vertex) {
     const bool at_start = mesh.triangles(side.side, side.triangle) == vertex;
@@ -104,14 +115,8 @@ MeshComponents computeMeshComponents(const TriangleMesh& mesh, const MeshEdges& 
   const auto triangle_count = static_cast<std::size_t>(mesh.triangleCount());
   DisjointSets sets(triangle_count);
   for (const auto& [p, q] : edgePairs(edges)) sets.join(p.triangle, q.triangle);
-  MeshComponents result;
-  result.component_of.resize(triangle_count);
-  std::vector<int> number_of_root(triangle_count, -1);
-  for (std::size_t t = 0; t < triangle_count; ++t) {
-    int& number = number_of_root[sets.find(static_cast<int>(t))];
-    if (number < 0) number = result.count++;
-    result.component_of[t] = number;
-  }
+  MeshComponents result{sets.numbers(), 0};
+  for (const int number : result.component_of) result.count = std::max(result.count, number + 1);
   return result;
 }
 
@@ -126,9 +131,15 @@ std::vector<double> cosineSpacing(double half_length, int n) {
 
 TriangleMesh makeTriangleMesh(const std::vector<Eigen::Vector3d>& vertices,
                               const std::vector<Eigen::Vector3i>& triangles) {
+  Eigen::Matrix3Xd columns(3, static_cast<Eigen::Index>(vertices.size()));
+  for (std::size_t i = 0; i < vertices.size(); ++i) columns.col(i) = vertices[i];
+  return makeTriangleMesh(std::move(columns), triangles);
+}
+
+TriangleMesh makeTriangleMesh(Eigen::Matrix3Xd vertices,
+                              const std::vector<Eigen::Vector3i>& triangles) {
   TriangleMesh mesh;
-  mesh.vertices.resize(3, static_cast<Eigen::Index>(vertices.size()));
-  for (std::size_t i = 0; i < vertices.size(); ++i) mesh.vertices.col(i) = vertices[i];
+  mesh.vertices = std::move(vertices);
   mesh.triangles.resize(3, static_cast<Eigen::Index>(triangles.size()));
   for (std::size_t i = 0; i < triangles.size(); ++i) mesh.triangles.col(i) = triangles[i];
   return mesh;

@@ -88,6 +88,8 @@ class DisjointSets {
 
   int find(int element);
   void join(int a, int b);
+  /// Numbers of the sets of all elements, by first appearance from 0 on.
+  std::vector<int> numbers();
 
  private:
   std::vector<int> parent_;
@@ -134,6 +136,17 @@ void appendGridTriangles(int rows, int columns, VertexAt vertex,
 /// Makes a mesh of vertices and triangles.
 TriangleMesh makeTriangleMesh(const std::vector<Eigen::Vector3d>& vertices,
                               const std::vector<Eigen::Vector3i>& triangles);
+TriangleMesh makeTriangleMesh(Eigen::Matrix3Xd vertices,
+                              const std::vector<Eigen::Vector3i>& triangles);
+
+/// The columns of a matrix, as a list: vertices or triangles of a mesh.
+template <class Matrix>
+auto columnsOf(const Matrix& matrix) {
+  std::vector<Eigen::Matrix<typename Matrix::Scalar, 3, 1>> columns;
+  columns.reserve(static_cast<std::size_t>(matrix.cols()));
+  for (const auto& column : matrix.colwise()) columns.emplace_back(column);
+  return columns;
+}
 
 /// Makes a mesh of triangles and the vertices that they use, numbered in the order of first use.
 /// @param vertices one per column

@@ -10,7 +10,6 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <assimp/Importer.hpp>
 #include <cctype>
 #include <cmath>
@@ -30,7 +29,7 @@
 
 #include "bullet_ambient/base/elementary.h"
 #include "preprocess/mesh/geometry.h"
-#include "preprocess/mesh/import/scene_triangles.h"
+#include "preprocess/mesh/import/mesh_import.h"
 #include "preprocess/mesh/triangle_mesh.h"
 
 namespace ambient {
@@ -129,12 +128,16 @@ std::string readText(const std::string& file) {
   return text;
 }
 
+std::string inSmallLetters(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
 /// Extension of a file in small letters: "obj" for "Thing.OBJ".
 std::string extensionOf(const std::string& file) {
-  std::string extension = std::filesystem::path(file).extension().string();
+  std::string extension = inSmallLetters(std::filesystem::path(file).extension().string());
   extension.erase(0, 1);
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return extension;
 }
 
@@ -222,25 +225,6 @@ const aiScene* readScene(Assimp::Importer& importer, const std::string& file) {
   return importer.ReadFileFromMemory(text->data(), text->size(), 0, extensionOf(file).c_str());
 }
 
-[[noreturn]] void refuse(const std::string& why) {
-  const bool wants_memory = why.find("bad_alloc") != std::string::npos;
-  throw std::runtime_error("cannot be read as a mesh: " +
-                           (wants_memory ? "it announces more than there is memory for" : why));
-}
-
-/// Reads a file with assimp, the axes as they are in the file where that can be asked for.
-/// @throws std::runtime_error with one sentence that does not name the file.
-AssimpScene readWithAssimp(const std::string& file) {
-  Assimp::Importer importer;
-  const aiScene* scene = readScene(importer, file);
-  if (scene == nullptr) refuse(importer.GetErrorString());
-  AssimpScene result;
-  if (scene->mRootNode == nullptr) return result;
-  addNode(*scene, *scene->mRootNode, Eigen::Affine3d::Identity(), result.polygons);
-  result.warning = turnedAxesWarning(extensionOf(file), transformOf(*scene->mRootNode).linear());
-  return result;
-}
-
 template <class... Parts>
 [[noreturn]] void refuse(const Parts&... parts) {
   std::ostringstream text;
@@ -248,6 +232,23 @@ template <class... Parts>
   text << "cannot be read as a mesh: ";
   (text << ... << parts);
   throw std::runtime_error(text.str());
+}
+
+/// Reads a file with assimp, the axes as they are in the file where that can be asked for.
+/// @throws std::runtime_error with one sentence that does not name the file.
+AssimpScene readWithAssimp(const std::string& file) {
+  Assimp::Importer importer;
+  const aiScene* scene = readScene(importer, file);
+  if (scene == nullptr) {
+    const std::string why = importer.GetErrorString();
+    const bool wants_memory = why.find("bad_alloc") != std::string::npos;
+    refuse(wants_memory ? "it announces more than there is memory for" : why);
+  }
+  AssimpScene result;
+  if (scene->mRootNode == nullptr) return result;
+  addNode(*scene, *scene->mRootNode, Eigen::Affine3d::Identity(), result.polygons);
+  result.warning = turnedAxesWarning(extensionOf(file), transformOf(*scene->mRootNode).linear());
+  return result;
 }
 
 /// The lines of a text that hold something, without comments, word by word.
@@ -365,11 +366,9 @@ std::string trimmed(const std::string& line) {
 }
 
 bool beginsLikePly(std::istream& stream) {
-  std::array<char, 3> magic{};
-  stream.read(magic.data(), magic.size());
-  std::transform(magic.begin(), magic.end(), magic.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return magic == std::array<char, 3>{'p', 'l', 'y'};
+  std::string magic(3, ' ');
+  stream.read(magic.data(), static_cast<std::streamsize>(magic.size()));
+  return inSmallLetters(magic) == "ply";
 }
 
 // In a torn header assimp 5.2 looks for the next line that it knows for ever.
@@ -385,7 +384,7 @@ void requirePlyHeader(const std::string& file) {
     const auto known = {"", "comment", "element", "format", "obj_info", "property"};
     if (std::find(known.begin(), known.end(), word) == known.end()) break;
   }
-  throw std::runtime_error("cannot be read as a mesh: the header of the PLY file is damaged");
+  refuse("the header of the PLY file is damaged");
 }
 
 template <class Number>

@@ -1,11 +1,10 @@
-#include "preprocess/reduced_loads/face_clusters.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
+#include "preprocess/reduced_loads/form_levels.h"
 
 namespace ambient {
 namespace {

@@ -13,42 +13,29 @@
 #include "bullet_ambient/fluid_body/packed/packed_shape.h"
 #include "bullet_ambient/force/law/form_law.h"
 #include "bullet_ambient/force/loads/face_loads.h"
-#include "preprocess/base/matrices.h"
+#include "preprocess/base/numerics.h"
 #include "preprocess/base/surface_form.h"
-#include "preprocess/reduced_loads/face_clusters.h"
 
 namespace ambient {
 namespace {
 
-/// Pseudo-random numbers, the same on every machine.
-class SplitMix64 {
- public:
-  explicit SplitMix64(std::uint64_t seed) : state_(seed) {}
-  /// Returns a number in [0, 1).
-  double uniform() {  // SplitMix64, Steele et al. 2014
-    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
+/// Samples a unit vector, uniform over the sphere.
+Vector3 sampleDirection(SplitMix64& numbers) {
+  for (;;) {
+    const double x = 2 * numbers.uniform() - 1, y = 2 * numbers.uniform() - 1,
+                 z = 2 * numbers.uniform() - 1;
+    const double length_sq = x * x + y * y + z * z;
+    if (length_sq <= 1 && length_sq > 1e-4) return Vector3(x, y, z) / std::sqrt(length_sq);
   }
-  Vector3 direction() {
-    for (;;) {
-      const double x = 2 * uniform() - 1, y = 2 * uniform() - 1, z = 2 * uniform() - 1;
-      const double length_sq = x * x + y * y + z * z;
-      if (length_sq <= 1 && length_sq > 1e-4) return Vector3(x, y, z) / std::sqrt(length_sq);
-    }
-  }
-
- private:
-  std::uint64_t state_;
-};
+}
 
 /// Samples a motion (w, v) with |w|^2 + |v|^2 = 1 in units of a level: v and w in independent
 /// directions, uniform over the sphere, and atan(|w| / |v|) uniform from 0 to pi/2.
 Vector6 sampleMotion(SplitMix64& numbers) {
   const double angle = kPi / 2 * numbers.uniform();
   Vector6 x;
-  x << portable::sin(angle) * numbers.direction(), portable::cos(angle) * numbers.direction();
+  x << portable::sin(angle) * sampleDirection(numbers),
+      portable::cos(angle) * sampleDirection(numbers);
   return x;
 }
 
@@ -174,7 +161,7 @@ struct LoadSamples {
     SplitMix64 numbers(seed);
     for (int i = 0; i < count; ++i) add(packed, form, sampleMotion(numbers), 1);
     for (int i = 0; i < translations; ++i)
-      add(packed, form, stack(Vector3::Zero(), numbers.direction()), kTranslationWeight);
+      add(packed, form, stack(Vector3::Zero(), sampleDirection(numbers)), kTranslationWeight);
   }
 
   /// Error of the loads on other faces in one motion.

@@ -1,38 +1,17 @@
-#include "preprocess/reduced_loads/levels_by_rule.h"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
+#include "preprocess/base/numerics.h"
 #include "preprocess/base/surface_form.h"
+#include "preprocess/reduced_loads/form_levels.h"
 
 namespace ambient {
 namespace {
 
 using Vector2 = Eigen::Vector2d;
-
-constexpr int kMostNodes = 5;
-
-/// Gauss-Legendre rule of n points: abscissas in [0, 1] and weights.
-struct GaussRule {
-  int count;
-  double place[kMostNodes], weight[kMostNodes];
-};
-constexpr GaussRule kGaussRules[] = {
-    {1, {0.5}, {1}},
-    {2, {0.21132486540518712, 0.7886751345948129}, {0.5, 0.5}},
-    {3,
-     {0.1127016653792583, 0.5, 0.8872983346207417},
-     {0.2777777777777778, 0.4444444444444444, 0.2777777777777778}},
-    {4,
-     {0.06943184420297371, 0.33000947820757187, 0.6699905217924281, 0.9305681557970263},
-     {0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693}},
-    {5,
-     {0.04691007703066802, 0.23076534494715845, 0.5, 0.7692346550528415, 0.9530899229693319},
-     {0.11846344252809454, 0.23931433524968324, 0.28444444444444444, 0.23931433524968324,
-      0.11846344252809454}}};
 
 /// Faces of a body of revolution about z, ring by ring. Every second ring is turned by half of the
 /// angle between faces.

@@ -1,5 +1,3 @@
-#include "preprocess/resistance/boundary_layers.h"
-
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
@@ -10,6 +8,7 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/elementary.h"
+#include "preprocess/resistance/separation.h"
 
 namespace ambient {
 namespace {

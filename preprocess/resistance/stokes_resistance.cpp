@@ -17,16 +17,16 @@
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/spatial/inertia.h"
-#include "preprocess/base/matrices.h"
+#include "preprocess/base/numerics.h"
 #include "preprocess/base/parallel_for.h"
 #include "preprocess/mesh/editable_mesh.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/wrap/surface_wrap.h"
 #include "preprocess/potential_flow/results/ellipsoid_added_mass.h"
 #include "preprocess/potential_flow/surface/flat_merging.h"
+#include "preprocess/potential_flow/surface/panel.h"
 #include "preprocess/potential_flow/surface/panel_surface.h"
 #include "preprocess/potential_flow/surface/panel_views.h"
-#include "preprocess/potential_flow/surface/quadrature_rules.h"
 #include "preprocess/potential_flow/surface/shape_symmetry.h"
 #include "preprocess/potential_flow/surface/surface_refinement.h"
 
@@ -247,15 +247,6 @@ PanelGroups groupsOf(const TriangleMesh& mesh, const StokesSettings& settings) {
   return groups;
 }
 
-/// Whether all triangles but a few stand for a part of a smooth surface: they are the panels as
-/// they are.
-bool isSmooth(const TriangleMesh& mesh) {
-  constexpr double kFlatShare = 0.05;
-  const std::vector<FaceBulge> bulges = estimateBulges(mesh);
-  const auto flat = std::count(bulges.begin(), bulges.end(), FaceBulge{0, 0, 0});
-  return static_cast<double>(flat) < kFlatShare * static_cast<double>(bulges.size());
-}
-
 /// A fine closed mesh in fewer triangles: as many as asked for, or so many that its parts are not
 /// lost.
 TriangleMesh inPanels(const TriangleMesh& mesh, int panels) {
@@ -275,7 +266,7 @@ SurfaceLevels panelsOf(const TriangleMesh& mesh, const StokesSettings& settings)
   const TriangleMesh merged = mergeFlatTriangles(mesh, settings.sheet, most);
   if (merged.triangleCount() > most && !settings.sheet)
     return {undivided(inPanels(mesh, settings.panels)), {}, {}};
-  if (!settings.sheet && isSmooth(mesh)) return {undivided(mesh), {}, {}};
+  if (!settings.sheet && areSmooth(estimateBulges(mesh))) return {undivided(mesh), {}, {}};
   return refineInLevels(merged, settings.sheet, most);
 }
 
@@ -370,13 +361,7 @@ Matrix6 computeStokesResistance(const TriangleMesh& mesh, const StokesSettings& 
     const auto coarse = static_cast<double>(levels.coarse->triangleCount());
     R = extrapolated(R, solveOnPanels(*levels.coarse, settings), fine / coarse);
   }
-  const MeshProperties properties = computeMassProperties(mesh, settings.sheet);
-  const Vector3 centre = properties.uniform.centre;
-  const double size = std::sqrt(properties.area);
-  Matrix6 unit = scaleResistance(shiftOrigin(R, centre), 1 / size);
-  unit = positivePart(symmetrised(unit, findSymmetries(mesh, centre)));
-  R = shiftOrigin(scaleResistance(unit, size), -centre);
-  return (R + R.transpose()) / 2;  // the shift rounds both halves apart
+  return withSymmetriesOf(mesh, settings.sheet, R, scaleResistance);
 }
 
 Vector6 ellipsoidResistance(const Vector3& semi_axes) {

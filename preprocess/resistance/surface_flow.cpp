@@ -37,16 +37,10 @@ std::vector<int> cornerVertices(const TriangleMesh& mesh, std::vector<int>& sour
   DisjointSets corners(3 * static_cast<std::size_t>(mesh.triangleCount()));
   for (const EdgePair& edge : edgePairs(computeMeshEdges(mesh)))
     if (!isSharp(mesh, edge)) joinCorners(corners, mesh, edge);
-  std::vector<int> number(3 * static_cast<std::size_t>(mesh.triangleCount()), -1),
-      of_corner(number.size());
-  for (std::size_t c = 0; c < number.size(); ++c) {
-    int& of_root = number[static_cast<std::size_t>(corners.find(static_cast<int>(c)))];
-    if (of_root < 0) {
-      of_root = static_cast<int>(source.size());
+  std::vector<int> of_corner = corners.numbers();
+  for (std::size_t c = 0; c < of_corner.size(); ++c)
+    if (of_corner[c] == static_cast<int>(source.size()))
       source.push_back(mesh.triangles(static_cast<Index>(c % 3), static_cast<Index>(c / 3)));
-    }
-    of_corner[c] = of_root;
-  }
   return of_corner;
 }
 

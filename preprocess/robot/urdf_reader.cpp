@@ -1,4 +1,6 @@
+#if defined(AMBIENT_READS_URDF)
 #include <tinyxml2.h>
+#endif
 
 #include <array>
 #include <cmath>
@@ -14,6 +16,9 @@
 #include "preprocess/shape/json_schema.h"
 
 namespace ambient {
+
+#if defined(AMBIENT_READS_URDF)
+
 namespace {
 
 using tinyxml2::XMLElement;
@@ -344,5 +349,19 @@ RobotModel parseUrdf(const std::string& text, const std::filesystem::path& file,
   if (!robot) raiseInputError(source, "has no element <robot>");
   return UrdfReader(file, packages).read(*robot);
 }
+
+#else
+
+RobotModel readUrdf(const std::filesystem::path& file, const PackageFolders& packages) {
+  return parseUrdf("", file, packages);
+}
+
+RobotModel parseUrdf(const std::string&, const std::filesystem::path& file, const PackageFolders&) {
+  raiseInputError(file.string(),
+                  "URDF files need tinyxml2 (Debian: libtinyxml2-dev), without which this "
+                  "was built");
+}
+
+#endif
 
 }  // namespace ambient

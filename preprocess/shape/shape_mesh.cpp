@@ -180,66 +180,31 @@ void requireUsualExtents(const Shape& shape, double scale, const std::string& so
 
 namespace {
 
-CheckedMesh makeBody(const TriangleMesh& mesh, const MeshFile& shape) {
+/// Checks the imported mesh of a file.
+CheckedMesh checkImported(const MeshFile& shape, const ImportedMesh& imported) {
   const std::string name = shape.file.string();
-  switch (shape.stand_in) {
-    case MeshStandIn::kHull:
-      return requireSound(checkMesh(makeConvexHull(mesh.vertices, name), name), name);
-    case MeshStandIn::kWrap:
-      return wrapSurface(mesh, shape.wrap_size, name);
-    case MeshStandIn::kNone:
-      break;
-  }
-  return makeBodyMesh(mesh, name, shape.strict);
-}
-
-/// Checks the imported mesh of a MeshFile or a MeshSheet.
-CheckedMesh checkImported(const Shape& shape, const ImportedMesh& imported) {
+  TriangleMesh mesh = imported.mesh;
+  mesh.vertices = shape.stretch.asDiagonal() * mesh.vertices;
   CheckedMesh checked;
-  if (const auto* file = std::get_if<MeshFile>(&shape)) {
-    TriangleMesh mesh = imported.mesh;
-    mesh.vertices = file->stretch.asDiagonal() * mesh.vertices;
-    checked = makeBody(mesh, *file);
+  if (shape.sheet) {
+    checked = requireSound(checkMesh(mesh, name, true), name);
+  } else if (shape.stand_in == MeshStandIn::kHull) {
+    checked = requireSound(checkMesh(makeConvexHull(mesh.vertices, name), name), name);
+  } else if (shape.stand_in == MeshStandIn::kWrap) {
+    checked = wrapSurface(mesh, shape.wrap_size, name);
   } else {
-    const std::string name = std::get<MeshSheet>(shape).file.string();
-    checked = requireSound(checkMesh(imported.mesh, name, {true}), name);
+    checked = makeBodyMesh(mesh, name, shape.strict);
   }
   checked.warnings.insert(checked.warnings.begin(), imported.warnings.begin(),
                           imported.warnings.end());
   return checked;
 }
 
-struct FileFinder {
-  std::filesystem::path operator()(const MeshFile& s) const { return s.file; }
-  std::filesystem::path operator()(const MeshSheet& s) const { return s.file; }
-  std::filesystem::path operator()(const FluidBodyFile& s) const { return s.file; }
-  template <class Other>
-  std::filesystem::path operator()(const Other&) const {
-    return {};
-  }
-};
-
-/// True if the description of a mesh scales the lengths of its file.
-struct IsScaled {
-  bool operator()(const MeshFile& s) const {
-    return s.scale != 1 || s.stretch != Eigen::Vector3d(1, 1, 1);
-  }
-  bool operator()(const MeshSheet& s) const { return s.scale != 1; }
-  template <class Other>
-  bool operator()(const Other&) const {
-    return false;
-  }
-};
-
 TriangleMesh makeFactMesh(const Shape& shape, int faces, const std::string& source) {
   const ShapeFacts facts = factsOf(shape);
   if (!facts.mesh) throw std::logic_error(source + ": no mesh is made of this kind of shape");
-  try {
-    return facts.mesh(faces);
-  } catch (const std::runtime_error& error) {
-    if (source.empty()) throw;
-    raiseInputError(source, error.what());
-  }
+  if (source.empty()) return facts.mesh(faces);
+  return withSource(source, [&] { return facts.mesh(faces); });
 }
 
 /// One surface around all parts, which share the faces.
@@ -265,9 +230,7 @@ CheckedMesh makeUnscaledMesh(const ShapeDescription& shape) {
   if (const auto* compound = std::get_if<Compound>(&shape.geometry))
     return makeCompoundMesh(*compound, shape.faces, shape.source);
   if (const auto* mesh = std::get_if<MeshFile>(&shape.geometry))
-    return checkImported(shape.geometry, importMesh(mesh->file, mesh->scale));
-  if (const auto* sheet = std::get_if<MeshSheet>(&shape.geometry))
-    return checkImported(shape.geometry, importMesh(sheet->file, sheet->scale));
+    return checkImported(*mesh, importMesh(mesh->file, mesh->scale));
   return {makeFactMesh(shape.geometry, shape.faces, shape.source), {}};
 }
 
@@ -278,7 +241,9 @@ CheckedMesh scaled(CheckedMesh checked, const ShapeDescription& shape, double sc
   // Shapes are described in metres; what the unit of a file is, is not known.
   const std::filesystem::path file = fileOf(shape);
   if (file.empty()) return checked;
-  const bool is_scaled = scale != 1 || std::visit(IsScaled{}, shape.geometry);
+  const auto* mesh = std::get_if<MeshFile>(&shape.geometry);
+  const bool is_scaled =
+      scale != 1 || (mesh && (mesh->scale != 1 || mesh->stretch != Eigen::Vector3d(1, 1, 1)));
   const std::string warning = unlikelySizeWarning(checked.mesh, is_scaled, file.string());
   if (!warning.empty()) checked.warnings.push_back(warning);
   return checked;
@@ -287,13 +252,15 @@ CheckedMesh scaled(CheckedMesh checked, const ShapeDescription& shape, double sc
 }  // namespace
 
 bool isSheet(const ShapeDescription& shape) {
+  const auto* mesh = std::get_if<MeshFile>(&shape.geometry);
   return std::holds_alternative<RectangleSheet>(shape.geometry) ||
-         std::holds_alternative<EllipseSheet>(shape.geometry) ||
-         std::holds_alternative<MeshSheet>(shape.geometry);
+         std::holds_alternative<EllipseSheet>(shape.geometry) || (mesh && mesh->sheet);
 }
 
 std::filesystem::path fileOf(const ShapeDescription& shape) {
-  return std::visit(FileFinder{}, shape.geometry);
+  if (const auto* mesh = std::get_if<MeshFile>(&shape.geometry)) return mesh->file;
+  const auto* body = std::get_if<FluidBodyFile>(&shape.geometry);
+  return body ? body->file : std::filesystem::path();
 }
 
 CheckedMesh makeShapeMesh(const ShapeDescription& shape, double scale) {
@@ -303,7 +270,7 @@ CheckedMesh makeShapeMesh(const ShapeDescription& shape, double scale) {
 
 CheckedMesh makeShapeMesh(const ShapeDescription& shape, const ImportedMesh& imported,
                           double scale) {
-  return scaled(checkImported(shape.geometry, imported), shape, scale);
+  return scaled(checkImported(std::get<MeshFile>(shape.geometry), imported), shape, scale);
 }
 
 }  // namespace ambient

@@ -67,9 +67,9 @@ std::filesystem::path fileOf(const ShapeDescription& shape);
 /// @throws std::runtime_error in one line that begins with the shape's source.
 CheckedMesh makeShapeMesh(const ShapeDescription& shape, double scale = 1);
 
-/// Makes the mesh of a MeshFile or MeshSheet from its file's mesh, which was imported with the
-/// scale of the shape.
-/// @pre the shape is a MeshFile or a MeshSheet.
+/// Makes the mesh of a MeshFile from its file's mesh, which was imported with the scale of the
+/// shape.
+/// @pre the shape is a MeshFile.
 CheckedMesh makeShapeMesh(const ShapeDescription& shape, const ImportedMesh& imported,
                           double scale);
 

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "preprocess/shape/shapes.h"
 
@@ -17,5 +20,24 @@ ShapeDescription readShape(const nlohmann::json& shape, const std::filesystem::p
 /// Reads a JSON file that holds one shape.
 /// @throws std::runtime_error in one line that names the file.
 ShapeDescription readShapeFile(const std::filesystem::path& file);
+
+/// Wing that a JSON file lists: by one of node, box and triangles.
+struct ListedWing {
+  std::string node;                    ///< name; a * at its end stands for any rest
+  Eigen::AlignedBox3d box;             ///< around the middles of its triangles; empty: none
+  std::vector<std::size_t> triangles;  ///< of the mesh file, from 0 on
+  std::string name;                    ///< that of the node if none is given
+  std::optional<double> span, chord;   ///< in the mesh's units
+  std::optional<double> aspect;
+};
+
+/// Content of the file, docs/wings.md.
+struct WingList {
+  std::vector<ListedWing> wings;
+  bool wants_rest = false;  ///< whether others are looked for, too
+};
+
+/// @throws std::runtime_error in one line that names the file, if it cannot be read or is none.
+WingList readWingList(const std::string& file);
 
 }  // namespace ambient

@@ -58,6 +58,7 @@ struct MeshFile {
   double wrap_size = 0;              ///< with kWrap, before any scaling [m]; 0: kDefaultWrapSize
   Eigen::Vector3d stretch{1, 1, 1};  ///< along the axes of the file, after `scale`; not 0
   bool strict = false;  ///< with kNone: what is not a closed body is refused, not wrapped
+  bool sheet = false;   ///< an open surface of zero thickness, as it is: file and scale count
 };
 struct FluidBodyFile {
   std::filesystem::path file;
@@ -68,11 +69,6 @@ struct RectangleSheet {
 struct EllipseSheet {
   Eigen::Vector2d semi_axes = Eigen::Vector2d::Zero();
 };
-struct MeshSheet {
-  std::filesystem::path file;
-  double scale = 1;
-};
-
 struct PlacedShape;
 /// Solids that are one body: where they overlap or touch, they are united.
 struct Compound {
@@ -81,7 +77,7 @@ struct Compound {
 
 using Shape =
     std::variant<Sphere, Box, Ellipsoid, Cylinder, Capsule, Cone, Hull, BallHull, TriangleSoup,
-                 MeshFile, FluidBodyFile, RectangleSheet, EllipseSheet, MeshSheet, Compound>;
+                 MeshFile, FluidBodyFile, RectangleSheet, EllipseSheet, Compound>;
 
 /// p_parent = pose * p_child [m].
 using RigidPose = Eigen::Transform<double, 3, Eigen::Isometry, Eigen::DontAlign>;

@@ -19,7 +19,7 @@
 #include "bullet_ambient/fluid_body/packed/packed_shape.h"
 #include "bullet_ambient/force/surface/wetted_inertia.h"
 #include "bullet_ambient/spatial/inertia.h"
-#include "preprocess/base/matrices.h"
+#include "preprocess/base/numerics.h"
 #include "preprocess/base/parallel_for.h"
 #include "preprocess/mesh/editable_mesh.h"
 #include "preprocess/mesh/holds/vessel.h"
@@ -114,15 +114,13 @@ MirroredMesh withImage(const TriangleMesh& wet) {
   MirroredMesh mirrored;
   AMBIENT_ASSERT(wet.vertexCount() == 0 || wet.vertices.row(2).maxCoeff() <= 0);
   mirrored.image.resize(wet.vertexCount());
-  std::vector<Vector3d> vertices;
-  for (Index v = 0; v < wet.vertexCount(); ++v) vertices.push_back(wet.vertices.col(v));
+  std::vector<Vector3d> vertices = columnsOf(wet.vertices);
   for (Index v = 0; v < wet.vertexCount(); ++v) {
     const Vector3d point = wet.vertices.col(v);
     mirrored.image[v] = static_cast<int>(point.z() == 0 ? v : vertices.size());
     if (point.z() != 0) vertices.emplace_back(point.x(), point.y(), -point.z());
   }
-  std::vector<Vector3i> triangles;
-  for (Index t = 0; t < wet.triangleCount(); ++t) triangles.push_back(wet.triangles.col(t));
+  std::vector<Vector3i> triangles = columnsOf(wet.triangles);
   for (Index t = 0; t < wet.triangleCount(); ++t) {
     const Vector3i corners = wet.triangles.col(t);
     triangles.emplace_back(mirrored.image[corners[0]], mirrored.image[corners[2]],
@@ -189,20 +187,6 @@ MatrixX6 solveOddJump(const PanelSurface& surface, const MirroredMesh& mirrored,
   return jump;
 }
 
-/// -int g phi^T over the first panels.
-Matrix6 integrate(const PanelSurface& surface, const PanelMoments& moments, Index panels) {
-  Matrix6 K = Matrix6::Zero();
-  for (Index t = 0; t < panels; ++t) {
-    const Panel& panel = surface.panels[t];
-    for (int a = 0; a < 3; ++a) {
-      Vector6 g;
-      g << panel.corner[a].cross(panel.normal), panel.normal;
-      K -= g * moments[t].row(a);
-    }
-  }
-  return 0.5 * (K + K.transpose());
-}
-
 }  // namespace
 
 Matrix6 solveImageFlow(const TriangleMesh& body, int panels) {
@@ -217,7 +201,9 @@ Matrix6 solveImageFlow(const TriangleMesh& body, int panels) {
   const MatrixX6 jump = solveOddJump(surface, mirrored, near);
   const PanelMoments moments = computeExteriorMoments(surface, near, jump, kThreads);
   AMBIENT_ASSERT(jump.allFinite());
-  const Matrix6 K = integrate(surface, moments, wet.triangleCount());
+  Matrix6 K = Matrix6::Zero();
+  for (Index t = 0; t < wet.triangleCount(); ++t) K += panelInertia(surface.panels[t], moments[t]);
+  K = symmetricPart(K);
   return shiftOrigin(scaleShape(K, surface.length), -surface.centre);
 }
 

@@ -205,6 +205,14 @@ void addBodyOptions(CLI::App& command, BuildArguments& arguments) {
 
 }  // namespace
 
+#if !defined(AMBIENT_READS_WORLDS)
+int buildWorldFile(const BuildArguments& arguments) {
+  raiseInputError(arguments.input,
+                  "this program was built without Bullet's world importer (Debian: "
+                  "libbullet-extras-dev) and reads no .bullet files");
+}
+#endif
+
 void addBuild(CLI::App& app) {
   const auto arguments = std::make_shared<BuildArguments>();
   CLI::App& command = *app.add_subcommand("build", "Makes an .ambient file from a mesh or a shape");

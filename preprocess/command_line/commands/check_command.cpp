@@ -20,6 +20,7 @@
 #include "preprocess/mesh/import/mesh_import.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mass_properties.h"
+#include "preprocess/mesh/wings/triangle_tree.h"
 #include "preprocess/potential_flow/results/refined_flow.h"
 #include "preprocess/shape/shape_mesh.h"
 
@@ -35,17 +36,13 @@ ordered_json estimateMesh(const TriangleMesh& mesh, const PotentialFlowSettings&
                           const std::string& name) {
   const ElapsedDisplay display("solving " + name);
   ordered_json estimate;
-  try {
-    if (const std::optional<FlowEstimate> flow = estimateFlow(mesh, settings)) {
-      estimate = {{"panels", flow->panels},
-                  {"other_panels", flow->other_panels},
-                  {"rotation_error", flow->rotation_error},
-                  {"translation_error", flow->translation_error}};
-    } else {
-      estimate["error"] = "none: the mesh is too large to be solved on more panels";
-    }
-  } catch (const std::runtime_error& error) {
-    raiseInputError(name, error.what());
+  if (const auto flow = withSource(name, [&] { return estimateFlow(mesh, settings); })) {
+    estimate = {{"panels", flow->panels},
+                {"other_panels", flow->other_panels},
+                {"rotation_error", flow->rotation_error},
+                {"translation_error", flow->translation_error}};
+  } else {
+    estimate["error"] = "none: the mesh is too large to be solved on more panels";
   }
   if (const auto thinnest = settings.sheet ? std::nullopt : findThinnestPart(mesh))
     estimate["thinnest"] = {{"thickness", thinnest->thickness},
@@ -148,8 +145,6 @@ ordered_json outcomeJson(const Outcome& outcome) {
 ImportedMesh importInput(const ShapeDescription& shape) {
   if (const auto* mesh = std::get_if<MeshFile>(&shape.geometry))
     return importMesh(mesh->file, mesh->scale);
-  if (const auto* sheet = std::get_if<MeshSheet>(&shape.geometry))
-    return importMesh(sheet->file, sheet->scale);
   raiseInputError(shape.source, "only meshes are checked: a shape without one is right");
 }
 
@@ -157,7 +152,7 @@ ImportedMesh importInput(const ShapeDescription& shape) {
 CheckedMesh checkInput(const ReadInput& input, const ShapeDescription& shape) {
   TriangleMesh mesh = input.imported.mesh;
   mesh.vertices *= input.arguments.options.scale;
-  CheckedMesh checked = checkMesh(mesh, shape.source, {isSheet(shape)});
+  CheckedMesh checked = checkMesh(mesh, shape.source, isSheet(shape));
   if (!isSheet(shape)) checked.addDefects(findCrossings(checked.mesh));
   return checked;
 }

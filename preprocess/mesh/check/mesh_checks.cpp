@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "preprocess/mesh/checked_mesh.h"
-#include "preprocess/mesh/defects/surface_check.h"
 #include "preprocess/mesh/defects/surface_crossing.h"
 #include "preprocess/mesh/defects/topology_defects.h"
 #include "preprocess/mesh/triangle_mesh.h"
@@ -46,10 +45,9 @@ bool hasVerticesInside(const TriangleMesh& sheet) {
   return std::find(has_inside.begin(), has_inside.end(), false) == has_inside.end();
 }
 
-CheckedMesh checkMesh(const TriangleMesh& mesh, const std::string& name,
-                      const MeshCheckSettings& settings) {
-  CheckedMesh checked = checkSurface(mesh, name, settings.sheet);
-  if (settings.sheet || checked.defects.empty() || !hasNormals(checked.mesh)) return checked;
+CheckedMesh checkMesh(const TriangleMesh& mesh, const std::string& name, bool sheet) {
+  CheckedMesh checked = checkSurface(mesh, name, sheet);
+  if (sheet || checked.defects.empty() || !hasNormals(checked.mesh)) return checked;
   if (std::optional<CheckedMesh> united = uniteClosedParts(checked.mesh, name)) {
     checked.defects.clear();
     checked.takeStep(*std::move(united));

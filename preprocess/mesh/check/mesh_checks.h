@@ -7,13 +7,8 @@
 
 namespace ambient {
 
-/// Requirements on a mesh.
-struct MeshCheckSettings {
-  bool sheet = false;  ///< an open surface of zero thickness; otherwise the boundary of a body
-};
-
 /// Checks whether a mesh can stand for a body (closed, manifold, outward oriented, enclosing a
-/// volume once) or for a sheet (every part open, manifold, one side throughout). Orientation and
+/// volume once) or for a `sheet` (every part open, manifold, one side throughout). Orientation and
 /// flat triangles are mended, vertices that no triangle uses and second copies of all triangles
 /// left out, closed parts that overlap, touch or lie in each other united (uniteClosedParts()), all
 /// with a warning. Cavities are taken out, for the fluid outside does not see them. `name` begins
@@ -24,8 +19,7 @@ struct MeshCheckSettings {
 /// its longest edge), two triangles on the same corners, boundary edges (their number and one
 /// example), an edge of more than two triangles, a vertex where separate parts touch; without any
 /// of these, what orientConsistently() and orientShells() find.
-CheckedMesh checkMesh(const TriangleMesh& mesh, const std::string& name,
-                      const MeshCheckSettings& settings = {});
+CheckedMesh checkMesh(const TriangleMesh& mesh, const std::string& name, bool sheet = false);
 
 /// True if every part of a sheet has a vertex inside its boundary; the flow around a sheet has its
 /// unknowns there. Cost O(T log T).

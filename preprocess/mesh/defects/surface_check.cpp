@@ -1,4 +1,3 @@
-#include "preprocess/mesh/defects/surface_check.h"
 
 #include <algorithm>
 #include <cmath>
@@ -66,22 +65,33 @@ std::vector<Shell> findShells(const TriangleMesh& mesh, const MeshComponents& co
   return shells;
 }
 
-Defects findFlatShells(const TriangleMesh& mesh, const std::vector<Shell>& shells) {
-  MeshDefect defect{"encloses no volume", {}, {}};
+/// The defect of all shells for which is_bad() holds; textOf() says what is wrong with the first.
+template <class IsBad, class TextOf>
+Defects defectOf(const char* kind, const std::vector<Shell>& shells, const IsBad& is_bad,
+                 const TextOf& textOf) {
+  MeshDefect defect{kind, {}, {}};
   for (const Shell& shell : shells) {
-    const double ratio = std::abs(shell.volume) / portable::pow(shell.area, 1.5);
-    if (ratio >= kLeastVolume) continue;
-    const int first = shell.triangles.front();
-    if (defect.text.empty()) {
-      defect.text = defectText(
-          "the surface around triangle ", first, " at ", pointText(mesh.corner(first, 0)),
-          " encloses no volume: volume / area^1.5 = ", ratio, ", at least ", kLeastVolume,
-          " needed (an open surface of zero thickness is a sheet)");
-    }
+    if (!is_bad(shell)) continue;
+    if (defect.text.empty()) defect.text = textOf(shell);
     defect.triangles.insert(defect.triangles.end(), shell.triangles.begin(), shell.triangles.end());
   }
-  if (defect.text.empty()) return {};
-  return {defect};
+  return defect.text.empty() ? Defects() : Defects{defect};
+}
+
+Defects findFlatShells(const TriangleMesh& mesh, const std::vector<Shell>& shells) {
+  const auto ratioOf = [](const Shell& shell) {
+    return std::abs(shell.volume) / portable::pow(shell.area, 1.5);
+  };
+  return defectOf(
+      "encloses no volume", shells,
+      [&](const Shell& shell) { return !(ratioOf(shell) >= kLeastVolume); },
+      [&](const Shell& shell) {
+        const int first = shell.triangles.front();
+        return defectText(
+            "the surface around triangle ", first, " at ", pointText(mesh.corner(first, 0)),
+            " encloses no volume: volume / area^1.5 = ", ratioOf(shell), ", at least ",
+            kLeastVolume, " needed (an open surface of zero thickness is a sheet)");
+      });
 }
 
 bool isWrong(const Shell& shell) { return (shell.volume > 0) != (shell.depth % 2 == 0); }
@@ -92,22 +102,18 @@ bool areAllWrong(const std::vector<Shell>& shells) {
 
 // Whether a nested shell that points outwards is superfluous or a cavity only the user can know.
 Defects findNestedShells(const TriangleMesh& mesh, const std::vector<Shell>& shells) {
-  MeshDefect defect{"a part counts twice", {}, {}};
   if (areAllWrong(shells)) return {};
-  for (const Shell& shell : shells) {
-    if (!isWrong(shell) || shell.depth == 0) continue;
-    const int first = shell.triangles.front();
-    if (defect.text.empty()) {
-      defect.text = defectText(
-          "the part around triangle ", first, " at ", pointText(mesh.corner(first, 0)), " (",
-          shell.triangles.size(), " triangles) lies inside another part and points ",
-          shell.volume > 0 ? "outwards" : "inwards",
-          ": its volume would count twice; leave it out, or turn it round if it is a cavity");
-    }
-    defect.triangles.insert(defect.triangles.end(), shell.triangles.begin(), shell.triangles.end());
-  }
-  if (defect.text.empty()) return {};
-  return {defect};
+  return defectOf(
+      "a part counts twice", shells,
+      [](const Shell& shell) { return isWrong(shell) && shell.depth > 0; },
+      [&](const Shell& shell) {
+        const int first = shell.triangles.front();
+        return defectText(
+            "the part around triangle ", first, " at ", pointText(mesh.corner(first, 0)), " (",
+            shell.triangles.size(), " triangles) lies inside another part and points ",
+            shell.volume > 0 ? "outwards" : "inwards",
+            ": its volume would count twice; leave it out, or turn it round if it is a cavity");
+      });
 }
 
 /// Turns shells that point the wrong way; returns how many triangles that were.
@@ -258,24 +264,12 @@ CheckedMesh orientShells(const TriangleMesh& mesh, const MeshEdges& edges,
 }
 
 CheckedMesh withoutUnusedVertices(const TriangleMesh& mesh, const std::string& name) {
-  std::vector<int> new_index(mesh.vertexCount(), -1);
-  for (Eigen::Index i = 0; i < mesh.triangles.size(); ++i) new_index[mesh.triangles.data()[i]] = 0;
-  int used = 0;
-  for (int& index : new_index) {
-    if (index == 0) index = used++;
-  }
-  CheckedMesh result{mesh, {}};
-  if (used == mesh.vertexCount()) return result;
-  result.mesh.vertices.resize(3, used);
-  for (Eigen::Index v = 0; v < mesh.vertexCount(); ++v) {
-    if (new_index[v] >= 0) result.mesh.vertices.col(new_index[v]) = mesh.vertices.col(v);
-  }
-  for (Eigen::Index i = 0; i < mesh.triangles.size(); ++i) {
-    result.mesh.triangles.data()[i] = new_index[mesh.triangles.data()[i]];
-  }
-  result.warnings.push_back(name + ": " + std::to_string(mesh.vertexCount() - used) +
-                            " vertices belong to no triangle and were left out");
-  return result;
+  TriangleMesh used = withUsedVertices(mesh.vertices, columnsOf(mesh.triangles));
+  const Eigen::Index unused = mesh.vertexCount() - used.vertexCount();
+  if (unused == 0) return {mesh, {}};
+  return {
+      std::move(used),
+      {name + ": " + std::to_string(unused) + " vertices belong to no triangle and were left out"}};
 }
 
 }  // namespace

@@ -24,6 +24,12 @@ double solidAngle(const TriangleMesh& mesh, Eigen::Index triangle, const Eigen::
   return 2 * tangent * (1 - square * (1.0 / 3 - square * (1.0 / 5 - square / 7)));
 }
 
+double solidAngle(const TriangleMesh& mesh, const Eigen::Vector3d& point) {
+  double angle = 0;
+  for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) angle += solidAngle(mesh, t, point);
+  return angle;
+}
+
 double enclosedVolume(const TriangleMesh& mesh) {
   constexpr double kAngles = 2e8;
   const auto triangles = static_cast<double>(mesh.triangleCount());
@@ -34,9 +40,7 @@ double enclosedVolume(const TriangleMesh& mesh) {
     const int x = i % count, y = i / count % count, z = i / (count * count);
     const Eigen::Array3d place(x, y, z);
     const Eigen::Vector3d point = low.array() + (place + 0.5) * step.array();
-    double angle = 0;
-    for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) angle += solidAngle(mesh, t, point);
-    inside += std::abs(angle) > 2 * kPi ? 1 : 0;
+    inside += std::abs(solidAngle(mesh, point)) > 2 * kPi ? 1 : 0;
   }
   return inside * step.prod();
 }

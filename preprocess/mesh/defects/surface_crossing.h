@@ -12,6 +12,9 @@ namespace ambient {
 /// plane outside of it. Van Oosterom and Strackee 1983.
 double solidAngle(const TriangleMesh& mesh, Eigen::Index triangle, const Eigen::Vector3d& point);
 
+/// Sum of the solid angles of all triangles: 4 pi inside a closed outward surface, 0 outside.
+double solidAngle(const TriangleMesh& mesh, const Eigen::Vector3d& point);
+
 /// Volume [m^3] of the points around which the triangles wind more than half, whether or not they
 /// are closed; what several surfaces enclose counts once (Jacobson, Kavan and Sorkine-Hornung
 /// 2013). Samples 8^3 to 24^3 points of the bounding box, fewer for many triangles; accuracy some

@@ -13,7 +13,6 @@
 #include "preprocess/mesh/defects/surface_crossing.h"
 #include "preprocess/mesh/geometry.h"
 #include "preprocess/mesh/holds/hold_labels.h"
-#include "preprocess/mesh/holds/level_rims.h"
 #include "preprocess/mesh/holds/pools.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mass_properties.h"
@@ -73,12 +72,9 @@ class LidSpanner {
   /// Whether the mesh passes through a lid, away from its outline.
   bool isCrossed(const Loop& loop) const {
     const std::set<int> outline(loop.vertices.begin(), loop.vertices.end());
-    TriangleMesh lid{mesh_.vertices, {}};
-    lid.triangles.resize(3, static_cast<Eigen::Index>(loop.lid.size()));
+    const TriangleMesh lid = makeTriangleMesh(mesh_.vertices, loop.lid);
     Eigen::AlignedBox3d bounds;
     for (const int v : loop.vertices) bounds.extend(Vector3d(mesh_.vertices.col(v)));
-    for (std::size_t i = 0; i < loop.lid.size(); ++i)
-      lid.triangles.col(static_cast<int>(i)) = loop.lid[i];
     for (Eigen::Index t = 0; t < mesh_.triangleCount(); ++t) {
       const auto corners = mesh_.triangles.col(t);
       if (std::any_of(corners.begin(), corners.end(),

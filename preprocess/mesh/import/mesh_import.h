@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -32,5 +33,38 @@ ImportedMesh importMesh(const std::filesystem::path& file, double scale = 1);
 /// with the vertices that it uses: parts of a convex decomposition, say. Any other file is one.
 /// @throws as importMesh()
 std::vector<TriangleMesh> importObjects(const std::filesystem::path& file);
+
+/// Exit status and output of a child process.
+struct ChildResult {
+  int exit_code = 0;
+  int signal = 0;      ///< signal that ended the process; 0: none
+  std::string output;  ///< standard output
+};
+
+/// Runs a program of this project, without a shell: `command` is its name and its arguments. The
+/// program is taken from the folder of the running one, where the build and the installation put
+/// both, else from the PATH. May be called from any thread.
+/// @throws std::runtime_error if it cannot be started, with the reason.
+ChildResult runChild(const std::vector<std::string>& command);
+
+/// The triangles of a mesh file in its own frame, with one vertex list per mesh and node.
+struct SceneTriangles {
+  TriangleMesh mesh;
+  std::int64_t points_and_lines = 0;  ///< number of points and lines that were left out
+  std::string warning;                ///< for the user, without the file's name; mostly empty
+  std::vector<int> nodes;             ///< index into `names` of each triangle; -1: none
+  std::vector<std::string> names;     ///< of nodes and groups; may be empty or the same
+};
+
+/// Exit code of ambient_mesh_reader if it refuses the file; it has then written why.
+constexpr int kRefusedByReader = 3;
+
+/// Reads a file with the program ambient_mesh_reader, so that crashes, damaged memory and endless
+/// loops of its readers end with that program; polygons are divided into triangles. It may take
+/// 10 s of processor time, and 2 s for each megabyte. It writes three numbers of 64 bits: points
+/// and lines, vertices, triangles; then the coordinates as doubles, the corners and the nodes of
+/// the triangles as ints, the warning, and the names of the nodes, a line each.
+/// @throws std::runtime_error in one line that begins with the file.
+SceneTriangles readSceneTriangles(const std::filesystem::path& file);
 
 }  // namespace ambient

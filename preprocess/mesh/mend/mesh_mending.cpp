@@ -94,11 +94,10 @@ struct Side {
 
 class CrackMender {
  public:
-  CrackMender(const TriangleMesh& mesh, double tolerance) : tolerance_(tolerance) {
-    for (Eigen::Index v = 0; v < mesh.vertexCount(); ++v) points_.push_back(mesh.vertices.col(v));
-    for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t)
-      triangles_.push_back(mesh.triangles.col(t));
-  }
+  CrackMender(const TriangleMesh& mesh, double tolerance)
+      : tolerance_(tolerance),
+        points_(columnsOf(mesh.vertices)),
+        triangles_(columnsOf(mesh.triangles)) {}
 
   /// False if there was nothing to divide.
   bool divideOnce() {

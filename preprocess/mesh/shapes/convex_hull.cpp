@@ -219,17 +219,8 @@ TriangleMesh makeConvexHull(const Eigen::Matrix3Xd& points, const std::string& n
     raiseInputError(name, "a convex hull of ", points.cols(), " points needs at least ",
                     kLeastPoints);
   if (!points.allFinite()) raiseInputError(name, "a point of the hull is not finite");
-  std::map<int, int> number;  // in the mesh, by number in the list
-  std::vector<Eigen::Vector3d> vertices;
-  std::vector<Eigen::Vector3i> triangles = HullBuilder(onLattice(points, bits)).build();
-  for (Eigen::Vector3i& triangle : triangles) {
-    for (int& corner : triangle) {
-      const auto [entry, is_new] = number.emplace(corner, static_cast<int>(vertices.size()));
-      if (is_new) vertices.emplace_back(points.col(corner));
-      corner = entry->second;
-    }
-  }
-  const TriangleMesh mesh = makeTriangleMesh(vertices, triangles);
+  const std::vector<Eigen::Vector3i> triangles = HullBuilder(onLattice(points, bits)).build();
+  const TriangleMesh mesh = withUsedVertices(points, triangles);
   if (triangles.empty() || !hasVolume(mesh))
     raiseInputError(name, "the points of the hull lie in a plane");
   return mesh;

@@ -15,7 +15,6 @@
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/spatial/rotation.h"
-#include "preprocess/mesh/defects/surface_check.h"
 #include "preprocess/mesh/defects/surface_crossing.h"
 #include "preprocess/mesh/defects/topology_defects.h"
 #include "preprocess/mesh/geometry.h"
@@ -29,12 +28,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::Vector3d;
-
-bool isInside(const Vector3d& x, const TriangleMesh& mesh) {
-  double angle = 0;
-  for (Index t = 0; t < mesh.triangleCount(); ++t) angle += solidAngle(mesh, t, x);
-  return angle > 2 * kPi;
-}
 
 /// Edges of a through b, or corners of a closer to b than the gap.
 bool reaches(const TriangleMesh& a, const TriangleMesh& b, double gap) {
@@ -58,8 +51,8 @@ bool reaches(const TriangleMesh& a, const TriangleMesh& b, double gap) {
 bool areInContact(const TriangleMesh& a, const TriangleMesh& b) {
   const double gap = kLeastGap * std::min(a.extents().maxCoeff(), b.extents().maxCoeff());
   if (!areNear(a.bounds(), b.bounds(), gap)) return false;
-  return reaches(a, b, gap) || reaches(b, a, gap) || isInside(a.vertices.col(0), b) ||
-         isInside(b.vertices.col(0), a);
+  return reaches(a, b, gap) || reaches(b, a, gap) || solidAngle(b, a.vertices.col(0)) > 2 * kPi ||
+         solidAngle(a, b.vertices.col(0)) > 2 * kPi;
 }
 
 namespace {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "preprocess/mesh/triangle_mesh.h"
@@ -38,5 +39,36 @@ class TriangleTree {
   std::vector<int> order_;
   std::vector<Node> nodes_;
 };
+
+/// Point of a closed surface, and the solid behind it.
+struct SurfaceSample {
+  Eigen::Vector3d place, normal;  ///< normal into the fluid
+  Eigen::Vector3d middle;         ///< half way through the solid: on its mean surface
+  int triangle = 0;
+  double thickness = 0;  ///< way through the solid against the normal [m]
+  bool is_thin = false;  ///< thickness below 0.3 of the shortest way across it
+};
+
+/// Points spread evenly over a closed surface.
+struct SurfaceSamples {
+  std::vector<SurfaceSample> all;
+  double spacing = 0;  ///< root of the area of each [m]
+};
+
+/// Spreads points over the area, the same in every call. Cost: `count` times seven lines through
+/// the solid.
+SurfaceSamples sampleSurface(const TriangleMesh& mesh, const TriangleTree& tree, int count);
+
+/// The thinnest place of a body.
+struct Thickness {
+  double thickness = 0;  ///< distance from a barycentre straight inwards to the other side [m]
+  int triangle = 0;
+  Eigen::Vector3d barycentre = Eigen::Vector3d::Zero();  ///< [m]
+};
+
+/// Finds the least thickness over the barycentres of at most some 2000 triangles, evenly chosen;
+/// none if no ray meets another side. Cost O(T log T).
+/// @pre closed and outward oriented.
+std::optional<Thickness> findThinnestPart(const TriangleMesh& mesh);
 
 }  // namespace ambient

@@ -7,7 +7,8 @@
 #include <map>
 
 #include "bullet_ambient/spatial/symmetric_eigen.h"
-#include "preprocess/mesh/wings/surface_samples.h"
+#include "preprocess/base/numerics.h"
+#include "preprocess/mesh/wings/triangle_tree.h"
 #include "preprocess/mesh/wings/wing_numbers.h"
 
 namespace ambient {
@@ -229,7 +230,7 @@ class WingSearch {
   /// k-means, from places far from each other.
   std::vector<Chosen> clustered(const Chosen& piece, const std::vector<Vector2d>& places, int arms,
                                 int start) const {
-    SampleNumbers random(static_cast<std::uint64_t>(start) + 17);
+    SplitMix64 random(static_cast<std::uint64_t>(start) + 17);
     std::vector<Vector2d> centres;
     const auto nearestSquare = [&](const Vector2d& place) {
       double least = std::numeric_limits<double>::infinity();
@@ -246,7 +247,7 @@ class WingSearch {
       centres.push_back(farthest([](const Vector2d& place) { return place.squaredNorm(); }));
     else
       centres.push_back(
-          places[static_cast<std::size_t>(random.next() * static_cast<double>(places.size()))]);
+          places[static_cast<std::size_t>(random.uniform() * static_cast<double>(places.size()))]);
     while (static_cast<int>(centres.size()) < arms) centres.push_back(farthest(nearestSquare));
     std::vector<int> of(places.size());
     for (int pass = 0; pass < 30; ++pass) {

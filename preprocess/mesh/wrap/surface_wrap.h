@@ -13,7 +13,7 @@ namespace ambient {
 constexpr double kDefaultWrapSize = 0.01;
 
 /// Makes a closed surface around any triangles: open, overlapping, doubled, crossing, in any number
-/// of parts, of any orientation. First fills holes (withHolesFilled()), with a warning. The
+/// of parts, of any orientation. First fills holes, with a warning. The
 /// resolution is `size` [m] (0: kDefaultWrapSize): narrower gaps are closed, thinner open parts
 /// get 1.5 times that thickness, enclosed space is filled. Elsewhere the surface is that of the
 /// triangles, with their sharp edges, to a tenth of the size. It is coarsened to 800 to 4000
@@ -34,7 +34,7 @@ CheckedMesh wrapSurface(const TriangleMesh& mesh, double size, const std::string
 /// @throws std::runtime_error in one line that begins with `name`, with the first defect: of any
 /// mesh that has one, if `strict`; else of one without triangles or with values out of
 /// range, of a sheet (a closed surface without volume, or an open one with a loop of open edges
-/// that would take more than kSheet of its area), and of what wrapSurface() refuses.
+/// that would take more than 0.9 of its area), and of what wrapSurface() refuses.
 CheckedMesh makeBodyMesh(const TriangleMesh& mesh, const std::string& name, bool strict,
                          double unit = 1);
 

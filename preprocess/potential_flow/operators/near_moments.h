@@ -5,9 +5,9 @@
 #include <array>
 #include <vector>
 
+#include "preprocess/potential_flow/surface/panel.h"
 #include "preprocess/potential_flow/surface/panel_pair.h"
 #include "preprocess/potential_flow/surface/panel_views.h"
-#include "preprocess/potential_flow/surface/quadrature_rules.h"
 
 namespace ambient {
 

@@ -76,21 +76,11 @@ class Splitter {
 PanelSurface inOrder(const PanelSurface& surface, const std::vector<int>& order) {
   PanelSurface result = surface;
   AMBIENT_ASSERT(order.size() == surface.panels.size());
-  const PanelArrays& from = surface.arrays;
-  PanelArrays& to = result.arrays;
-  const auto arrays = [](auto& a) {
-    return std::array{&a.x,      &a.y,  &a.z,  &a.normal_x, &a.normal_y, &a.normal_z, &a.area,
-                      &a.radius, &a.xx, &a.yy, &a.zz,       &a.xy,       &a.xz,       &a.yz};
-  };
   for (std::size_t t = 0; t < order.size(); ++t) {
-    const auto place = static_cast<Index>(t);
-    result.triangles.col(place) = surface.triangles.col(order[t]);
+    result.triangles.col(static_cast<Index>(t)) = surface.triangles.col(order[t]);
     result.panels[t] = surface.panels[order[t]];
-    result.numbers[t] = surface.numbers[order[t]];
-    result.nodes[t] = surface.nodes[order[t]];
-    for (std::size_t k = 0; k < arrays(to).size(); ++k)
-      (*arrays(to)[k])[place] = (*arrays(from)[k])[order[t]];
   }
+  fillFromPanels(result);
   return result;
 }
 

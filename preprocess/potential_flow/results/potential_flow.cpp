@@ -13,7 +13,7 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
-#include "preprocess/base/matrices.h"
+#include "preprocess/base/numerics.h"
 #include "preprocess/base/parallel_for.h"
 #include "preprocess/mesh/check/mesh_checks.h"
 #include "preprocess/potential_flow/results/added_mass_parts.h"
@@ -42,6 +42,16 @@ Eigen::Matrix<double, Eigen::Dynamic, 6> projectOnVertices(const PanelSurface& s
   Eigen::SparseMatrix<double> mass(vertices, vertices);
   mass.setFromTriplets(entries.begin(), entries.end());
   return Eigen::SimplicialLLT<Eigen::SparseMatrix<double>>(mass).solve(load);
+}
+
+Matrix6 panelInertia(const Panel& panel, const Eigen::Matrix<double, 3, 6>& moments) {
+  Matrix6 inertia = Matrix6::Zero();
+  for (int a = 0; a < 3; ++a) {
+    Vector6 g;
+    g << panel.corner[a].cross(panel.normal), panel.normal;
+    inertia -= g * moments.row(a);
+  }
+  return inertia;
 }
 
 namespace {
@@ -101,8 +111,6 @@ double largestAsymmetry(const Matrix6& K) {
   return largest > 0 ? (K - K.transpose()).cwiseAbs().maxCoeff() / largest : 0;
 }
 
-Matrix6 symmetricPart(const Matrix6& K) { return 0.5 * (K + K.transpose()); }
-
 /// -B^T mu: the inertia of the fluid on both sides of the surface; symmetric.
 Matrix6 integrateEnergy(const PanelSurface& surface, const Unknowns& unknowns,
                         const MatrixX6& jump) {
@@ -126,11 +134,7 @@ std::vector<PanelInertia> integratePanels(const PanelSurface& surface,
     panels[t].area = panel.area;
     panels[t].spread << arrays.xx[i], arrays.yy[i], arrays.zz[i], arrays.xy[i], arrays.xz[i],
         arrays.yz[i];
-    for (int a = 0; a < 3; ++a) {
-      Vector6 g;
-      g << panel.corner[a].cross(panel.normal), panel.normal;
-      panels[t].inertia -= g * moments[t].row(a);
-    }
+    panels[t].inertia = panelInertia(panel, moments[t]);
   }
   return panels;
 }

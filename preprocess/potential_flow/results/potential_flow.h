@@ -13,6 +13,9 @@ namespace ambient {
 Eigen::Matrix<double, Eigen::Dynamic, 6> projectOnVertices(const PanelSurface& surface,
                                                            const PanelMoments& moments);
 
+/// Contribution of one panel to the inertia: -int g phi^T, not symmetric.
+Matrix6 panelInertia(const Panel& panel, const Eigen::Matrix<double, 3, 6>& moments);
+
 /// Method of solving the linear system: by factorisation, or iteratively with a tree of panels.
 enum class FlowSolverKind { Automatic, Dense, Hierarchical };
 

@@ -7,14 +7,13 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/spatial/inertia.h"
-#include "preprocess/base/matrices.h"
+#include "preprocess/base/numerics.h"
 #include "preprocess/mesh/check/mesh_checks.h"
 #include "preprocess/mesh/geometry.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/wrap/surface_wrap.h"
 #include "preprocess/potential_flow/surface/flat_merging.h"
 #include "preprocess/potential_flow/surface/panel.h"
-#include "preprocess/potential_flow/surface/quadrature_rules.h"
 #include "preprocess/potential_flow/surface/shape_symmetry.h"
 #include "preprocess/potential_flow/surface/surface_refinement.h"
 
@@ -116,27 +115,6 @@ constexpr double kLargePolyhedronChange = 0.1;
 // the potential at the edges of a box goes with r^(2/3).
 constexpr double kThinnedError = 0.3968502629920499;
 
-/// Whether all triangles but a few stand for a part of a smooth surface. To divide them would
-/// resolve the flow around facets that the body does not have.
-bool isSmooth(const std::vector<FaceBulge>& bulges) {
-  const auto flat = std::count(bulges.begin(), bulges.end(), FaceBulge{0, 0, 0});
-  return 20 * static_cast<std::size_t>(flat) < bulges.size();
-}
-
-/// Without what the mirrors and half turns of a body forbid, and stretched about its centre.
-Matrix6 withSymmetriesOf(const TriangleMesh& mesh, bool sheet, double stretch,
-                         const Matrix6& added_mass) {
-  const MeshProperties properties = computeMassProperties(mesh, sheet);
-  const Eigen::Vector3d& centre = properties.uniform.centre;
-  const double size = std::sqrt(properties.area);
-  AMBIENT_ASSERT(properties.area > 0 && stretch > 0);
-  Matrix6 unit = scaleShape(shiftOrigin(added_mass, centre), stretch / size);
-  unit = positivePart(symmetrised(unit, findSymmetries(mesh, centre)));
-  AMBIENT_ASSERT(isSymmetric(unit, 1e-9));
-  const Matrix6 shifted = shiftOrigin(scaleShape(unit, size), -centre);
-  return (shifted + shifted.transpose()) / 2;  // the shift rounds both halves apart
-}
-
 /// To panels that are infinitely thin at the edges, from one level of thinning to the next.
 Matrix6 extrapolatedAcrossEdges(const Matrix6& fine, const Matrix6& less_thinned) {
   return fine + kThinnedError / (1 - kThinnedError) * (fine - less_thinned);
@@ -172,7 +150,7 @@ struct Division {
 Division divisionOf(const TriangleMesh& mesh, const PotentialFlowSettings& settings) {
   Division division;
   if (!settings.sheet) division.bulges = estimateBulges(mesh);
-  division.is_smooth = isSmooth(division.bulges);
+  division.is_smooth = areSmooth(division.bulges);
   division.basis = division.bulges.empty()
                        ? mergeFlatTriangles(mesh, settings.sheet, settings.max_panels)
                        : mesh;
@@ -214,7 +192,8 @@ RefinedFlow solveOn(const Division& division, const TriangleMesh& mesh,
     const double volume = computeMassProperties(mesh).volume;
     stretch = portable::cbrt(volume / (volume + correction.volume));
   }
-  refined.added_mass = withSymmetriesOf(mesh, settings.sheet, stretch, refined.added_mass);
+  refined.added_mass =
+      withSymmetriesOf(mesh, settings.sheet, refined.added_mass, scaleShape, stretch);
   return refined;
 }
 
@@ -263,7 +242,7 @@ RefinedFlow solvePolyhedron(const TriangleMesh& mesh, const PotentialFlowSetting
         flow.added_mass, solvePotentialFlow(*levels.less_thinned, undivided).added_mass);
   }
   refined.is_coarse = changeOf(flow.added_mass, refined.added_mass) > kLargePolyhedronChange;
-  refined.added_mass = withSymmetriesOf(mesh, false, 1, refined.added_mass);
+  refined.added_mass = withSymmetriesOf(mesh, false, refined.added_mass, scaleShape);
   return refined;
 }
 
@@ -278,7 +257,7 @@ RefinedFlow solveInOtherTriangles(const TriangleMesh& other, const TriangleMesh&
                                   const PotentialFlowSettings& settings) {
   RefinedFlow refined = solveOnPanels(other, settings);
   refined.is_coarse = false;
-  refined.added_mass = withSymmetriesOf(mesh, false, 1, refined.added_mass);
+  refined.added_mass = withSymmetriesOf(mesh, false, refined.added_mass, scaleShape);
   return refined;
 }
 
@@ -305,7 +284,7 @@ std::optional<TriangleMesh> inTrianglesFor(int panels, const TriangleMesh& mesh)
   constexpr int kFewTriangles = 400;
   std::optional<TriangleMesh> fewer = inFewerTriangles(mesh, panels);
   const int divisible = std::max(kFewTriangles, panels / kPanelsPerTriangle);
-  if (!fewer || divisible >= panels || isSmooth(estimateBulges(*fewer))) return fewer;
+  if (!fewer || divisible >= panels || areSmooth(estimateBulges(*fewer))) return fewer;
   return inFewerTriangles(*fewer, divisible);
 }
 

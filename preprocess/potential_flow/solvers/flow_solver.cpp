@@ -13,13 +13,13 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/instruction_set.h"
 #include "bullet_ambient/base/pi.h"
-#include "preprocess/base/matrices.h"
+#include "preprocess/base/numerics.h"
 #include "preprocess/base/parallel_for.h"
 #include "preprocess/potential_flow/operators/far_moments.h"
 #include "preprocess/potential_flow/operators/near_moments.h"
 #include "preprocess/potential_flow/solvers/block_product.h"
+#include "preprocess/potential_flow/surface/panel.h"
 #include "preprocess/potential_flow/surface/panel_pair.h"
-#include "preprocess/potential_flow/surface/quadrature_rules.h"
 
 namespace ambient {
 

@@ -107,13 +107,7 @@ class FlatMerger : private EditableMesh {
   }
 
   /// Returns the present triangles; keeps vertices without a triangle.
-  TriangleMesh mesh() const {
-    const std::vector<Corners> left = trianglesLeft();
-    TriangleMesh mesh{vertices, Eigen::Matrix3Xi(3, left.size())};
-    for (std::size_t t = 0; t < left.size(); ++t)
-      mesh.triangles.col(static_cast<Index>(t)) = left[t];
-    return mesh;
-  }
+  TriangleMesh mesh() const { return makeTriangleMesh(vertices, trianglesLeft()); }
 
  private:
   bool isInPlaneOf(const Corners& t, int vertex) const {

@@ -5,7 +5,6 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "preprocess/potential_flow/surface/panel_views.h"
-#include "preprocess/potential_flow/surface/quadrature_rules.h"
 
 namespace ambient {
 
@@ -79,33 +78,6 @@ void computeNewtonPotentials(const Panel& panel, const Eigen::Vector3d* points, 
     potentials[i] = -v.height[i] * v.solid_angle[i];
     for (int k = 0; k < 3; ++k) potentials[i] += v.edge_distance[k][i] * v.edge_potential[k][i];
   }
-}
-
-void computeDoubleLayers(const Panel& panel, const Eigen::Vector3d* points, std::size_t count,
-                         Eigen::Vector3d* weights) {
-  const PanelViews v = viewPanel(panel, points, count);
-  std::array<Eigen::Vector3d, 3> gradient;
-  for (int a = 0; a < 3; ++a) gradient[a] = panel.hatGradient(a);
-  for (std::size_t i = 0; i < count; ++i) {
-    Eigen::Vector3d edge_flux = Eigen::Vector3d::Zero();
-    for (int k = 0; k < 3; ++k) edge_flux += panel.edge_normal[k] * v.edge_potential[k][i];
-    const Eigen::Vector3d offset = points[i] - panel.centroid;
-    for (int a = 0; a < 3; ++a)
-      weights[i][a] = (1.0 / 3.0 + gradient[a].dot(offset)) * v.solid_angle[i] -
-                      v.height[i] * gradient[a].dot(edge_flux);
-  }
-}
-
-double computeNewtonPotential(const Panel& panel, const Eigen::Vector3d& x) {
-  double potential = 0;
-  computeNewtonPotentials(panel, &x, 1, &potential);
-  return potential;
-}
-
-Eigen::Vector3d computeDoubleLayer(const Panel& panel, const Eigen::Vector3d& x) {
-  Eigen::Vector3d weights;
-  computeDoubleLayers(panel, &x, 1, &weights);
-  return weights;
 }
 
 }  // namespace ambient

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "bullet_ambient/base/elementary.h"
-#include "preprocess/potential_flow/surface/quadrature_rules.h"
+#include "preprocess/potential_flow/surface/panel.h"
 
 namespace ambient {
 namespace {
@@ -111,19 +111,6 @@ double pointsByPoints(const PanelSurface& surface, Index t, Index s) {
   return surface.panels[t].area * surface.panels[s].area * mean(surface.nodes[t], surface.nodes[s]);
 }
 
-/// Centroids with second moments; computeFarPairIntegrals() has the same for whole rows.
-double farPairIntegral(const PanelSurface& surface, Index t, Index s) {
-  const PanelArrays& a = surface.arrays;
-  const double x = a.x[t] - a.x[s], y = a.y[t] - a.y[s], z = a.z[t] - a.z[s];
-  const double xx = a.xx[t] + a.xx[s], yy = a.yy[t] + a.yy[s], zz = a.zz[t] + a.zz[s];
-  const double xy = a.xy[t] + a.xy[s], xz = a.xz[t] + a.xz[s], yz = a.yz[t] + a.yz[s];
-  const double inverse_square = 1 / (x * x + y * y + z * z);
-  const double along =
-      x * (x * xx + 2 * (y * xy + z * xz)) + y * (y * yy + 2 * z * yz) + z * z * zz;
-  const double quadrupole = (1.5 * along * inverse_square - 0.5 * (xx + yy + zz)) * inverse_square;
-  return a.area[t] * a.area[s] * std::sqrt(inverse_square) * (1 + quadrupole);
-}
-
 }  // namespace
 
 PairKind classifyPair(const PanelSurface& surface, Index t, Index s) {
@@ -171,7 +158,9 @@ double computePairIntegral(const PanelSurface& surface, Index t, Index s, PairKi
     case PairKind::Far:
       break;
   }
-  return farPairIntegral(surface, t, s);
+  Eigen::ArrayXd integral(1);
+  computeFarPairIntegrals(surface.arrays, t, s, integral);
+  return integral[0];
 }
 
 void computeFarPairIntegrals(const PanelArrays& a, Index t, Index from, Eigen::ArrayXd& row) {

@@ -95,6 +95,11 @@ std::vector<FaceBulge> estimateBulges(const TriangleMesh& mesh) {
   return bulges;
 }
 
+bool areSmooth(const std::vector<FaceBulge>& bulges) {
+  const auto flat = std::count(bulges.begin(), bulges.end(), FaceBulge{0, 0, 0});
+  return 20 * static_cast<std::size_t>(flat) < bulges.size();
+}
+
 namespace {
 
 using Eigen::Index;
@@ -137,25 +142,6 @@ void placeAndScale(const TriangleMesh& mesh, bool sheet, PanelSurface& surface) 
   surface.volume = sheet ? 0 : centroids.volume / portable::pow(surface.length, 3);
 }
 
-void fillArrays(PanelSurface& surface) {
-  const Index n = surface.panelCount();
-  PanelArrays& a = surface.arrays;
-  for (Eigen::ArrayXd* array : {&a.x, &a.y, &a.z, &a.normal_x, &a.normal_y, &a.normal_z, &a.area,
-                                &a.radius, &a.xx, &a.yy, &a.zz, &a.xy, &a.xz, &a.yz})
-    array->resize(n);
-  for (Index t = 0; t < n; ++t) {
-    const Panel& p = surface.panels[t];
-    Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
-    for (const Vector3d& corner : p.corner)
-      moment += (corner - p.centroid) * (corner - p.centroid).transpose() / 12;
-    a.x[t] = p.centroid.x(), a.y[t] = p.centroid.y(), a.z[t] = p.centroid.z();
-    a.normal_x[t] = p.normal.x(), a.normal_y[t] = p.normal.y(), a.normal_z[t] = p.normal.z();
-    a.area[t] = p.area, a.radius[t] = p.radius;
-    a.xx[t] = moment(0, 0), a.yy[t] = moment(1, 1), a.zz[t] = moment(2, 2);
-    a.xy[t] = moment(0, 1), a.xz[t] = moment(0, 2), a.yz[t] = moment(1, 2);
-  }
-}
-
 /// Boundary edges, and components of the vertices: those that touch in one vertex share their
 /// constant, so triangles are joined through vertices, not edges.
 void findConnectivity(const TriangleMesh& mesh, PanelSurface& surface) {
@@ -183,6 +169,31 @@ void findConnectivity(const TriangleMesh& mesh, PanelSurface& surface) {
 
 }  // namespace
 
+void fillFromPanels(PanelSurface& surface) {
+  surface.numbers.clear();
+  surface.nodes.clear();
+  for (const Panel& panel : surface.panels) {
+    surface.numbers.push_back(numbersOf(panel));
+    surface.nodes.push_back(nodesOf(panel));
+  }
+  const Index n = surface.panelCount();
+  PanelArrays& a = surface.arrays;
+  for (Eigen::ArrayXd* array : {&a.x, &a.y, &a.z, &a.normal_x, &a.normal_y, &a.normal_z, &a.area,
+                                &a.radius, &a.xx, &a.yy, &a.zz, &a.xy, &a.xz, &a.yz})
+    array->resize(n);
+  for (Index t = 0; t < n; ++t) {
+    const Panel& p = surface.panels[t];
+    Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
+    for (const Vector3d& corner : p.corner)
+      moment += (corner - p.centroid) * (corner - p.centroid).transpose() / 12;
+    a.x[t] = p.centroid.x(), a.y[t] = p.centroid.y(), a.z[t] = p.centroid.z();
+    a.normal_x[t] = p.normal.x(), a.normal_y[t] = p.normal.y(), a.normal_z[t] = p.normal.z();
+    a.area[t] = p.area, a.radius[t] = p.radius;
+    a.xx[t] = moment(0, 0), a.yy[t] = moment(1, 1), a.zz[t] = moment(2, 2);
+    a.xy[t] = moment(0, 1), a.xz[t] = moment(0, 2), a.yz[t] = moment(1, 2);
+  }
+}
+
 PanelSurface makePanelSurface(const TriangleMesh& mesh, bool sheet) {
   PanelSurface surface;
   surface.triangles = mesh.triangles;
@@ -196,11 +207,7 @@ PanelSurface makePanelSurface(const TriangleMesh& mesh, bool sheet) {
       throw std::runtime_error("potential flow: triangle " + std::to_string(t) + " has no area");
   }
   AMBIENT_ASSERT(surface.length > 0 && std::isfinite(surface.length));
-  for (const Panel& panel : surface.panels) {
-    surface.numbers.push_back(numbersOf(panel));
-    surface.nodes.push_back(nodesOf(panel));
-  }
-  fillArrays(surface);
+  fillFromPanels(surface);
   findConnectivity(mesh, surface);
   return surface;
 }

@@ -23,6 +23,10 @@ using FaceBulge = std::array<double, 3>;
 /// @pre the mesh is closed.
 std::vector<FaceBulge> estimateBulges(const TriangleMesh& mesh);
 
+/// Whether all triangles but a few stand for a part of a smooth surface. To divide them would
+/// resolve the flow around facets that the body does not have.
+bool areSmooth(const std::vector<FaceBulge>& bulges);
+
 /// Panel data as a structure of arrays, for the loops over far panels.
 struct PanelArrays {
   Eigen::ArrayXd x, y, z;  ///< centroids
@@ -49,6 +53,9 @@ struct PanelSurface {
   Eigen::Index panelCount() const { return triangles.cols(); }
   Eigen::Index vertexCount() const { return static_cast<Eigen::Index>(component.size()); }
 };
+
+/// Computes the numbers, nodes and arrays of a surface from its panels.
+void fillFromPanels(PanelSurface& surface);
 
 /// Makes panels, moments and connectivity of a mesh, centred and scaled.
 /// @throws std::runtime_error for a triangle without area.

@@ -5,8 +5,10 @@
 #include <map>
 #include <utility>
 
+#include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
+#include "preprocess/base/numerics.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/triangle_mesh.h"
 #include "preprocess/potential_flow/surface/surface_refinement.h"
@@ -121,12 +123,23 @@ Matrix6 symmetrised(Matrix6 inertia, const std::vector<Matrix3d>& symmetries) {
   return inertia;
 }
 
+Matrix6 withSymmetriesOf(const TriangleMesh& mesh, bool sheet, const Matrix6& matrix,
+                         Rescaling rescaled, double stretch) {
+  const MeshProperties properties = computeMassProperties(mesh, sheet);
+  const Vector3d& centre = properties.uniform.centre;
+  const double size = std::sqrt(properties.area);
+  AMBIENT_ASSERT(properties.area > 0 && stretch > 0);
+  Matrix6 unit = rescaled(shiftOrigin(matrix, centre), stretch / size);
+  unit = positivePart(symmetrised(unit, findSymmetries(mesh, centre)));
+  AMBIENT_ASSERT(isSymmetric(unit, 1e-9));
+  return symmetricPart(shiftOrigin(rescaled(unit, size), -centre));  // rounds its halves apart
+}
+
 Matrix6 symmetrisedAddedMass(const Matrix6& added_mass, const TriangleMesh& mesh) {
   const Vector3d centre = computeMassProperties(mesh).uniform.centre;
   const Matrix6 about_centre =
       symmetrised(shiftOrigin(added_mass, centre), findSymmetries(mesh, centre));
-  const Matrix6 shifted = shiftOrigin(about_centre, -centre);
-  return (shifted + shifted.transpose()) / 2;  // the shift rounds both halves apart
+  return symmetricPart(shiftOrigin(about_centre, -centre));
 }
 
 }  // namespace ambient

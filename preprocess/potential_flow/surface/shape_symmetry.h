@@ -21,6 +21,14 @@ Matrix6 turned(const Matrix6& inertia, const Eigen::Matrix3d& turn);
 /// for each symmetry, the mean of the inertia and its image.
 Matrix6 symmetrised(Matrix6 inertia, const std::vector<Eigen::Matrix3d>& symmetries);
 
+/// How a 6x6 matrix changes when all lengths are multiplied by a factor.
+using Rescaling = Matrix6 (*)(const Matrix6& matrix, double factor);
+
+/// Returns an inertia or a resistance about the mesh's origin as the nearest positive semi-definite
+/// one without entries that the symmetries of the mesh forbid, stretched about its centre.
+Matrix6 withSymmetriesOf(const TriangleMesh& mesh, bool sheet, const Matrix6& matrix,
+                         Rescaling rescaled, double stretch = 1);
+
 /// Returns an added mass about the mesh's origin without entries that the symmetries of the mesh
 /// forbid; for values that were extrapolated or found on another mesh of the body.
 Matrix6 symmetrisedAddedMass(const Matrix6& added_mass, const TriangleMesh& mesh);

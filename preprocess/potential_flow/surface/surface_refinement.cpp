@@ -22,8 +22,8 @@ class Cutter {
   Cutter(const DividedSurface& surface, const MeshEdges& edges, const std::vector<bool>& marks)
       : surface_(surface),
         mesh_(surface.mesh),
-        middle_(surface.mesh.triangleCount(), {-1, -1, -1}) {
-    for (Index v = 0; v < mesh_.vertexCount(); ++v) vertices_.push_back(mesh_.vertices.col(v));
+        middle_(surface.mesh.triangleCount(), {-1, -1, -1}),
+        vertices_(columnsOf(surface.mesh.vertices)) {
     for (std::size_t e = 0; e < marks.size(); ++e) {
       if (!marks[e]) continue;
       const EdgeGroup& group = edges.edges[e];
@@ -41,11 +41,7 @@ class Cutter {
       cutTriangle(t);
       result.face.resize(triangles_.size(), surface_.face[t]);
     }
-    TriangleMesh& mesh = result.mesh;
-    mesh.vertices.resize(3, static_cast<Index>(vertices_.size()));
-    mesh.triangles.resize(3, static_cast<Index>(triangles_.size()));
-    for (std::size_t v = 0; v < vertices_.size(); ++v) mesh.vertices.col(v) = vertices_[v];
-    for (std::size_t t = 0; t < triangles_.size(); ++t) mesh.triangles.col(t) = triangles_[t];
+    result.mesh = makeTriangleMesh(vertices_, triangles_);
     return result;
   }
 

@@ -1,5 +1,3 @@
-#include "preprocess/collision_shape/form_image.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,6 +9,7 @@
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "preprocess/base/fluid_body_writer.h"
 #include "preprocess/collision_shape/fluid_body_cache.h"
+#include "preprocess/collision_shape/shape_form.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/triangle_mesh.h"
 #include "tests/preprocess/collision_shape/shape_fixtures.h"

@@ -8,7 +8,7 @@
 #include "bullet_ambient/force/loads/face_loads.h"
 #include "bullet_ambient/force/surface/hydrostatics.h"
 #include "preprocess/base/surface_form.h"
-#include "preprocess/reduced_loads/levels_by_rule.h"
+#include "preprocess/reduced_loads/form_levels.h"
 #include "tests/preprocess/collision_shape/shape_fixtures.h"
 #include "tests/support/bodies/random_bodies.h"
 

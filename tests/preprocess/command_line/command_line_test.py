@@ -625,7 +625,7 @@ class FloatingTest(CommandTest):
         self.assertIn("it is lighter than the 1.2", inspect(0.5, 0).errors)
         self.assertEqual(self.floating(file, 1001), [])
         self.assertIn("it sinks: it displaces 998 kg", inspect(1001, 0).errors)
-        self.assertIn("mass [kg] is -1; must be positive", self.refusal("inspect", file, "--mass", "-1"))
+        self.assertIn("mass [kg] is -1, must be positive", self.refusal("inspect", file, "--mass", "-1"))
         self.assertIn("smallest principal moment", self.refusal("inspect", file, "--mass", 500, "--inertia", -1, 1, 1, 0, 0, 0))
 
     def test_periods_are_those_of_inertia_and_gravity_that_are_given(self):

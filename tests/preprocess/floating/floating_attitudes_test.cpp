@@ -189,7 +189,7 @@ TEST(FloatingAttitudes, SayWhatIsWrong) {
   };
   FloatingBody body = boxAfloat({1, 1, 1}, 0.5);
   body.mass = 0;
-  EXPECT_EQ(complaint(body), "fluid body 'hull': mass [kg] is 0; must be positive and finite");
+  EXPECT_EQ(complaint(body), "fluid body 'hull': mass [kg] is 0, must be positive and finite");
   body.mass = 1e-7 * body.density;
   EXPECT_NE(complaint(body).find("must be at least a millionth of that of its volume of water"),
             std::string::npos);
@@ -200,7 +200,7 @@ TEST(FloatingAttitudes, SayWhatIsWrong) {
   auto sheet = std::make_shared<FluidBody>(*body.shape);
   sheet->volume = 0;
   body.shape = sheet;
-  EXPECT_EQ(complaint(body), "fluid body 'hull': volume [m^3] is 0; must be positive and finite");
+  EXPECT_EQ(complaint(body), "fluid body 'hull': volume [m^3] is 0, must be positive and finite");
 }
 
 constexpr double kDensityAtSea = 1025, kGravityAtSea = 9.81;

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "preprocess/hand_over.h"
-#include "preprocess/hand_over/mjcf.h"
+#include "preprocess/hand_over/handed_body.h"
 #include "tests/preprocess/hand_over/handed_bodies.h"
 #include "tests/support/bodies/hull_bodies.h"
 #include "tests/support/refusal_of.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bullet_ambient/base/pi.h"
-#include "preprocess/mesh/defects/surface_check.h"
+#include "preprocess/mesh/defects/topology_defects.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/shapes/primitives.h"
 #include "preprocess/mesh/triangle_mesh.h"

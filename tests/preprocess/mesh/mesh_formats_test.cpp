@@ -5,7 +5,6 @@
 
 #include "bullet_ambient/base/pi.h"
 #include "preprocess/mesh/import/mesh_import.h"
-#include "preprocess/mesh/import/scene_triangles.h"
 #include "preprocess/mesh/shapes/primitives.h"
 #include "tests/preprocess/mesh/mesh_files.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"

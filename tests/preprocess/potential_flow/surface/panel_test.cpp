@@ -84,6 +84,23 @@ struct SeenPanel {
   Vector3d corner(int k) const { return Vector3d(panel.corner[k]); }
 };
 
+double computeNewtonPotential(const Panel& panel, const Vector3d& x) {
+  double potential = 0;
+  computeNewtonPotentials(panel, &x, 1, &potential);
+  return potential;
+}
+
+/// int h_b n.(x - y)/r^3 dy of the three hat functions; their sum is the solid angle.
+Vector3d computeDoubleLayer(const Panel& panel, const Vector3d& x) {
+  const CornerJumps hats{{1}, {0, 1}, {0, 0, 1}};
+  PanelPoints points;
+  for (int axis = 0; axis < 3; ++axis)
+    std::fill(std::begin(points.at[axis]), std::end(points.at[axis]), x[axis]);
+  PanelPotentials potentials{};
+  kAddDoubleLayer.fastest()(numbersOf(panel), hats, points, kMostPanelPoints, potentials);
+  return {potentials.at[0][0], potentials.at[1][0], potentials.at[2][0]};
+}
+
 /// Jumps on the panel.
 struct JumpsOnPanel {
   CornerJumps at;
