@@ -56,17 +56,6 @@ inline std::vector<LongCase> longCases() {
   return cases;
 }
 
-inline Vector3 boxMoments(const Vector3& size, double mass) {
-  const Vector3 q = size.cwiseAbs2();
-  return mass / 12 * Vector3(q.y() + q.z(), q.z() + q.x(), q.x() + q.y());
-}
-
-inline std::shared_ptr<FluidBody> longBox(const Vector3& size, int divisions = 2) {
-  auto body = std::make_shared<FluidBody>(floatingBox(size, divisions));
-  body->uniform_mass.inertia = boxMoments(size, 1).asDiagonal();
-  return body;
-}
-
 /// A box at the origin in a world without gravity, with one degree of freedom. As a link it hangs
 /// by a joint on a base that is fixed.
 struct LongScene : RobotWorld {

@@ -20,10 +20,7 @@ constexpr double kLoneHertz = 240;
 constexpr double kLoneMass = 60;
 const Vector3 kLoneSize(0.5, 0.3, 0.4);
 
-btVector3 momentsOfBox() {
-  const Vector3 squares = kLoneSize.cwiseAbs2();
-  return bt(kLoneMass / 12) * toBullet(Vector3(squares.sum() * Vector3::Ones() - squares));
-}
+btVector3 momentsOfBox() { return toBullet(boxMoments(kLoneSize, kLoneMass)); }
 
 AttachDef loneInWater() {
   AttachDef def;

@@ -212,11 +212,6 @@ constexpr double kStrong = 1e6;             // impulse of a motor [N s]
 
 enum class Load { kWelded, kFixed, kMotor, kPositionMotor, kLimits, kSwings };
 
-btVector3 momentsOf(double mass, const Vector3& size) {
-  const Vector3 squares = size.cwiseProduct(size);
-  return toBullet(Vector3(mass / 12 * (Vector3::Constant(squares.sum()) - squares)));
-}
-
 // Returns the height of the centre of mass of the base above the middle of the hull [m].
 double heightOfBase(Load load) {
   return load == Load::kWelded ? kLoadMass * kLoadHeight / kMass : 0;
@@ -225,16 +220,17 @@ double heightOfBase(Load load) {
 std::unique_ptr<btMultiBody> weldedBarge() {
   const double height = heightOfBase(Load::kWelded), above = kLoadHeight - height;
   const double apart = kHullMass * height * height + kLoadMass * above * above;
-  const btVector3 moments = momentsOf(kHullMass, kHull) + momentsOf(kLoadMass, kLoad) +
+  const btVector3 moments = toBullet(boxMoments(kHull, kHullMass)) +
+                            toBullet(boxMoments(kLoad, kLoadMass)) +
                             btVector3(bt(apart), bt(apart), 0);
   return std::make_unique<btMultiBody>(0, bt(kMass), moments, false, false);
 }
 
 std::unique_ptr<btMultiBody> bargeWith(Load load) {
   if (load == Load::kWelded) return weldedBarge();
-  auto body =
-      std::make_unique<btMultiBody>(1, bt(kHullMass), momentsOf(kHullMass, kHull), false, false);
-  const btVector3 moments = momentsOf(kLoadMass, kLoad), none(0, 0, 0), athwart(0, 1, 0);
+  auto body = std::make_unique<btMultiBody>(1, bt(kHullMass),
+                                            toBullet(boxMoments(kHull, kHullMass)), false, false);
+  const btVector3 moments = toBullet(boxMoments(kLoad, kLoadMass)), none(0, 0, 0), athwart(0, 1, 0);
   const btVector3 up(0, 0, bt(kLoadHeight)), hook(0, 0, bt(kLoadHeight + 1)), rope(0, 0, -1);
   const btQuaternion straight = btQuaternion::getIdentity();
   if (load == Load::kFixed) {

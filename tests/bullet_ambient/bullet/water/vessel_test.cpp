@@ -235,8 +235,7 @@ TEST(Vessel, BoatThatTurnsOverFloatsOnItsAir) {
 // Bodies in the hold of a barge, without contacts.
 
 btRigidBody& addBox(Sea& sea, const Vector3& size, double mass, const Vector3& position) {
-  BodyDef def{
-      mass, mass / 12 * (Vector3::Constant(size.squaredNorm()) - size.cwiseAbs2()), {}, nullptr};
+  BodyDef def{mass, boxMoments(size, mass), {}, nullptr};
   def.start.position = position;
   return sea.scene.add(def, floatingBox(size, 1), Medium{});
 }

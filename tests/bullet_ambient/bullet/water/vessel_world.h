@@ -29,16 +29,8 @@ struct Start {
 };
 
 struct Sea {
-  explicit Sea(std::shared_ptr<const WaterSurface> surface =
-                   std::make_shared<StillWater>(0.0, Vector3(0, 0, 1))) {
-    scene.world.getDispatchInfo().m_deterministicOverlappingPairs = true;
-    scene.world.setGravity({0, 0, bt(-kGravity)});
-    FluidRegion sea;
-    sea.below = {1000, 1e-3, {0, 0, 0}, {0, 0, 0}};
-    sea.above = Medium{};
-    sea.surface = std::move(surface);
-    scene.fluid.addRegion(sea);
-  }
+  explicit Sea(std::shared_ptr<const WaterSurface> surface = nullptr)
+      : scene(seaUnderVacuum(std::move(surface))) {}
   btRigidBody& add(const OpenBarge& barge, const Start& start, const HoldSettings& holds = {}) {
     const Vector3 centre(0, 0, start.above_keel - 0.25);
     BodyDef def{start.mass, start.mass / kBarge * kBargeMoments, {}, nullptr};
@@ -118,7 +110,7 @@ struct Sea {
     return energy;
   }
 
-  FluidWorld scene;
+  SeaWorld scene;
 };
 
 /// Height of the middle of the box [m].

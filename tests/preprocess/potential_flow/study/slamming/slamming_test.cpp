@@ -79,11 +79,7 @@ double momentumOf(const SurfaceModel& model, const RigidState& state) {
 std::vector<FallStep> fallIntoWater(const FallDef& def) {
   test::FluidWorld scene;
   scene.world.setGravity({0, 0, test::bt(-kLittleGravity)});
-  FluidRegion sea;
-  sea.below = {kDensity, 1e-3, {0, 0, 0}, {0, 0, 0}};
-  sea.above = Medium{};  // a vacuum
-  sea.surface = std::make_shared<StillWater>(0.0, Vector3::UnitZ());
-  scene.fluid.addRegion(sea);
+  scene.fluid.addRegion(test::seaUnderVacuum());
   const auto [low, high] = extentOf(*def.shape);
   const btRigidBody& body = addBody(def, -low, scene);
 
