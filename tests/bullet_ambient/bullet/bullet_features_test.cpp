@@ -202,10 +202,8 @@ TEST(Features, ASolverOfAnotherWorldsFluidIsReportedOnce) {
   FluidWorld scene, other;
   const auto solver = makeSolver<btSequentialImpulseConstraintSolver>(scene.fluid);
   other.world.setConstraintSolver(solver.get());
-  AttachDef def;
-  def.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid(kUnequalAxes, 1));
-  def.medium = air();
-  scene.fluid.add(other.add(spinning(3)), def);
+  scene.fluid.add(other.add(spinning(3)),
+                  {std::make_shared<FluidBody>(meshedEllipsoid(kUnequalAxes, 1)), air()});
   other.step(1.0 / 60, 5);
   ASSERT_EQ(scene.said.size(), 1u);
   EXPECT_NE(scene.said[0].find("in another world"), std::string::npos);

@@ -49,9 +49,7 @@ TEST(ExtremeCase, AFeatherAt300MetresPerSecondIsSlowedAsItsDragSays) {
     BodyDef def = sphere(exact.mass, exact.radius);
     def.start.twist.linear = {0, 0, 300};
     btRigidBody& feather = scene.add(def);
-    AttachDef attach;
-    attach.fluid_body = std::make_shared<FluidBody>(gaussSphere(exact.radius));
-    attach.medium = inviscid(air());
+    AttachDef attach{std::make_shared<FluidBody>(gaussSphere(exact.radius)), inviscid(air())};
     // No face lies at the rim of the sphere. So sideways drift by rounding grows while the sphere
     // slows down, their product constant: 5e-6 with loads in single precision.
     attach.flow.precision = LoadPrecision::kDouble;
@@ -87,9 +85,8 @@ TEST(ExtremeCase, ATumblingFeatherAt300MetresPerSecondOnlyLosesEnergy) {
 
 TEST(ExtremeCase, AFastModeThatWasAskedForIsNotComplainedAbout) {
   FluidWorld scene;
-  AttachDef attach;
-  attach.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid(Vector3(0.05, 0.05, 0.01), 1));
-  attach.medium = air();
+  AttachDef attach{std::make_shared<FluidBody>(meshedEllipsoid(Vector3(0.05, 0.05, 0.01), 1)),
+                   air()};
   attach.flight.max_substeps = 1;
   BodyDef def{2e-4, ellipsoidMoments(Vector3(0.05, 0.05, 0.01), 2e-4), {}, nullptr};
   def.start.twist = {Vector3(100, 50, 20), Vector3(300, 0, 200)};

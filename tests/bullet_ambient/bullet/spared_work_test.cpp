@@ -177,9 +177,7 @@ TEST(SparedWork, BodiesOfOneShapeShareItsData) {
   FluidWorld scene;
   scene.fluid.addRegion(seaUnderAir(-50));
   for (const PressureLaw law : {PressureLaw::kPublished, PressureLaw::kForm}) {
-    AttachDef def;
-    def.fluid_body = std::make_shared<const FluidBody>(floatingEllipsoid(kUnequalAxes, 2));
-    def.medium = air();
+    AttachDef def{std::make_shared<const FluidBody>(floatingEllipsoid(kUnequalAxes, 2)), air()};
     def.flow.law = law;
     const AmbientBody* bodies[2] = {};
     for (const AmbientBody*& ambient : bodies) {
@@ -317,10 +315,8 @@ TEST(Sleeping, EndsWhenABodyIsAttached) {
   BodyDef def;
   btRigidBody& body = scene.add(def);
   body.forceActivationState(ISLAND_SLEEPING);
-  AttachDef attach;
-  attach.fluid_body = std::make_shared<FluidBody>(facelessEllipsoid(kBallAxes));
-  attach.medium = idealFluid(1000);
-  scene.fluid.add(body, attach);
+  scene.fluid.add(body,
+                  {std::make_shared<FluidBody>(facelessEllipsoid(kBallAxes)), idealFluid(1000)});
   EXPECT_TRUE(body.isActive());
 }
 
@@ -343,9 +339,8 @@ struct Floor {
     def.start.position = {0, 0, 0.3};
     box = &scene.add(def);
     if (in_water) {
-      AttachDef attach;
-      attach.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid(Vector3::Constant(0.3), 1));
-      attach.medium = idealFluid(1000);
+      AttachDef attach{std::make_shared<FluidBody>(meshedEllipsoid(Vector3::Constant(0.3), 1)),
+                       idealFluid(1000)};
       attach.fluid_frame.translation = Vector3(0.02, 0.01, 0);
       scene.fluid.add(*box, attach);
     }

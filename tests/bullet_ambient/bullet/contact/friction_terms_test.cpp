@@ -232,9 +232,7 @@ btRigidBody& addHull(Slope& slope, Arbitrary& arbitrary, double density_ratio, b
   def.start.position = {0, 0, 0.2};
   btRigidBody& body = slope.add(def);
   if (!in_fluid) return body;
-  AttachDef attach;
-  attach.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid(axes, 1));
-  attach.medium = water();
+  AttachDef attach{std::make_shared<FluidBody>(meshedEllipsoid(axes, 1)), water()};
   attach.fluid_frame.rotation =
       Quaternion(Eigen::AngleAxisd(0.3, arbitrary.vector().normalized())).toRotationMatrix();
   attach.fluid_frame.translation = arbitrary.vector(0.01);

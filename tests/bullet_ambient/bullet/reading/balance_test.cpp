@@ -94,9 +94,7 @@ class RandomScene {
     def.start.twist = arbitrary.twist(2, 1);
     def.shape = &box;
     body = &scene.add(def);
-    AttachDef attach;
-    attach.fluid_body = shape();
-    scene.fluid.add(*body, attach);
+    scene.fluid.add(*body, {shape()});
   }
   void addGround(Arbitrary& arbitrary) {
     btVector3 lowest, highest;

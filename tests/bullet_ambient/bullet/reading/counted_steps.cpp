@@ -31,9 +31,7 @@ int main(int argc, char** argv) {
     def.moments = ellipsoidMoments(kUnequalAxes, def.mass);
     def.shape = &box;
     def.start.position = Vector3(i, 0, -i % 3);
-    AttachDef attach;
-    attach.fluid_body = shape;
-    bodies.push_back(scene.fluid.add(scene.add(def), attach));
+    bodies.push_back(scene.fluid.add(scene.add(def), {shape}));
   }
   const bool is_read = std::strcmp(how, "read") == 0;
   for (const Immersed& body : bodies) {

@@ -112,8 +112,7 @@ TEST(AlongBody, ABodyIsSampledAtOnePlaceWhereItIsSmallAgainstTheWaves) {
     FluidRegion region = filledWith(longWater());
     region.surface = sea;
     scene.fluid.addRegion(region);
-    AttachDef attach;
-    attach.fluid_body = longBox(size);
+    AttachDef attach{longBox(size)};
     scene.fluid.add(scene.add({60, boxMoments(size, 60), {}, nullptr}), attach);
     const int before = sea->count;
     scene.step(kWorldStep);

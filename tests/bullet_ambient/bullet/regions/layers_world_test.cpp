@@ -197,8 +197,7 @@ TEST(Layers, LiftLinksAsBodies) {
     FluidRegion tank = filledWith(idealFluid(kLayerDensity));
     tank.layers = layers({{-1, 1200}, {1, 1200}});
     scene.fluid.addRegion(tank);
-    AttachDef attach;
-    attach.fluid_body = longBox(kBoxSize, 2);
+    AttachDef attach{longBox(kBoxSize, 2)};
     const double mass = 210;  // sinks in the medium, rises in the layers
     const btVector3 moments = toBullet(boxMoments(kBoxSize, mass));
     btEmptyShape no_shape;

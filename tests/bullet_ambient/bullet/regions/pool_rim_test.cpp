@@ -22,8 +22,7 @@ constexpr double kDraught = 0.06;   // [m]
 AttachDef boxDef(const Vector3& size) {
   auto shape = longBox(size, 8);
   shape->name = "box";
-  AttachDef def;
-  def.fluid_body = shape;
+  AttachDef def{shape};
   return def;
 }
 

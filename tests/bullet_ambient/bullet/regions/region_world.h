@@ -65,8 +65,7 @@ struct LongScene : RobotWorld {
     const double mass = density * size.prod();
     const btVector3 moments = toBullet(boxMoments(size, mass));
     const bool turns = freedom == Freedom::kTurnsAboutZ;
-    AttachDef def;
-    def.fluid_body = longBox(size, 8);
+    AttachDef def{longBox(size, 8)};
     def.flow.law = PressureLaw::kForm;
     if (mover == Mover::kRigid) {
       body = &contents.add(mass, moments, no_shape_, btTransform::getIdentity());

@@ -82,9 +82,7 @@ TEST_F(Robots, GoWithAFluidWhoseVelocityChanges) {
       FluidBody shape = facelessEllipsoid(Vector3(0.1, 0.1, 0.1));
       const btScalar mass = link < 0 ? body.getBaseMass() : body.getLinkMass(link);
       shape.volume = static_cast<double>(mass) / 1000;
-      AttachDef def;
-      def.fluid_body = std::make_shared<FluidBody>(shape);
-      in.fluid.add(body, link, def);
+      in.fluid.add(body, link, {std::make_shared<FluidBody>(shape)});
     }
     double least = 0, most = 0;
     const double start = static_cast<double>(body.getBasePos().x());
@@ -182,9 +180,8 @@ TEST_F(Robots, StayBoundedUnderMotorsInWater) {
   def.collider_radius = 0.05;
   def.speed = 3;
   btMultiBody& body = add(def);
-  AttachDef attach;
-  attach.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid(Vector3(0.15, 0.08, 0.05), 1));
-  attach.medium = water();
+  AttachDef attach{std::make_shared<FluidBody>(meshedEllipsoid(Vector3(0.15, 0.08, 0.05), 1)),
+                   water()};
   for (int link = -1; link < 4; ++link) world.fluid.add(body, link, attach);
   for (int i = 0; i < 4; ++i)
     world.take(std::make_unique<btMultiBodyJointMotor>(&body, i, bt(0), bt(1e-3)));
@@ -284,9 +281,7 @@ class Barge {
     // Bullet leaves out motors of links without a collider.
     world_.take(std::move(robot), 0.1);
     if (auto rows = rowsOf(load, body_)) world_.take(std::move(rows));
-    AttachDef def;
-    def.fluid_body = std::make_shared<FluidBody>(floatingBox(kHull));
-    def.medium = air();
+    AttachDef def{std::make_shared<FluidBody>(floatingBox(kHull)), air()};
     def.fluid_frame.translation = {0, 0, -height};
     world_.fluid.add(body_, -1, def);
   }

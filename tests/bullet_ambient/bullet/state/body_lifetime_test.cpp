@@ -228,9 +228,7 @@ AttachDef plate() {
 }
 
 BodyDef plateBody(double s) {
-  BodyDef def;
-  def.mass = 60 * s * s * s;
-  def.moments = s * s * s * s * s * Vector3(0.9, 1.2, 1.9);
+  BodyDef def{60 * s * s * s, s * s * s * s * s * Vector3(0.9, 1.2, 1.9)};
   def.start.twist = {Vector3(1, 2, -0.5), s * Vector3(0.4, -0.3, 0.2)};
   return def;
 }

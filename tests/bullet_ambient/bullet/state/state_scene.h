@@ -139,9 +139,7 @@ class StateScene {
     btRigidBody& body = scene.add(def);
     body.forceActivationState(ACTIVE_TAG);
     body.setRestitution(btScalar(0.2));
-    AttachDef attach;
-    attach.fluid_body = shape;
-    attach.medium = medium;
+    AttachDef attach{shape, medium};
     attach.flow.law = PressureLaw::kPublished;
     attach.flow.separation_angle = 1.8;
     attach.fluid_frame.translation = Vector3(0.01, 0.02, -0.015);

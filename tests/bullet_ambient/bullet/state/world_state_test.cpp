@@ -67,10 +67,8 @@ TEST(WorldState, ChangesOfBodiesFluidsAndJointsAreTakenBack) {
   scene.body(6).applyCentralForce(btVector3(100, 0, 0));
   scene.body(7).setGravity(btVector3(0, 5, 0));
   scene.scene.contents.joints()[1]->setEnabled(false);
-  AttachDef stone;
-  stone.fluid_body = scene.ball_fluid;
-  stone.medium = water();
-  fluid.add(scene.body(scene.scene.world.getNumCollisionObjects() - 1), stone);
+  fluid.add(scene.body(scene.scene.world.getNumCollisionObjects() - 1),
+            {scene.ball_fluid, water()});
   scene.scene.fluid.restore(run.state);
   EXPECT_EQ(fluid.size(), 12u);
   EXPECT_EQ(fluid.find(scene.body(2))->medium().density, water().density);

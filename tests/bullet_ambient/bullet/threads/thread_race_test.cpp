@@ -51,9 +51,8 @@ struct Island {
 };
 
 AttachDef feather() {
-  AttachDef def;
-  def.fluid_body = std::make_shared<FluidBody>(floatingEllipsoid(Vector3(0.05, 0.05, 0.01), 1));
-  def.medium = air();
+  AttachDef def{std::make_shared<FluidBody>(floatingEllipsoid(Vector3(0.05, 0.05, 0.01), 1)),
+                air()};
   return def;
 }
 

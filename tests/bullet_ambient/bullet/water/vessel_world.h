@@ -38,8 +38,7 @@ struct Sea {
     def.start.orientation = start.orientation;
     def.start.twist = start.twist;
     btRigidBody& body = scene.add(def);
-    AttachDef attach;
-    attach.fluid_body = std::make_shared<FluidBody>(openBarge(barge));
+    AttachDef attach{std::make_shared<FluidBody>(openBarge(barge))};
     attach.fluid_frame.translation = -centre;
     attach.holds = holds;
     scene.fluid.add(body, attach);

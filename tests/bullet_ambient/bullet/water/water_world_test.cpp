@@ -78,8 +78,7 @@ TEST(WaterWorld, DryAndDeepBodiesMoveBitForBitAsInOneFluid) {
 
 TEST(WaterWorld, ABodyRestsOnTheGroundOfShallowWater) {
   WaterWorld water(seaAt(0.15));
-  BodyDef floor{0, Vector3::Zero(), at(-1), &water.floor_shape};
-  water.scene.add(floor);
+  water.scene.add({0, Vector3::Zero(), at(-1), &water.floor_shape});
   const btRigidBody& body = water.addBox(0.8, at(0.3));
   water.scene.step(1.0 / 60, 600);
   EXPECT_NEAR(heightOf(body), 0.2, 0.02);

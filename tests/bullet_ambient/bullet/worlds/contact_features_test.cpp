@@ -307,8 +307,7 @@ class SoftScene {
     body_->setWorldTransform(btTransform(btQuaternion::getIdentity(), toBullet(position)));
     body_->setActivationState(DISABLE_DEACTIVATION);
     soft_world().addRigidBody(body_.get());
-    AttachDef def;
-    def.fluid_body = std::make_shared<FluidBody>(fluid_body);
+    AttachDef def{std::make_shared<FluidBody>(fluid_body)};
     def.medium.density = density;
     host_->fluid().add(*body_, def);
     return *body_;

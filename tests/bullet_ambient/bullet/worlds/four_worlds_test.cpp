@@ -68,9 +68,7 @@ class Tank {
   }
   // `density`: body's over water's. `start`: twist in world axes.
   btRigidBody& add(double density, const RigidState& start) {
-    AttachDef def;
-    def.fluid_body = fluid_body_;
-    def.medium = water();
+    AttachDef def{fluid_body_, water()};
     def.fluid_frame.translation = kCentreOfVolume;
     const double mass = density * water().density * fluid_body_->volume;
     btRigidBody& body =

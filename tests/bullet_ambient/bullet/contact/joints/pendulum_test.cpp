@@ -102,10 +102,8 @@ class SwingingWorld : TreeWorld {
     body_ = &contents.add(kMass, toBullet(kMoments), no_shape_,
                           btTransform(toBullet(start.orientation), toBullet(start.position)));
     body_->setActivationState(DISABLE_DEACTIVATION);
-    AttachDef def;
-    def.fluid_body = std::make_shared<FluidBody>(shapeWithoutFaces(pendulum.added_mass, 0));
-    def.medium = {1, 0, Vector3::Zero(), Vector3::Zero()};
-    fluid_.add(*body_, def);
+    fluid_.add(*body_, {std::make_shared<FluidBody>(shapeWithoutFaces(pendulum.added_mass, 0)),
+                        {1, 0, Vector3::Zero(), Vector3::Zero()}});
     hang(pendulum);
   }
 

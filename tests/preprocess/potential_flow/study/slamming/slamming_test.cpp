@@ -60,8 +60,7 @@ btRigidBody& addBody(const FallDef& def, double height, test::FluidWorld& scene)
   body.start.position = {0, 0, height};
   body.start.twist.linear = {0, 0, -def.speed};
   btRigidBody& added = scene.add(body);
-  AttachDef attach;
-  attach.fluid_body = def.shape;
+  AttachDef attach{def.shape};
   if (!def.has_loads) attach.flow.own_law = [](const auto&, const auto&) { return nullptr; };
   scene.fluid.add(added, attach);
   return added;
