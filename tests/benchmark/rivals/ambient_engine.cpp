@@ -30,9 +30,7 @@ class AmbientWorld : public BulletWorld {
   void addEllipsoids() {
     if (!scene_.is_ideal) throw std::logic_error("an ellipsoid without faces has no drag");
     const auto [a, b, c] = scene_.solid.size;
-    AttachDef def;
-    def.fluid_body = std::make_shared<FluidBody>(test::facelessEllipsoid({a, b, c}));
-    def.medium = water();
+    AttachDef def{std::make_shared<FluidBody>(test::facelessEllipsoid({a, b, c})), water()};
     def.medium.viscosity = 0;
     for (const auto& body : bodies_) fluid_.add(*body, def);
   }

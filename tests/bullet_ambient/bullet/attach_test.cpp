@@ -134,9 +134,7 @@ TEST(Attach, ReportsAnAngleThatTheFormLawDoesNotReadOnce) {
 
 // A fluid body without resistance comes from a file of an earlier version, by readFluidBody().
 TEST(Attach, ReportsAFluidBodyWithoutResistanceOnce) {
-  AttachDef def;
-  def.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid({0.5, 0.4, 0.3}, 2));
-  def.medium = air();
+  AttachDef def{std::make_shared<FluidBody>(meshedEllipsoid({0.5, 0.4, 0.3}, 2)), air()};
   EXPECT_TRUE(saidAbout({}, def).empty());
   changeShape(def, [](FluidBody& b) { b.viscous = {}; });
   const std::vector<std::string> said = saidAbout({}, def);
@@ -304,10 +302,7 @@ TEST(RegionsOnAttach, AreFound) {
 const Vector3 kMoments(0.02, 0.03, 0.04);
 
 btRigidBody& addEllipsoid(FluidWorld& world, double density) {
-  BodyDef def;
-  def.mass = 2;
-  def.moments = kMoments;
-  return world.add(def, facelessEllipsoid(kUnequalAxes), idealFluid(density));
+  return world.add({2, kMoments}, facelessEllipsoid(kUnequalAxes), idealFluid(density));
 }
 
 TEST(Factors, ScaleTheAddedMassAtRest) {
@@ -330,10 +325,8 @@ TEST(Factors, ScaleTheAddedMassAtRest) {
 double terminalSpeed(double factor) {
   FluidWorld world;
   world.world.setGravity({0, 0, bt(-kGravity)});
-  BodyDef def;
-  def.mass = 300;
-  def.moments = Vector3::Constant(120);
-  btRigidBody& body = world.add(def, meshedEllipsoid(Vector3::Ones(), 2), idealFluid(40));
+  btRigidBody& body =
+      world.add({300, Vector3::Constant(120)}, meshedEllipsoid(Vector3::Ones(), 2), idealFluid(40));
   world.of(body).setFactors(1, factor);
   world.step(kWorldStep, 4000);
   return std::abs(static_cast<double>(body.getLinearVelocity().z()));
@@ -353,10 +346,7 @@ btRigidBody& addFloat(FluidWorld& world) {
   world.fluid.addRegion(seaUnderAir());
   FluidBody box = boxBody(kBoxSize);
   box.added_mass.diagonal() << 0.004, 0.006, 0.003, 0.05, 0.07, 0.15;
-  BodyDef def;
-  def.mass = 500 * kBoxSize.prod();
-  def.moments = Vector3(4.2, 6.4, 8);
-  return world.add(def, box, air());
+  return world.add({500 * kBoxSize.prod(), Vector3(4.2, 6.4, 8)}, box, air());
 }
 
 TEST(Factors, ScaleTheAddedMassAtTheSurface) {

@@ -9,8 +9,7 @@
 #include "bullet_ambient/bullet/core/body_motion.h"
 #include "bullet_ambient/fluid.h"
 #include "preprocess/base/surface_form.h"
-#include "tests/support/bodies/ellipsoid_body.h"
-#include "tests/support/bodies/hull_bodies.h"
+#include "tests/support/bodies/part_bodies.h"
 #include "tests/support/world.h"
 
 namespace ambient::test {
@@ -41,6 +40,15 @@ inline FluidRegion seaUnderAir(double level = 0) {
   return sea;
 }
 
+/// The same of 1000 kg/m^3 under a vacuum, in which closed forms hold; still without a surface.
+inline FluidRegion seaUnderVacuum(std::shared_ptr<const WaterSurface> surface = nullptr) {
+  FluidRegion sea = waterBelow(0);
+  sea.below = {1000, 1e-3, {0, 0, 0}, {0, 0, 0}};
+  sea.above = Medium{};
+  if (surface) sea.surface = std::move(surface);
+  return sea;
+}
+
 /// Attaches a sphere of radius 1.
 inline AttachDef unitBallIn(const Medium& medium) {
   return {std::make_shared<FluidBody>(meshedEllipsoid(Vector3::Ones(), 1)), medium};
@@ -53,6 +61,21 @@ struct BodyDef {
   RigidState start{};  // twist in world axes here
   btCollisionShape* shape = nullptr;
 };
+
+/// State of a BodyDef at a place, at rest or moving.
+inline RigidState startAt(const Vector3& position, const Twist& twist = {},
+                          const Quaternion& orientation = Quaternion::Identity()) {
+  return {orientation, position, twist};
+}
+inline RigidState startWith(const Twist& twist,
+                            const Quaternion& orientation = Quaternion::Identity()) {
+  return {orientation, Vector3::Zero(), twist};
+}
+
+/// Height of the centre of mass [m].
+inline double heightOf(const btRigidBody& body) {
+  return static_cast<double>(body.getWorldTransform().getOrigin().z());
+}
 
 /// Tells if two bodies have the same bits of pose and velocity.
 inline bool moveAlike(const btRigidBody& a, const btRigidBody& b) {
@@ -111,6 +134,22 @@ struct FluidWorld : WholeWorld<ActionWorld> {
 
  private:
   btEmptyShape no_shape_;
+};
+
+/// The same with gravity along -z, in one region; pairs of bodies are found in the order of states.
+struct SeaWorld : FluidWorld {
+  explicit SeaWorld(const FluidRegion& sea = seaUnderAir()) {
+    world.getDispatchInfo().m_deterministicOverlappingPairs = true;
+    world.setGravity({0, 0, bt(-kGravity)});
+    fluid.addRegion(sea);
+  }
+  /// Adds a homogeneous longBox().
+  btRigidBody& addBox(const Vector3& size, double mass, const RigidState& start = {},
+                      int divisions = 2) {
+    btRigidBody& body = FluidWorld::add({mass, boxMoments(size, mass), start, nullptr});
+    fluid.add(body, {longBox(size, divisions), Medium{}});
+    return body;
+  }
 };
 
 /// A joint to the world that lets a body move within limits [m], and not turn.

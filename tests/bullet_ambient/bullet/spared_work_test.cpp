@@ -19,10 +19,8 @@ namespace {
 constexpr double kStep = 1.0 / 60;
 
 BodyDef bodyAt(double height) {
-  BodyDef def{1, ellipsoidMoments(kUnequalAxes, 1), {}, nullptr};
-  def.start.position = {0, 0, height};
-  def.start.twist = {Vector3(1, 2, 3), Vector3(4, 0, 1)};
-  return def;
+  return {1, ellipsoidMoments(kUnequalAxes, 1),
+          startAt({0, 0, height}, {Vector3(1, 2, 3), Vector3(4, 0, 1)})};
 }
 
 // The counts of the next step alone.
@@ -153,9 +151,9 @@ TEST(SparedWork, TheSolverDoesNotKnowABodyThatFloatsAlone) {
 TEST(SparedWork, ALargeSlowBodyNeedsOneEvaluationPerStep) {
   const Vector3 semi_axes(5, 3, 2);
   FluidWorld scene;
-  BodyDef def{1e5, ellipsoidMoments(semi_axes, 1e5), {}, nullptr};
-  def.start.twist = {Vector3(0, 0.01, 0), Vector3(0.3, 0, 0.1)};
-  scene.add(def, meshedEllipsoid(semi_axes, 1), water());
+  scene.add({1e5, ellipsoidMoments(semi_axes, 1e5),
+             startWith({Vector3(0, 0.01, 0), Vector3(0.3, 0, 0.1)})},
+            meshedEllipsoid(semi_axes, 1), water());
   scene.step(kStep, 2);
   for (int i = 0; i < 20; ++i) {
     const AmbientCounters step = countStep(scene);
@@ -177,9 +175,7 @@ TEST(SparedWork, BodiesOfOneShapeShareItsData) {
   FluidWorld scene;
   scene.fluid.addRegion(seaUnderAir(-50));
   for (const PressureLaw law : {PressureLaw::kPublished, PressureLaw::kForm}) {
-    AttachDef def;
-    def.fluid_body = std::make_shared<const FluidBody>(floatingEllipsoid(kUnequalAxes, 2));
-    def.medium = air();
+    AttachDef def{std::make_shared<const FluidBody>(floatingEllipsoid(kUnequalAxes, 2)), air()};
     def.flow.law = law;
     const AmbientBody* bodies[2] = {};
     for (const AmbientBody*& ambient : bodies) {
@@ -317,10 +313,8 @@ TEST(Sleeping, EndsWhenABodyIsAttached) {
   BodyDef def;
   btRigidBody& body = scene.add(def);
   body.forceActivationState(ISLAND_SLEEPING);
-  AttachDef attach;
-  attach.fluid_body = std::make_shared<FluidBody>(facelessEllipsoid(kBallAxes));
-  attach.medium = idealFluid(1000);
-  scene.fluid.add(body, attach);
+  scene.fluid.add(body,
+                  {std::make_shared<FluidBody>(facelessEllipsoid(kBallAxes)), idealFluid(1000)});
   EXPECT_TRUE(body.isActive());
 }
 
@@ -336,16 +330,14 @@ struct Floor {
 
   explicit Floor(bool in_water) {
     scene.world.setGravity({0, 0, static_cast<btScalar>(-9.81)});
-    BodyDef def{0, Vector3::Zero(), {}, &ground};
-    def.start.position = {0, 0, -1};
+    BodyDef def{0, Vector3::Zero(), startAt({0, 0, -1}), &ground};
     scene.add(def);
     def = {400, Vector3::Constant(400 * 0.06), {}, &cube};
     def.start.position = {0, 0, 0.3};
     box = &scene.add(def);
     if (in_water) {
-      AttachDef attach;
-      attach.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid(Vector3::Constant(0.3), 1));
-      attach.medium = idealFluid(1000);
+      AttachDef attach{std::make_shared<FluidBody>(meshedEllipsoid(Vector3::Constant(0.3), 1)),
+                       idealFluid(1000)};
       attach.fluid_frame.translation = Vector3(0.02, 0.01, 0);
       scene.fluid.add(*box, attach);
     }

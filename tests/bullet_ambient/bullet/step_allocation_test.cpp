@@ -53,9 +53,7 @@ TEST(Attachment, OfAnEqualBodyTakesOneOrTwoKilobytes) {
     std::size_t before = 0;
     for (std::size_t i = 0; i <= kBodies; ++i) {
       if (i == 1) before = heldBytes();
-      AttachDef def;
-      def.fluid_body = shape;
-      def.medium = water();
+      AttachDef def{shape, water()};
       def.flow.law = PressureLaw::kForm;
       scene.fluid.add(*bodies[i], def);
     }
@@ -102,12 +100,10 @@ TEST(Step, AllocatesOnceForABodyWhoseMassChanges) {
   FluidWorld scene;
   scene.world.setGravity({0, 0, bt(-9.81)});
   scene.fluid.addRegion(waterBelow(0));
-  AttachDef def;
-  def.fluid_body = std::make_shared<const FluidBody>(floatingEllipsoid(Vector3(0.3, 0.25, 0.1), 2));
+  AttachDef def{std::make_shared<const FluidBody>(floatingEllipsoid(Vector3(0.3, 0.25, 0.1), 2))};
   const auto add = [&](double mass) -> AmbientBody& {
-    BodyDef body_def{mass, mass * Vector3(0.02, 0.03, 0.04), {}, nullptr};
-    body_def.start.position = Vector3(10 * mass, 0, 0);
-    btRigidBody& body = scene.add(body_def);
+    btRigidBody& body =
+        scene.add({mass, mass * Vector3(0.02, 0.03, 0.04), startAt(Vector3(10 * mass, 0, 0))});
     scene.fluid.add(body, def);
     return *ambientBodiesOf(scene.fluid).find(&body);
   };

@@ -149,9 +149,7 @@ double pushed(LightBox& box, double hertz, double height) {
       box.mass, box.shape,
       btTransform(btQuaternion::getIdentity(), btVector3(0, 0, static_cast<btScalar>(height))));
   body.setActivationState(DISABLE_DEACTIVATION);
-  AttachDef def;
-  def.fluid_body = box.fluid_body;
-  fluid.add(body, def);
+  fluid.add(body, {box.fluid_body});
   host.step(1 / hertz, static_cast<int>(20 * hertz));
   const btScalar start = body.getWorldTransform().getOrigin().x();
   for (int i = 0; i < 2 * hertz; ++i) {

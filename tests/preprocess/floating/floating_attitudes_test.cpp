@@ -32,8 +32,7 @@ FloatingBody boxAfloat(const Vector3& size, double specific_gravity) {
   body.density = kWater;
   body.gravity = kFloatGravity;
   body.mass = specific_gravity * kWater * size.prod();
-  const Vector3 q = size.cwiseAbs2() / 12;
-  body.inertia = body.mass * Vector3(q.y() + q.z(), q.z() + q.x(), q.x() + q.y()).asDiagonal();
+  body.inertia = boxMoments(size, body.mass).asDiagonal();
   return body;
 }
 

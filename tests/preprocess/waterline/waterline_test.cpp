@@ -47,8 +47,7 @@ void expectSwing(const Swing& swing, const Swing& theory, double period_error) {
 
 /// Gyration of 0.4 of the widths B_i = sqrt(12 I_i / A_w), centre of mass in the waterline.
 FloatingDef floatingDef(const FluidBody& body, double length, double breadth) {
-  FloatingDef def;
-  def.shape = body;
+  FloatingDef def{body};
   def.gyration = 0.4 * Vector3(breadth, length, length);
   return def;
 }
@@ -61,8 +60,7 @@ FluidBody bodyOfShape(const std::string& shape, ShapeBuildSettings settings = {}
 
 /// Added mass of a half-submerged body, z axis up.
 Matrix6 halfSubmerged(const FluidBody& body) {
-  FloatingDef def;
-  def.shape = body;
+  FloatingDef def{body};
   const FloatingRun run(def);
   return run.model().wetted->inertia(run.immersion());
 }
@@ -159,9 +157,7 @@ TEST(Waterline, ABodyWithATableGainsNoEnergy) {
   for (const double gravity : {0.02, 0.5})
     for (const double step : {1.0 / 30, 1.0 / 240})
       for (const double height : {1.5, -2.0}) {
-        FloatingDef def;
-        def.shape = bargeWithCoarseTable();
-        def.specific_gravity = gravity;
+        FloatingDef def{bargeWithCoarseTable(), gravity};
         FloatingRun run(def);
         run.state.position.z() = height;
         run.state.orientation = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 0.3, 0).normalized());

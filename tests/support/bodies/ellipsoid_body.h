@@ -39,6 +39,12 @@ inline Vector3 ellipsoidMoments(const Vector3& semi_axes, double mass) {
   return mass / 5 * Vector3(q.y() + q.z(), q.z() + q.x(), q.x() + q.y());
 }
 
+/// Moments of inertia of a homogeneous box [kg m^2].
+inline Vector3 boxMoments(const Vector3& size, double mass) {
+  const Vector3 q = size.cwiseAbs2();
+  return mass / 12 * Vector3(q.y() + q.z(), q.z() + q.x(), q.x() + q.y());
+}
+
 /// Smooth ellipsoid: exact added mass and volume, no faces.
 inline FluidBody facelessEllipsoid(const Vector3& semi_axes) {
   FluidBody shape;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "bullet_ambient/base/elementary.h"
@@ -82,6 +83,13 @@ inline FluidBody floatingBox(const Vector3& size, int divisions = 2) {
   FluidBody body = boxBody(size, divisions);
   body.added_mass =
       facelessEllipsoid(size * portable::cbrt(3 / (4 * portable::acos(-1.0)))).added_mass;
+  return body;
+}
+
+/// The same with the moments of its uniform mass, by which it has stations along its length.
+inline std::shared_ptr<FluidBody> longBox(const Vector3& size, int divisions = 2) {
+  auto body = std::make_shared<FluidBody>(floatingBox(size, divisions));
+  body->uniform_mass.inertia = boxMoments(size, 1).asDiagonal();
   return body;
 }
 

@@ -68,8 +68,7 @@ void CoupledBody::attachTo(AmbientBodies& members) const {
   auto fluid_body = std::make_shared<FluidBody>();
   fluid_body->name = "coupled";
   fluid_body->added_mass = fluid_;
-  AttachDef def;
-  def.fluid_body = fluid_body;
+  AttachDef def{fluid_body};
   def.medium.density = 1;
   attachBody(members, *body_, def);
 }

@@ -94,8 +94,7 @@ Pile::Pile(const PileDef& pile) : box_shape_(cubeVector(kHalfEdge)) {
 Pile::Pile(double ambient_part, PileFluid fluid, const PileDef& pile) : Pile(pile) {
   fluid_def_ = fluid;
   fluid_.emplace(host_.world);
-  AttachDef def;
-  def.fluid_body = std::make_shared<FluidBody>(pileFluidBody(fluid));
+  AttachDef def{std::make_shared<FluidBody>(pileFluidBody(fluid))};
   def.medium.density = 1;
   def.medium.viscosity = 0;
   for (std::size_t i = 0; i < boxes().size(); ++i) {

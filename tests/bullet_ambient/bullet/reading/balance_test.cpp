@@ -94,18 +94,14 @@ class RandomScene {
     def.start.twist = arbitrary.twist(2, 1);
     def.shape = &box;
     body = &scene.add(def);
-    AttachDef attach;
-    attach.fluid_body = shape();
-    scene.fluid.add(*body, attach);
+    scene.fluid.add(*body, {shape()});
   }
   void addGround(Arbitrary& arbitrary) {
     btVector3 lowest, highest;
     body->getAabb(lowest, highest);
-    BodyDef def;
-    def.mass = 0;
-    def.shape = &ground;
-    def.start.position = {0, 0, static_cast<double>(lowest.z()) - 9.96};
-    scene.add(def).setFriction(bt(arbitrary.between(0, 2)));
+    const Vector3 below(0, 0, static_cast<double>(lowest.z()) - 9.96);
+    scene.add({0, Vector3::Ones(), startAt(below), &ground})
+        .setFriction(bt(arbitrary.between(0, 2)));
     body->setFriction(1);
     body->setLinearVelocity(body->getLinearVelocity() - btVector3(0, 0, bt(1.5)));
   }

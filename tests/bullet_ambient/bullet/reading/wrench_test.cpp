@@ -182,11 +182,7 @@ TEST(WrenchReading, ChangesNoMotion) {
     btBoxShape ground(btVector3(9, 9, 1));
     swimmer.def.shape = &shape;
     swimmer.def.start.twist = {Vector3(1, 2, 3), Vector3(2, 0, 1)};
-    BodyDef floor;
-    floor.mass = 0;
-    floor.shape = &ground;
-    floor.start.position = {0, 0, -1.15};
-    swimmer.scene.add(floor);
+    swimmer.scene.add({0, Vector3::Ones(), startAt({0, 0, -1.15}), &ground});
     for (const double x : {0.0, 0.25}) {
       swimmer.def.start.position = {x, 0, x};
       swimmer.add().readWrench(is_read);
@@ -229,12 +225,8 @@ struct Sea {
   }
   WetState wetAt(const FluidBody& shape, const Vector3& position,
                  const Quaternion& orientation = Quaternion::Identity()) {
-    BodyDef def;
-    def.start.position = position;
-    def.start.orientation = orientation;
-    AttachDef attach;
-    attach.fluid_body = std::make_shared<FluidBody>(shape);
-    return scene.fluid.add(scene.add(def), attach).wet();
+    const BodyDef def{1, Vector3::Ones(), startAt(position, {}, orientation)};
+    return scene.fluid.add(scene.add(def), {std::make_shared<FluidBody>(shape)}).wet();
   }
   FluidWorld scene;
   RegionId id;
@@ -280,9 +272,7 @@ TEST(WetState, OfABodyFarAboveOrBelowIsNothingOrAll) {
 
 TEST(WetState, WithoutASurfaceIsAllOfTheBody) {
   FluidWorld scene;
-  AttachDef attach;
-  attach.fluid_body = std::make_shared<FluidBody>(floatingBox(kBoxSize));
-  attach.medium = water();
+  AttachDef attach{std::make_shared<FluidBody>(floatingBox(kBoxSize)), water()};
   const WetState wet = scene.fluid.add(scene.add(BodyDef{}), attach).wet();
   EXPECT_EQ(wet.share, 1);
   EXPECT_TRUE(std::isinf(wet.draught));
@@ -296,11 +286,8 @@ TEST(WetState, OnLandIsNothing) {
   FluidRegion lake = waterBelow(0);
   lake.bounds = RegionBounds{{-5, -5, -5}, {5, 5, 5}};
   scene.fluid.addRegion(lake);
-  AttachDef attach;
-  attach.fluid_body = std::make_shared<FluidBody>(floatingBox(kBoxSize));
-  attach.medium = air();
-  BodyDef on_land;
-  on_land.start.position = {20, 0, 0};
+  AttachDef attach{std::make_shared<FluidBody>(floatingBox(kBoxSize)), air()};
+  const BodyDef on_land{1, Vector3::Ones(), startAt({20, 0, 0})};
   EXPECT_EQ(scene.fluid.add(scene.add(on_land), attach).wet().volume, 0);
   EXPECT_EQ(scene.fluid.add(scene.add(BodyDef{}), attach).wet().draught, 0.2);
 }
@@ -313,8 +300,7 @@ TEST(WetState, FollowsTheWavesAfterAStep) {
       std::make_shared<AiryWaves>(CalmSea{}, std::vector<WaveComponent>{{0.1, 3, {1, 0, 0}, 0}});
   region.surface = waves;
   scene.fluid.addRegion(region);
-  AttachDef attach;
-  attach.fluid_body = std::make_shared<FluidBody>(floatingBall(0.1));
+  AttachDef attach{std::make_shared<FluidBody>(floatingBall(0.1))};
   btRigidBody& body = scene.add(BodyDef{2, Vector3::Constant(0.01)});
   const Immersed ball = scene.fluid.add(body, attach);
   scene.step(1.0 / 60, 20);
@@ -330,9 +316,7 @@ TEST_F(WetLink, IsWhereItsJointsHaveBroughtIt) {
   world.world.setGravity({0, 0, bt(-9.81)});
   world.fluid.addRegion(waterBelow(0));
   btMultiBody& body = add();
-  AttachDef def;
-  def.fluid_body = std::make_shared<FluidBody>(floatingBall(0.1));
-  const Immersed link = world.fluid.add(body, 1, def);
+  const Immersed link = world.fluid.add(body, 1, {std::make_shared<FluidBody>(floatingBall(0.1))});
   body.setBasePos({0, 0, -5});
   RobotWorld::moveColliders(body);
   const WetState wet = link.wet();

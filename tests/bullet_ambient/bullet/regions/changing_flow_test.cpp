@@ -31,9 +31,8 @@ Medium flowingWater(const Vector3& velocity) {
 btRigidBody& addNeutralBall(FluidWorld& scene, const Medium& medium, double height = 0) {
   const FluidBody shape = facelessEllipsoid(Vector3::Constant(0.2));
   const double mass = 1000 * shape.volume;
-  BodyDef def{mass, ellipsoidMoments(Vector3::Constant(0.2), mass), {}, nullptr};
-  def.start.position = {0, 0, height};
-  return scene.add(def, shape, medium);
+  return scene.add({mass, ellipsoidMoments(Vector3::Constant(0.2), mass), startAt({0, 0, height})},
+                   shape, medium);
 }
 
 // Speeds that are the rounding of those of the fluid, some m/s [m/s].
@@ -190,18 +189,16 @@ TEST(ChangingFlow, DoesNotTakeAShearForOne) {
 
 // A sea with a surface: the body afloat follows at most a quarter of gravity, and stays upright.
 TEST(ChangingFlow, CarriesFloatsHoweverSudden) {
-  FluidWorld scene;
-  scene.world.setGravity({0, 0, bt(-9.81)});
   FluidRegion sea = waterBelow(0);
   sea.below = flowingWater({0, 0, 0});
-  const RegionId id = scene.fluid.addRegion(sea);
-  const FluidBody shape = floatingBox(Vector3(1, 1, 0.3));
-  const double mass = 500 * shape.volume;
+  SeaWorld scene(sea);
+  const Vector3 size(1, 1, 0.3);
+  const double mass = 500 * size.prod();
   const btRigidBody& body =
-      scene.add({mass, mass / 12 * Vector3(1.09, 1.09, 2), {}, nullptr}, shape, Medium{});
+      scene.add({mass, boxMoments(size, mass), {}, nullptr}, floatingBox(size), Medium{});
   scene.step(kFlowStep, 60);
   sea.below.velocity = {1, 0, 0};
-  scene.fluid.setRegion(id, sea);
+  scene.fluid.setRegion(RegionId{0}, sea);
   double most_tilt = 0, most_speed = 0;
   for (int i = 0; i < 120; ++i) {
     scene.step(kFlowStep);

@@ -26,9 +26,7 @@ TEST(FluidRegions, ABodyInOneMovesAsIfTheFluidWereItsOwn) {
   regions.fluid.addRegion(filledWith(medium));
   for (FluidWorld* scene : {&own, &regions}) {
     scene->world.setGravity({0, 0, bt(-9.81)});
-    BodyDef floor{0, Vector3::Zero(), {}, &floor_shape};
-    floor.start.position = {0, 0, -1};
-    scene->add(floor);
+    scene->add({0, Vector3::Zero(), startAt({0, 0, -1}), &floor_shape});
     for (const double height : {0.25, 40.0}) {
       BodyDef def = tumblingBody({0, 0, height});
       def.mass = 20;
@@ -84,9 +82,7 @@ TEST(FluidRegions, TheHighestPriorityCountsAndThenTheLastAdded) {
 
 TEST(FluidRegions, ABodyThatDoesNotFollowKeepsItsOwn) {
   FluidWorld scene;
-  AttachDef def;
-  def.fluid_body = std::make_shared<FluidBody>(facelessEllipsoid(kUnequalAxes));
-  def.medium = idealFluid(7);
+  AttachDef def{std::make_shared<FluidBody>(facelessEllipsoid(kUnequalAxes)), idealFluid(7)};
   def.follow_regions = false;
   btRigidBody& body = scene.add(tumblingBody(Vector3::Zero()));
   scene.fluid.add(body, def);
@@ -138,10 +134,9 @@ double driftOnCircle(double step) {
   };
   scene.fluid.addRegion(whirl);
   const FluidBody shape = facelessEllipsoid(Vector3::Constant(0.1));
-  BodyDef def{1000 * shape.volume, Vector3::Constant(0.02), {}, nullptr};
-  def.start.position = {2, 0, 0};
-  def.start.twist.linear = {0, 2 * kRate, 0};
-  const btRigidBody& body = scene.add(def, shape, Medium{});
+  const btRigidBody& body = scene.add({1000 * shape.volume, Vector3::Constant(0.02),
+                                       startAt({2, 0, 0}, {Vector3::Zero(), {0, 2 * kRate, 0}})},
+                                      shape, Medium{});
   const int steps = static_cast<int>(std::lround(4 / step));
   scene.step(step, steps);
   const Vector3 exact(2 * std::cos(4 * kRate), 2 * std::sin(4 * kRate), 0);
@@ -189,9 +184,7 @@ TEST(FluidRegions, AFlowThatIsNotFiniteIsDroppedAndCounted) {
 
 TEST(FluidRegions, ARegionThatABodyCannotMeetChangesNothing) {
   FluidWorld scene;
-  AttachDef def;
-  def.fluid_body = std::make_shared<FluidBody>(facelessEllipsoid(kUnequalAxes));
-  def.medium = idealFluid(7);
+  AttachDef def{std::make_shared<FluidBody>(facelessEllipsoid(kUnequalAxes)), idealFluid(7)};
   def.flow.own_law = [](const std::shared_ptr<const FluidBody>&,
                         const LoadSettings& settings) -> std::shared_ptr<const SurfaceLoads> {
     if (settings.density > 100) throw std::invalid_argument("too dense");
@@ -239,11 +232,9 @@ TEST(FluidRegions, OfTheirOwnMediumAndShapeBodiesInThemCanChange) {
 
 btRigidBody& addRestingBall(FluidWorld& scene, const Medium& medium) {
   const FluidBody shape = facelessEllipsoid(Vector3::Constant(0.2));
-  BodyDef def{998 * shape.volume,
-              ellipsoidMoments(Vector3::Constant(0.2), 998 * shape.volume),
-              {},
-              nullptr};
-  btRigidBody& body = scene.add(def, shape, medium);
+  const double mass = 998 * shape.volume;
+  btRigidBody& body =
+      scene.add({mass, ellipsoidMoments(Vector3::Constant(0.2), mass)}, shape, medium);
   body.forceActivationState(ACTIVE_TAG);
   return body;
 }
@@ -265,9 +256,7 @@ TEST(FluidRegions, NeverLookAtABodyThatIsGone) {
   FluidWorld scene;
   auto body = std::make_unique<btRigidBody>(
       btRigidBody::btRigidBodyConstructionInfo(1, nullptr, nullptr, btVector3(1, 1, 1)));
-  AttachDef def;
-  def.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid(kUnequalAxes, 1));
-  scene.fluid.add(*body, def);
+  scene.fluid.add(*body, {std::make_shared<FluidBody>(meshedEllipsoid(kUnequalAxes, 1))});
   body.reset();
   const RegionId id = scene.fluid.addRegion(filledWith(air()));
   scene.step(kWorldStep);
@@ -316,10 +305,7 @@ struct Layers {
       def.mass = 1 + i;
       def.shape = &ball;
       btRigidBody& body = scene.add(def);
-      AttachDef attach;
-      attach.fluid_body = shape;
-      attach.medium = air();
-      scene.fluid.add(body, attach);
+      scene.fluid.add(body, {shape, air()});
     }
   }
   std::string bits() const { return motionBytes(scene.fluid); }

@@ -31,24 +31,17 @@ btRigidBody& addFloat(FluidWorld& scene, const Vector3& start) {
   constexpr double kRadius = 0.2;
   const FluidBody shape = facelessEllipsoid(Vector3::Constant(kRadius));
   const double mass = kLayerDensity * shape.volume;
-  BodyDef def{mass, ellipsoidMoments(Vector3::Constant(kRadius), mass), {}, nullptr};
-  def.start.position = start;
-  btRigidBody& body = scene.add(def, shape, Medium{});
+  btRigidBody& body = scene.add(
+      {mass, ellipsoidMoments(Vector3::Constant(kRadius), mass), startAt(start)}, shape, Medium{});
   body.setGravity({0, 0, bt(-kGravity)});
   return body;
-}
-
-double heightOf(const btRigidBody& body) {
-  return static_cast<double>(body.getWorldTransform().getOrigin().z());
 }
 
 // Buoyancy frequency with the added mass of a ball, C_a = 1/2.
 TEST(Layers, ANeutralFloatBobsWithTheBuoyancyFrequency) {
   const double frequency = std::sqrt(-kGravity * kSlope / kLayerDensity / 1.5);
   for (const double step : {1.0 / 60, 1.0 / 10}) {
-    FluidWorld scene;
-    scene.world.setGravity({0, 0, bt(-kGravity)});
-    scene.fluid.addRegion(stratifiedTank());
+    SeaWorld scene(stratifiedTank());
     const btRigidBody& body = addFloat(scene, {0, 0, 0.5});
     double last = 0.5, first = 0, crossing = 0;
     int crossings = 0;
@@ -74,16 +67,10 @@ TEST(Layers, ANeutralFloatBobsWithTheBuoyancyFrequency) {
 
 // A sharp interface at the centre of a box: the mean of both densities.
 TEST(Layers, BuoyancyIsThatOfTheVolume) {
-  FluidWorld scene;
-  scene.world.setGravity({0, 0, bt(-kGravity)});
   FluidRegion tank = filledWith(idealFluid(kLayerDensity));
   tank.layers = layers({{0, 1100}, {0, 1000}});
-  scene.fluid.addRegion(tank);
-  AttachDef attach;
-  attach.fluid_body = longBox(kBoxSize, 2);
-  btRigidBody& body = scene.add({100, boxMoments(kBoxSize, 100), {}, nullptr});
-  body.setGravity({0, 0, bt(-kGravity)});
-  scene.fluid.add(body, attach);
+  SeaWorld scene(tank);
+  const btRigidBody& body = scene.addBox(kBoxSize, 100);
   scene.of(body).readWrench(true);
   scene.step(1e-4);
   const double expected = 1050 * kBoxSize.prod() * kGravity;
@@ -93,16 +80,11 @@ TEST(Layers, BuoyancyIsThatOfTheVolume) {
 // Drag goes with the density of the place.
 TEST(Layers, LoadsGoWithTheDensity) {
   const auto dragAt = [](double height) {
-    FluidWorld scene;
-    FluidRegion tank = stratifiedTank();
-    scene.fluid.addRegion(tank);
-    AttachDef attach;
-    attach.fluid_body = longBox({1, 0.5, 0.5}, 4);
-    BodyDef def{250, boxMoments({1, 0.5, 0.5}, 250), {}, nullptr};
-    def.start.position.z() = height;
-    def.start.twist.linear.x() = 2;
-    btRigidBody& body = scene.add(def);
-    scene.fluid.add(body, attach);
+    SeaWorld scene(stratifiedTank());
+    RigidState start;
+    start.position.z() = height;
+    start.twist.linear.x() = 2;
+    const btRigidBody& body = scene.addBox({1, 0.5, 0.5}, 250, start, 4);
     scene.of(body).readWrench(true);
     scene.step(1e-6);
     return scene.of(body).wrench().pressure.force.x();
@@ -112,19 +94,13 @@ TEST(Layers, LoadsGoWithTheDensity) {
 
 // A box floats in two layers under a surface: its weight is the water that it displaces.
 TEST(Layers, ABodyAtTheSurfaceDisplacesItsWeight) {
-  FluidWorld scene;
-  scene.world.setGravity({0, 0, bt(-kGravity)});
   FluidRegion lake = seaUnderAir();
   lake.below.density = 1000;
   lake.layers = layers({{-1, 1200}, {-0.1, 1200}, {-0.1, 1000}, {0, 1000}});
-  scene.fluid.addRegion(lake);
+  SeaWorld scene(lake);
   // 0.1 m in 1000 and 0.1 m in 1200 kg/m^3.
   const double mass = kBoxSize.x() * kBoxSize.y() * (0.1 * 1000 + 0.1 * 1200);
-  AttachDef attach;
-  attach.fluid_body = longBox(kBoxSize, 2);
-  btRigidBody& body = scene.add({mass, boxMoments(kBoxSize, mass), {}, nullptr});
-  body.setGravity({0, 0, bt(-kGravity)});
-  scene.fluid.add(body, attach);
+  const btRigidBody& body = scene.addBox(kBoxSize, mass);
   scene.step(1.0 / 120, 120 * 30);
   EXPECT_NEAR(heightOf(body), kBoxSize.z() / 2 - 0.2, 1e-3);  // the air carries some, too
 }
@@ -170,28 +146,24 @@ TEST(Turbulence, CarriesANeutralBallAsItsOwnParticle) {
   EXPECT_NEAR(errors[1] / errors[0], 0.5, 0.1) << "first order: samples are of the step's start";
 }
 
-// A world with a box in all that blows, in layers, at a surface.
-struct WindyWorld : FluidWorld {
-  WindyWorld() {
-    world.setGravity({0, 0, bt(-kGravity)});
-    FluidRegion sea = seaUnderAir();
-    WindProfile wind;
-    wind.velocity = {8, 0, 0};
-    wind.roughness = 2e-4;
-    DrydenGusts gusts;
-    sea.flow_above = windProfile(wind) + drydenGusts(gusts);
-    sea.flow = turbulence(eddiesAbout(5));
-    sea.layers = layers({{-3, 1030}, {-0.1, 1000}});
-    fluid.addRegion(sea);
+/// A surface over layers, in all that blows.
+FluidRegion windySea() {
+  FluidRegion sea = seaUnderAir();
+  WindProfile wind;
+  wind.velocity = {8, 0, 0};
+  wind.roughness = 2e-4;
+  sea.flow_above = windProfile(wind) + drydenGusts({});
+  sea.flow = turbulence(eddiesAbout(5));
+  sea.layers = layers({{-3, 1030}, {-0.1, 1000}});
+  return sea;
+}
+
+struct WindyWorld : SeaWorld {
+  WindyWorld() : SeaWorld(windySea()) {
     for (int i = 0; i < 12; ++i) {
-      AttachDef attach;
-      attach.fluid_body = longBox(kBoxSize, 4);
-      BodyDef def{60.0 + 20 * i, boxMoments(kBoxSize, 60), {}, nullptr};
-      def.start.position = {3.0 * i, 0, 0};
-      btRigidBody& body = add(def);
-      body.setGravity({0, 0, bt(-kGravity)});
-      fluid.add(body, attach);
-      bodies.push_back(&body);
+      RigidState start;
+      start.position.x() = 3.0 * i;
+      bodies.push_back(&addBox(kBoxSize, 60.0 + 20 * i, start, 4));
     }
   }
   std::vector<btRigidBody*> bodies;
@@ -224,8 +196,7 @@ TEST(Layers, LiftLinksAsBodies) {
     FluidRegion tank = filledWith(idealFluid(kLayerDensity));
     tank.layers = layers({{-1, 1200}, {1, 1200}});
     scene.fluid.addRegion(tank);
-    AttachDef attach;
-    attach.fluid_body = longBox(kBoxSize, 2);
+    AttachDef attach{longBox(kBoxSize, 2)};
     const double mass = 210;  // sinks in the medium, rises in the layers
     const btVector3 moments = toBullet(boxMoments(kBoxSize, mass));
     btEmptyShape no_shape;
@@ -251,18 +222,11 @@ TEST(Layers, LiftLinksAsBodies) {
 // does not move with it.
 TEST(Gusts, WindOverTheSurfaceIsThatOfTheDryPart) {
   const auto speedIn = [](const FlowField& above, const FlowField& all) {
-    FluidWorld scene;
-    scene.world.setGravity({0, 0, bt(-kGravity)});
     FluidRegion sea = seaUnderAir();
     sea.flow_above = above;
     sea.flow = all;
-    scene.fluid.addRegion(sea);
-    AttachDef attach;
-    attach.fluid_body = longBox(kBoxSize, 4);
-    const double mass = 600 * kBoxSize.prod();
-    btRigidBody& body = scene.add({mass, boxMoments(kBoxSize, mass), {}, nullptr});
-    body.setGravity({0, 0, bt(-kGravity)});
-    scene.fluid.add(body, attach);
+    SeaWorld scene(sea);
+    const btRigidBody& body = scene.addBox(kBoxSize, 600 * kBoxSize.prod(), {}, 4);
     scene.step(1.0 / 60, 600);
     return static_cast<double>(body.getLinearVelocity().x());
   };
@@ -281,23 +245,16 @@ TEST(Gusts, WindOverTheSurfaceIsThatOfTheDryPart) {
 // The change of the energy of a box is the work of its loads, of the accelerating air and of
 // gravity.
 TEST(Gusts, ABoxInWindKeepsItsEnergyBalance) {
-  FluidWorld scene;
-  scene.world.setGravity({0, 0, bt(-kGravity)});
   FluidRegion air_around = filledWith(ambient::air());
   WindProfile wind;
   wind.velocity = {8, 2, 0};
   wind.ground = -20;
   air_around.flow = windProfile(wind) + turbulence(eddiesAbout(20));
-  scene.fluid.addRegion(air_around);
-  AttachDef attach;
-  attach.fluid_body = longBox(kBoxSize, 4);
+  SeaWorld scene(air_around);
   const double mass = 5;
   const Vector3 moments = boxMoments(kBoxSize, mass);
-  BodyDef def{mass, moments, {}, nullptr};
-  def.start.twist = {Vector3(1, 2, 3), Vector3(0, 0, 5)};
-  btRigidBody& body = scene.add(def);
-  body.setGravity({0, 0, bt(-kGravity)});
-  scene.fluid.add(body, attach);
+  const RigidState start = startWith({Vector3(1, 2, 3), Vector3(0, 0, 5)});
+  const btRigidBody& body = scene.addBox(kBoxSize, mass, start, 4);
   scene.of(body).readWrench(true);
   const auto energy = [&] {
     const Twist x = ambient::velocityOf(body);

@@ -25,8 +25,7 @@ struct StickScene : RobotWorld {
     fluid.addRegion(turningWater(kTurning));
     const double mass = 1500 * kStick.prod();
     const btVector3 moments = toBullet(boxMoments(kStick, mass));
-    AttachDef def;
-    def.fluid_body = longBox(kStick, 8);
+    AttachDef def{longBox(kStick, 8)};
     if (mover == Mover::kRigid) {
       body = &contents.add(mass, moments, box_, btTransform::getIdentity());
       body->setActivationState(DISABLE_DEACTIVATION);
@@ -100,9 +99,7 @@ struct BarScene : RobotWorld {
     body = &contents.add(mass, toBullet(boxMoments(kBar, mass)), no_shape_,
                          btTransform::getIdentity());
     body->setActivationState(DISABLE_DEACTIVATION);
-    AttachDef def;
-    def.fluid_body = longBox(kBar, 8);
-    fluid.add(*body, def);
+    fluid.add(*body, {longBox(kBar, 8)});
     read = fluid.find(*body);
     read->readWrench(true);
   }

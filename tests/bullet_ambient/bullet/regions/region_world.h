@@ -16,10 +16,8 @@ inline constexpr double kFar = std::numeric_limits<double>::infinity();
 inline constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
 inline BodyDef tumblingBody(const Vector3& position) {
-  BodyDef def{2, ellipsoidMoments(kUnequalAxes, 2), {}, nullptr};
-  def.start.position = position;
-  def.start.twist = {Vector3(1, 2, 3), Vector3(2, 0, 1)};
-  return def;
+  return {2, ellipsoidMoments(kUnequalAxes, 2),
+          startAt(position, {Vector3(1, 2, 3), Vector3(2, 0, 1)})};
 }
 
 inline FluidRegion filledWith(const Medium& medium) {
@@ -56,17 +54,6 @@ inline std::vector<LongCase> longCases() {
   return cases;
 }
 
-inline Vector3 boxMoments(const Vector3& size, double mass) {
-  const Vector3 q = size.cwiseAbs2();
-  return mass / 12 * Vector3(q.y() + q.z(), q.z() + q.x(), q.x() + q.y());
-}
-
-inline std::shared_ptr<FluidBody> longBox(const Vector3& size, int divisions = 2) {
-  auto body = std::make_shared<FluidBody>(floatingBox(size, divisions));
-  body->uniform_mass.inertia = boxMoments(size, 1).asDiagonal();
-  return body;
-}
-
 /// A box at the origin in a world without gravity, with one degree of freedom. As a link it hangs
 /// by a joint on a base that is fixed.
 struct LongScene : RobotWorld {
@@ -76,8 +63,7 @@ struct LongScene : RobotWorld {
     const double mass = density * size.prod();
     const btVector3 moments = toBullet(boxMoments(size, mass));
     const bool turns = freedom == Freedom::kTurnsAboutZ;
-    AttachDef def;
-    def.fluid_body = longBox(size, 8);
+    AttachDef def{longBox(size, 8)};
     def.flow.law = PressureLaw::kForm;
     if (mover == Mover::kRigid) {
       body = &contents.add(mass, moments, no_shape_, btTransform::getIdentity());

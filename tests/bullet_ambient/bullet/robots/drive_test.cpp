@@ -119,9 +119,7 @@ struct Rotors : RobotWorld {
     robot->setMaxCoordinateVelocity(1000);
     btMultiBody& tree = takeUndamped(std::move(robot));
     tree.setJointVel(0, bt(2 * kPi * turns / kRotorStep));
-    AttachDef def;
-    def.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid(axes, 1));
-    def.medium = medium;
+    AttachDef def{std::make_shared<FluidBody>(meshedEllipsoid(axes, 1)), medium};
     def.name = name;
     fluid.add(tree, 0, def);
   }

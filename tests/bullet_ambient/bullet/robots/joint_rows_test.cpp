@@ -22,10 +22,7 @@ namespace {
 // Gears and motors of ball joints in fluid against one dense system of all links, joints and rows.
 
 RobotDef treeOfSmoothJoints(bool has_fixed_base) {
-  RobotDef def;
-  def.links = 7;
-  def.joints = Joints::kSmooth;
-  def.has_fixed_base = has_fixed_base;
+  RobotDef def{7, Joints::kSmooth, has_fixed_base};
   def.collider_radius = 0.01;
   return def;
 }
@@ -205,9 +202,7 @@ TEST(FrictionRows, OneDirectionEqualsTheDenseSolution) { expectFriction({}, 1); 
 TEST(FrictionRows, TwoDirectionsEqualTheDenseSolution) { expectFriction({}, 2); }
 
 TEST(FrictionRows, TreesWithAllJointsEqualTheDenseSolution) {
-  RobotDef def;
-  def.links = 5;
-  def.joints = Joints::kAll;
+  RobotDef def{5, Joints::kAll};
   expectFriction(def, 1);
 }
 

@@ -20,15 +20,10 @@ constexpr double kLoneHertz = 240;
 constexpr double kLoneMass = 60;
 const Vector3 kLoneSize(0.5, 0.3, 0.4);
 
-btVector3 momentsOfBox() {
-  const Vector3 squares = kLoneSize.cwiseAbs2();
-  return bt(kLoneMass / 12) * toBullet(Vector3(squares.sum() * Vector3::Ones() - squares));
-}
+btVector3 momentsOfBox() { return toBullet(boxMoments(kLoneSize, kLoneMass)); }
 
 AttachDef loneInWater() {
-  AttachDef def;
-  def.fluid_body = std::make_shared<FluidBody>(floatingBox(kLoneSize));
-  def.medium = water();
+  AttachDef def{std::make_shared<FluidBody>(floatingBox(kLoneSize)), water()};
   return def;
 }
 
@@ -162,10 +157,7 @@ TEST(TreeState, MovesWithoutFluidAsInBullet) {
   double worst = 0;
   for (int i = 0; i < 40; ++i) {
     RobotWorld world;
-    RobotDef def;
-    def.links = 10;
-    def.joints = Joints::kAll;
-    def.has_fixed_base = i % 2 == 0;
+    RobotDef def{10, Joints::kAll, i % 2 == 0};
     btMultiBody& body = world.add(arbitrary, def);
     push(arbitrary, body);
     body.setUseGyroTerm(i % 3 != 0);
@@ -189,9 +181,7 @@ TEST(TreeState, MovesAsBulletDoes) {
   double worst = 0;
   for (int i = 0; i < 20; ++i) {
     RobotWorld world;
-    RobotDef def;
-    def.links = 8;
-    def.joints = Joints::kSmooth;
+    RobotDef def{8, Joints::kSmooth};
     btMultiBody& body = world.add(arbitrary, def);
     const LinkTree tree = makeLinkTree(body);
     TreePose pose, expected;
@@ -228,9 +218,7 @@ constexpr double kPoseStep = 1.0 / 60;
 const double kPoseRounding = byPrecision(1e-14, 1e-5);  // of numbers of size 1
 
 RobotDef robotOfAllJoints(double speed) {
-  RobotDef def;
-  def.links = 10;
-  def.joints = Joints::kAll;
+  RobotDef def{10, Joints::kAll};
   def.speed = speed;
   return def;
 }

@@ -132,10 +132,8 @@ void putPlatesIntoFluid(RobotWorld& world, btMultiBody& body) {
     Matrix6 added = Matrix6::Zero();
     added(5, 5) = 1e4 * mass;
     added(0, 0) = added(1, 1) = 1e4 * mass * 0.05 * 0.05;
-    AttachDef def;
-    def.fluid_body = std::make_shared<FluidBody>(shapeWithoutFaces(added, 1e-9));
-    def.medium = idealFluid(1);
-    world.fluid.add(body, link, def);
+    world.fluid.add(body, link,
+                    {std::make_shared<FluidBody>(shapeWithoutFaces(added, 1e-9)), idealFluid(1)});
   }
 }
 

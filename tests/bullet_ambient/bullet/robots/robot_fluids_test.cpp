@@ -82,9 +82,7 @@ TEST_F(Robots, GoWithAFluidWhoseVelocityChanges) {
       FluidBody shape = facelessEllipsoid(Vector3(0.1, 0.1, 0.1));
       const btScalar mass = link < 0 ? body.getBaseMass() : body.getLinkMass(link);
       shape.volume = static_cast<double>(mass) / 1000;
-      AttachDef def;
-      def.fluid_body = std::make_shared<FluidBody>(shape);
-      in.fluid.add(body, link, def);
+      in.fluid.add(body, link, {std::make_shared<FluidBody>(shape)});
     }
     double least = 0, most = 0;
     const double start = static_cast<double>(body.getBasePos().x());
@@ -182,9 +180,8 @@ TEST_F(Robots, StayBoundedUnderMotorsInWater) {
   def.collider_radius = 0.05;
   def.speed = 3;
   btMultiBody& body = add(def);
-  AttachDef attach;
-  attach.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid(Vector3(0.15, 0.08, 0.05), 1));
-  attach.medium = water();
+  AttachDef attach{std::make_shared<FluidBody>(meshedEllipsoid(Vector3(0.15, 0.08, 0.05), 1)),
+                   water()};
   for (int link = -1; link < 4; ++link) world.fluid.add(body, link, attach);
   for (int i = 0; i < 4; ++i)
     world.take(std::make_unique<btMultiBodyJointMotor>(&body, i, bt(0), bt(1e-3)));
@@ -212,11 +209,6 @@ constexpr double kStrong = 1e6;             // impulse of a motor [N s]
 
 enum class Load { kWelded, kFixed, kMotor, kPositionMotor, kLimits, kSwings };
 
-btVector3 momentsOf(double mass, const Vector3& size) {
-  const Vector3 squares = size.cwiseProduct(size);
-  return toBullet(Vector3(mass / 12 * (Vector3::Constant(squares.sum()) - squares)));
-}
-
 // Returns the height of the centre of mass of the base above the middle of the hull [m].
 double heightOfBase(Load load) {
   return load == Load::kWelded ? kLoadMass * kLoadHeight / kMass : 0;
@@ -225,16 +217,17 @@ double heightOfBase(Load load) {
 std::unique_ptr<btMultiBody> weldedBarge() {
   const double height = heightOfBase(Load::kWelded), above = kLoadHeight - height;
   const double apart = kHullMass * height * height + kLoadMass * above * above;
-  const btVector3 moments = momentsOf(kHullMass, kHull) + momentsOf(kLoadMass, kLoad) +
+  const btVector3 moments = toBullet(boxMoments(kHull, kHullMass)) +
+                            toBullet(boxMoments(kLoad, kLoadMass)) +
                             btVector3(bt(apart), bt(apart), 0);
   return std::make_unique<btMultiBody>(0, bt(kMass), moments, false, false);
 }
 
 std::unique_ptr<btMultiBody> bargeWith(Load load) {
   if (load == Load::kWelded) return weldedBarge();
-  auto body =
-      std::make_unique<btMultiBody>(1, bt(kHullMass), momentsOf(kHullMass, kHull), false, false);
-  const btVector3 moments = momentsOf(kLoadMass, kLoad), none(0, 0, 0), athwart(0, 1, 0);
+  auto body = std::make_unique<btMultiBody>(1, bt(kHullMass),
+                                            toBullet(boxMoments(kHull, kHullMass)), false, false);
+  const btVector3 moments = toBullet(boxMoments(kLoad, kLoadMass)), none(0, 0, 0), athwart(0, 1, 0);
   const btVector3 up(0, 0, bt(kLoadHeight)), hook(0, 0, bt(kLoadHeight + 1)), rope(0, 0, -1);
   const btQuaternion straight = btQuaternion::getIdentity();
   if (load == Load::kFixed) {
@@ -288,9 +281,7 @@ class Barge {
     // Bullet leaves out motors of links without a collider.
     world_.take(std::move(robot), 0.1);
     if (auto rows = rowsOf(load, body_)) world_.take(std::move(rows));
-    AttachDef def;
-    def.fluid_body = std::make_shared<FluidBody>(floatingBox(kHull));
-    def.medium = air();
+    AttachDef def{std::make_shared<FluidBody>(floatingBox(kHull)), air()};
     def.fluid_frame.translation = {0, 0, -height};
     world_.fluid.add(body_, -1, def);
   }

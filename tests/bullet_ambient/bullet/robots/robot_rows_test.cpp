@@ -177,9 +177,8 @@ TEST_F(Robots, FeelBuoyancyInTheirJoints) {
   body.getLink(0).m_jointFeedback = &feedback;
   world.world.addMultiBody(&body);
   world.world.setGravity({0, 0, bt(-10)});
-  AttachDef def;
-  def.fluid_body = std::make_shared<FluidBody>(facelessEllipsoid(Vector3(0.1, 0.1, 0.1)));
-  def.medium = idealFluid(1000);
+  AttachDef def{std::make_shared<FluidBody>(facelessEllipsoid(Vector3(0.1, 0.1, 0.1))),
+                idealFluid(1000)};
   def.fluid_frame.translation = {0, 0.2, 0};
   world.fluid.add(body, 0, def);
   world.step(1e-3, 2);

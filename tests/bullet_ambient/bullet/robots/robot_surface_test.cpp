@@ -66,9 +66,7 @@ class FloatingPair {
     rigid.setLinearVelocity(velocity);
     multi.setBaseOmega(spin);
     multi.setBaseVel(velocity);
-    AttachDef def;
-    def.fluid_body = std::make_shared<FluidBody>(floater.shape);
-    def.medium = air();
+    AttachDef def{std::make_shared<FluidBody>(floater.shape), air()};
     def.flight.max_substeps = floater.max_substeps;
     def.holds = floater.holds;
     world.fluid.add(rigid, def);
@@ -139,9 +137,7 @@ std::pair<double, double> toyInABarge(bool is_link, bool is_in_link) {
   const auto add = [&](const Floater& floater, double height, bool as_link) {
     const double mass = floater.specific_gravity * water().density * floater.shape.volume;
     const btVector3 inertia = bt(mass) * toBullet(floater.gyration_squared);
-    AttachDef def;
-    def.fluid_body = std::make_shared<FluidBody>(floater.shape);
-    def.medium = air();
+    AttachDef def{std::make_shared<FluidBody>(floater.shape), air()};
     def.holds = floater.holds;
     if (as_link) {
       auto robot = std::make_unique<btMultiBody>(0, bt(mass), inertia, false, false);
@@ -250,9 +246,7 @@ struct LinkOnRail {
     const btVector3 zero(0, 0, 0);
     world.take(std::make_unique<btMultiBodySliderConstraint>(cube, -1, nullptr, zero, zero, frame,
                                                              frame, btVector3(0, 0, 1)));
-    AttachDef def;
-    def.fluid_body = std::make_shared<FluidBody>(floatingBox(Vector3::Constant(kEdge)));
-    def.medium = air();
+    AttachDef def{std::make_shared<FluidBody>(floatingBox(Vector3::Constant(kEdge))), air()};
     def.fluid_frame.translation.x() = 0.05 * kEdge;  // else the rail has nothing to hold
     world.fluid.add(*cube, -1, def);
   }
@@ -321,9 +315,7 @@ struct MotorBarge {
     barge.setBaseCollider(&collider);
     world.world.addCollisionObject(&collider);
     world.take(std::make_unique<btMultiBodyJointMotor>(&barge, 0, bt(0), bt(1)));
-    AttachDef def;
-    def.fluid_body = std::make_shared<FluidBody>(floatingBox({5, 2, 0.8}));
-    world.fluid.add(barge, -1, def);
+    world.fluid.add(barge, -1, {std::make_shared<FluidBody>(floatingBox({5, 2, 0.8}))});
   }
   ~MotorBarge() {
     world.world.removeCollisionObject(&collider);

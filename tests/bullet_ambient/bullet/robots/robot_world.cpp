@@ -146,9 +146,7 @@ AttachDef coupledFluid(Arbitrary& arbitrary, const btMultiBody& body, int link, 
   size << Vector3::Constant(link < 0 ? 0.2 : 0.15), Vector3::Ones();
   const Matrix6 added =
       ratio * mass / 3 * (size.asDiagonal() * arbitrary.positiveDefinite() * size.asDiagonal());
-  AttachDef def;
-  def.fluid_body = std::make_shared<FluidBody>(shapeWithoutFaces(added, 0));
-  def.medium = idealFluid(1);
+  AttachDef def{std::make_shared<FluidBody>(shapeWithoutFaces(added, 0)), idealFluid(1)};
   return def;
 }
 

@@ -25,9 +25,8 @@ struct FreeCoupledBody {
 
   explicit FreeCoupledBody(Arbitrary& arbitrary) {
     const Matrix6 added_mass = arbitrary.positiveDefinite();
-    BodyDef def;
-    def.mass = arbitrary.between(0.1, 5);
-    def.moments = Vector3(arbitrary.between(0.5, 1), arbitrary.between(0.5, 1), 0.9);
+    BodyDef def{arbitrary.between(0.1, 5),
+                Vector3(arbitrary.between(0.5, 1), arbitrary.between(0.5, 1), 0.9)};
     def.start.orientation = Quaternion(arbitrary.rotation());
     def.start.twist = arbitrary.twist();
     body = &scene.add(def, shapeWithoutFaces(added_mass), kFluid);

@@ -66,12 +66,9 @@ class Drawing : public testing::Test {
     attach.flow.law = PressureLaw::kPublished;
     attach.fluid_frame = {rotationFromVector(Vector3(0.4, 0.1, -0.3)).toRotationMatrix(),
                           Vector3(0.02, 0.01, 0.03)};
-    BodyDef def;
-    def.mass = 200;
-    def.moments = Vector3(5, 8, 9);
-    def.start.orientation = rotationFromVector(Vector3(0.1, 0.8, 0.2));
-    def.start.twist = {Vector3(1, -1, 2), Vector3(2, 1, -1)};
-    body = &scene.add(def);
+    body = &scene.add({200, Vector3(5, 8, 9),
+                       startWith({Vector3(1, -1, 2), Vector3(2, 1, -1)},
+                                 rotationFromVector(Vector3(0.1, 0.8, 0.2)))});
     body->setGravity(btVector3(0, 0, btScalar(-kGravity)));
     scene.fluid.add(*body, attach);
     scene.step(1e-3);
@@ -380,13 +377,10 @@ TEST_F(DrawingOfWater, IsANetOnTheSurfaceWithinTheBounds) {
 
 TEST_F(DrawingOfWater, OfHoldsIsTheirEdgesAndTheLevelOfTheirWater) {
   scene.fluid.addRegion(waterBelow(0));
-  BodyDef def;
-  def.mass = 200;
-  def.moments = Vector3(26, 84, 100);
+  BodyDef def{200, Vector3(26, 84, 100)};
   def.start.orientation = rotationFromVector(Vector3(0.1, 0.05, 0.3));
   btRigidBody& body = scene.add(def);
-  AttachDef attach;
-  attach.fluid_body = std::make_shared<FluidBody>(openBarge({}));
+  AttachDef attach{std::make_shared<FluidBody>(openBarge({}))};
   attach.fluid_frame.translation.z() = 0.12;
   attach.holds.water = {0.2};
   const Immersed afloat = scene.fluid.add(body, attach);

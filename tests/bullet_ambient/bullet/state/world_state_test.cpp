@@ -67,10 +67,8 @@ TEST(WorldState, ChangesOfBodiesFluidsAndJointsAreTakenBack) {
   scene.body(6).applyCentralForce(btVector3(100, 0, 0));
   scene.body(7).setGravity(btVector3(0, 5, 0));
   scene.scene.contents.joints()[1]->setEnabled(false);
-  AttachDef stone;
-  stone.fluid_body = scene.ball_fluid;
-  stone.medium = water();
-  fluid.add(scene.body(scene.scene.world.getNumCollisionObjects() - 1), stone);
+  fluid.add(scene.body(scene.scene.world.getNumCollisionObjects() - 1),
+            {scene.ball_fluid, water()});
   scene.scene.fluid.restore(run.state);
   EXPECT_EQ(fluid.size(), 12u);
   EXPECT_EQ(fluid.find(scene.body(2))->medium().density, water().density);
@@ -151,8 +149,7 @@ struct Tables : FluidWorld {
     table.addChildShape(at(0, 0, 0), &top);
     for (const double x : {-0.25, 0.25})
       for (const double y : {-0.16, 0.16}) table.addChildShape(at(x, y, -0.17), &leg);
-    BodyDef def{0, Vector3::Zero(), {}, &floor};
-    def.start.position = {0, 0, -0.5};
+    BodyDef def{0, Vector3::Zero(), startAt({0, 0, -0.5}), &floor};
     add(def);
     def = {8, Vector3(0.15, 0.3, 0.4), {}, &table};
     for (int i = 0; i < 6; ++i) {

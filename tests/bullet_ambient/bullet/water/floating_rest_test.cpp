@@ -16,7 +16,6 @@
 namespace ambient::test {
 namespace {
 
-constexpr double kPull = 9.81;  // [m/s^2]
 constexpr double kSteppings[] = {30, 60, 240};
 
 struct Float {
@@ -26,8 +25,7 @@ struct Float {
 };
 
 Float boxAfloat(const Vector3& size, double mass) {
-  const Vector3 q = mass / 12 * size.cwiseAbs2();
-  return {floatingBox(size), mass, {q.y() + q.z(), q.z() + q.x(), q.x() + q.y()}};
+  return {floatingBox(size), mass, boxMoments(size, mass)};
 }
 
 Float ballAfloat(double radius, double mass) {
@@ -62,31 +60,11 @@ Float barrelOf(double radius, double length, int sides, double mass) {
 
 // Water below air.
 struct Pool {
-  explicit Pool(std::shared_ptr<const WaterSurface> surface =
-                    std::make_shared<StillWater>(0.0, Vector3(0, 0, 1))) {
-    scene.world.getDispatchInfo().m_deterministicOverlappingPairs = true;
-    scene.world.setGravity({0, 0, bt(-kPull)});
-    FluidRegion sea;
-    sea.below = water();
-    sea.above = air();
-    sea.surface = std::move(surface);
-    scene.fluid.addRegion(sea);
-  }
   btRigidBody& add(const Float& what, const Vector3& position,
                    const Quaternion& orientation = Quaternion::Identity(),
                    btCollisionShape* shape = nullptr) {
-    btRigidBody& body = addDry(what, position, orientation, shape);
-    AttachDef attach;
-    attach.fluid_body = std::make_shared<FluidBody>(what.shape);
-    scene.fluid.add(body, attach);
-    return body;
-  }
-  btRigidBody& addDry(const Float& what, const Vector3& position, const Quaternion& orientation,
-                      btCollisionShape* shape) {
-    BodyDef def{what.mass, what.moments, {}, shape};
-    def.start.position = position;
-    def.start.orientation = orientation;
-    return scene.add(def);
+    return scene.add({what.mass, what.moments, startAt(position, {}, orientation), shape},
+                     what.shape, Medium{});
   }
   // Steps until a body sleeps. Returns the time, `most` [s] at most.
   double timeUntilSleep(btRigidBody& body, double most, double hertz = 60) {
@@ -97,12 +75,8 @@ struct Pool {
     return most;
   }
 
-  FluidWorld scene;
+  SeaWorld scene;
 };
-
-double heightOf(const btRigidBody& body) {
-  return static_cast<double>(body.getWorldTransform().getOrigin().z());
-}
 
 double alongX(const btRigidBody& body) {
   return static_cast<double>(body.getWorldTransform().getOrigin().x());
@@ -133,8 +107,10 @@ TEST(FloatingRest, ABodyIsPushedInFloatAsInDouble) {
 }
 
 TEST(FloatingRest, NobodyIsHaltedByRounding) {
-  const auto halted = [](const std::shared_ptr<const WaterSurface>& surface, double scale) {
-    Pool pool(surface);
+  const auto halted = [](const std::shared_ptr<const WaterSurface>& waves, double scale) {
+    FluidRegion sea = seaUnderAir();
+    if (waves) sea.surface = waves;
+    Pool pool{SeaWorld(sea)};
     const double weight = scale * scale * scale;
     const double density[] = {20, 500, 900};
     for (int i = 0; i < 3; ++i) {
@@ -151,7 +127,7 @@ TEST(FloatingRest, NobodyIsHaltedByRounding) {
     return pool.scene.fluid.counters().halted;
   };
   for (const double scale : {0.02, 20.0}) {
-    EXPECT_EQ(halted(std::make_shared<StillWater>(0.0, Vector3(0, 0, 1)), scale), 0) << scale;
+    EXPECT_EQ(halted(nullptr, scale), 0) << scale;
     const std::vector<WaveComponent> waves{{0.05 * scale, 3 * std::sqrt(scale), {1, 0.3, 0}, 0}};
     EXPECT_EQ(halted(std::make_shared<AiryWaves>(CalmSea{}, waves), scale), 0) << scale;
   }

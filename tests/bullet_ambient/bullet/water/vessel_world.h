@@ -29,25 +29,14 @@ struct Start {
 };
 
 struct Sea {
-  explicit Sea(std::shared_ptr<const WaterSurface> surface =
-                   std::make_shared<StillWater>(0.0, Vector3(0, 0, 1))) {
-    scene.world.getDispatchInfo().m_deterministicOverlappingPairs = true;
-    scene.world.setGravity({0, 0, bt(-kGravity)});
-    FluidRegion sea;
-    sea.below = {1000, 1e-3, {0, 0, 0}, {0, 0, 0}};
-    sea.above = Medium{};
-    sea.surface = std::move(surface);
-    scene.fluid.addRegion(sea);
-  }
+  explicit Sea(std::shared_ptr<const WaterSurface> surface = nullptr)
+      : scene(seaUnderVacuum(std::move(surface))) {}
   btRigidBody& add(const OpenBarge& barge, const Start& start, const HoldSettings& holds = {}) {
     const Vector3 centre(0, 0, start.above_keel - 0.25);
-    BodyDef def{start.mass, start.mass / kBarge * kBargeMoments, {}, nullptr};
-    def.start.position = start.position + start.orientation * centre;
-    def.start.orientation = start.orientation;
-    def.start.twist = start.twist;
-    btRigidBody& body = scene.add(def);
-    AttachDef attach;
-    attach.fluid_body = std::make_shared<FluidBody>(openBarge(barge));
+    btRigidBody& body = scene.add(
+        {start.mass, start.mass / kBarge * kBargeMoments,
+         startAt(start.position + start.orientation * centre, start.twist, start.orientation)});
+    AttachDef attach{std::make_shared<FluidBody>(openBarge(barge))};
     attach.fluid_frame.translation = -centre;
     attach.holds = holds;
     scene.fluid.add(body, attach);
@@ -118,7 +107,7 @@ struct Sea {
     return energy;
   }
 
-  FluidWorld scene;
+  SeaWorld scene;
 };
 
 /// Height of the middle of the box [m].

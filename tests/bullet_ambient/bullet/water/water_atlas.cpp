@@ -181,7 +181,6 @@ constexpr std::size_t kExtremes = 4;
 
 int stepsOf(double time, double step) { return static_cast<int>(std::lround(time / step)); }
 
-double heightOf(const btRigidBody& body) { return readState(body).position.z(); }
 // Tilt of the axis that is upright at rest [rad].
 double tiltOf(const btRigidBody& body) {
   const Vector3 up = readState(body).orientation.conjugate() * Vector3::UnitZ();

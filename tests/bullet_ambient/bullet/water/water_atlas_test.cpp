@@ -200,22 +200,17 @@ constexpr double kDepth = 1.5;  // of the centre at the start [m]
 
 /// Returns the height to which a body of 0.115 times the density of water leaps [m].
 double leapOf(const FluidBody& shape, double hertz, bool is_on_rail = false) {
-  FluidWorld world;
-  world.world.setGravity({0, 0, bt(-9.81)});
-  world.fluid.addRegion(seaUnderAir());
+  SeaWorld world;
   BodyDef def;
   def.mass = 0.1146 * water().density * shape.volume;
   def.moments.setConstant(0.1 * def.mass);
   def.start.position.z() = -kDepth;
-  btRigidBody& body = world.add(def);
-  AttachDef attach;
-  attach.fluid_body = std::make_shared<FluidBody>(shape);
-  world.fluid.add(body, attach);
+  btRigidBody& body = world.add(def, shape, Medium{});
   if (is_on_rail) world.contents.take(railOf(body, {0, 0, -10}, {0, 0, 10}));
   double before = -kDepth, now = -kDepth;
   for (double time = 0; time < 3; time += 1 / hertz) {
     world.step(1 / hertz);
-    const double next = readState(body).position.z();
+    const double next = heightOf(body);
     // The apex of the parabola through three heights.
     if (next < now && now > 0)
       return now - (next - before) * (next - before) / (8 * (before - 2 * now + next));

@@ -120,9 +120,7 @@ btRigidBody& WaterRun::add(const WaterBodyDef& def) {
       bodies_.emplace_back(FloatingBody{makeWaterShape(def.shape, def.size), def.size, 0, nullptr});
   const double displaced = water().density * floating.shape.fluid_body->volume;
   floating.mass = def.specific_gravity * displaced;
-  BodyDef body;
-  body.mass = floating.mass;
-  body.moments = floating.mass * floating.shape.moments;
+  BodyDef body{floating.mass, floating.mass * floating.shape.moments};
   body.start = def.start;
   body.shape = floating.shape.collision.get();
   floating.body = &fluid_.add(body);
@@ -133,8 +131,7 @@ btRigidBody& WaterRun::add(const WaterBodyDef& def) {
 }
 
 void WaterRun::attach(const FloatingBody& floating, const WaterBodyDef& def) {
-  AttachDef attach;
-  attach.fluid_body = floating.shape.fluid_body;
+  AttachDef attach{floating.shape.fluid_body};
   attach.fluid_frame = floating.shape.fluid_frame;
   attach.flow.law = def.law;
   attach.flow.separation_angle = def.separation_angle;

@@ -19,38 +19,17 @@
 namespace ambient::test {
 namespace {
 
-Medium freshWater() { return {1000, 1e-3, {0, 0, 0}, {0, 0, 0}}; }
-
-/// Under a vacuum, in which closed forms hold.
 FluidRegion seaAt(double level) {
-  FluidRegion sea;
-  sea.below = freshWater();
-  sea.above = Medium{};
-  sea.surface = std::make_shared<StillWater>(level, Vector3(0, 0, 1));
-  return sea;
+  return seaUnderVacuum(std::make_shared<StillWater>(level, Vector3(0, 0, 1)));
 }
 
 /// A world with water, and boxes of one shape in it.
 struct WaterWorld {
-  explicit WaterWorld(const FluidRegion& water) {
-    scene.world.getDispatchInfo().m_deterministicOverlappingPairs = true;
-    scene.world.setGravity({0, 0, bt(-kGravity)});
-    scene.fluid.addRegion(water);
-    shape->name = "box";
-  }
+  explicit WaterWorld(const FluidRegion& water) : scene(water) { shape->name = "box"; }
   btRigidBody& addBox(double specific_gravity, const RigidState& start, const Medium& own = {}) {
-    BodyDef def;
-    def.mass = specific_gravity * 1000 * kBoxSize.prod();
-    const Vector3 q = kBoxSize.cwiseAbs2() * (def.mass / 12);
-    def.moments = Vector3(q.y() + q.z(), q.z() + q.x(), q.x() + q.y());
-    def.start = start;
-    def.shape = &box;
-    btRigidBody& body = scene.add(def);
-    AttachDef attach;
-    attach.fluid_body = shape;
-    attach.medium = own;
-    attach.flow.law = law;
-    scene.fluid.add(body, attach);
+    const double mass = specific_gravity * 1000 * kBoxSize.prod();
+    btRigidBody& body = scene.add({mass, boxMoments(kBoxSize, mass), start, &box});
+    scene.fluid.add(body, {shape, own});
     return body;
   }
   std::string bits() const { return motionBytes(scene.fluid); }
@@ -61,15 +40,10 @@ struct WaterWorld {
   btBoxShape box{btVector3(bt(0.4), bt(0.3), bt(0.2))};
   btBoxShape floor_shape{btVector3(9, 9, 1)};
   std::shared_ptr<FluidBody> shape = std::make_shared<FluidBody>(floatingBox(kBoxSize));
-  PressureLaw law = PressureLaw::kForm;  // boxes are flat
-  FluidWorld scene;
+  SeaWorld scene;
 };
 
-RigidState at(double z) {
-  RigidState state;
-  state.position = {0, 0, z};
-  return state;
-}
+RigidState at(double z) { return startAt({0, 0, z}); }
 
 RigidState tumbling(double z) {
   RigidState state = at(z);
@@ -78,17 +52,13 @@ RigidState tumbling(double z) {
   return state;
 }
 
-double heightOf(const btRigidBody& body) {
-  return static_cast<double>(body.getWorldTransform().getOrigin().z());
-}
-
 TEST(WaterWorld, DryAndDeepBodiesMoveBitForBitAsInOneFluid) {
   for (const double level : {-50.0, 50.0}) {
     FluidRegion sea = seaAt(level);
     sea.above = air();
     WaterWorld near(sea), alone(seaAt(0));
     alone.scene.fluid.removeRegion(static_cast<RegionId>(0));
-    const Medium own = level < 0 ? air() : freshWater();
+    const Medium own = level < 0 ? air() : seaAt(0).below;
     const btRigidBody& a = near.addBox(0.9, tumbling(0));
     const btRigidBody& b = alone.addBox(0.9, tumbling(0), own);
     for (int i = 0; i < 60; ++i) {
@@ -104,8 +74,7 @@ TEST(WaterWorld, DryAndDeepBodiesMoveBitForBitAsInOneFluid) {
 
 TEST(WaterWorld, ABodyRestsOnTheGroundOfShallowWater) {
   WaterWorld water(seaAt(0.15));
-  BodyDef floor{0, Vector3::Zero(), at(-1), &water.floor_shape};
-  water.scene.add(floor);
+  water.scene.add({0, Vector3::Zero(), at(-1), &water.floor_shape});
   const btRigidBody& body = water.addBox(0.8, at(0.3));
   water.scene.step(1.0 / 60, 600);
   EXPECT_NEAR(heightOf(body), 0.2, 0.02);
@@ -278,16 +247,13 @@ TEST(WaterWorld, NothingMovesABodyAlongLockedAxes) {
 // A body small against a wave moves like the water at the surface. For the height a cos(theta),
 // theta = k x - omega t, displacement along the wave is -a sin(theta).
 
-constexpr double kWaveGravity = 9.81;
-const Vector3 kBuoySize(0.8, 0.6, 0.4);
-
 /// A wave of slope 0.04; its length is a multiple of the box's.
 struct LongWave {
   double number, frequency, amplitude;  ///< [1/m], [rad/s], [m]
 
   explicit LongWave(double boxes)
-      : number(2 * kPi / (boxes * kBuoySize.x())),
-        frequency(std::sqrt(kWaveGravity * number)),
+      : number(2 * kPi / (boxes * kBoxSize.x())),
+        frequency(std::sqrt(kGravity * number)),
         amplitude(0.04 / number) {}
   double period() const { return 2 * kPi / frequency; }
 };
@@ -309,26 +275,13 @@ struct Track {
 /// A box of half the water's density, released at the crest with the water's velocity; its motion
 /// from the third to the twelfth period.
 Track boxInWave(const LongWave& wave, double time_step) {
-  FluidWorld scene;
-  scene.world.setGravity({0, 0, bt(-kWaveGravity)});
-  FluidRegion sea;
-  sea.below = {1000, 1e-3, {0, 0, 0}, {0, 0, 0}};
-  sea.above = Medium{};  // a vacuum
-  sea.surface = std::make_shared<AiryWaves>(
-      CalmSea{}, std::vector<WaveComponent>{{wave.amplitude, wave.period(), {1, 0, 0}, 0}});
-  scene.fluid.addRegion(sea);
-  BodyDef def;
-  def.mass = 500 * kBuoySize.prod();
-  const Vector3 q = kBuoySize.cwiseAbs2() * (def.mass / 12);
-  def.moments = Vector3(q.y() + q.z(), q.z() + q.x(), q.x() + q.y());
-  def.start.position = {0, 0, wave.amplitude};
-  def.start.twist.linear = {wave.amplitude * wave.frequency, 0, 0};
-  btRigidBody& body = scene.add(def);
-  AttachDef attach;
-  attach.fluid_body = std::make_shared<FluidBody>(floatingBox(kBuoySize));
-  attach.flow.law = PressureLaw::kForm;
-  scene.fluid.add(body, attach);
-
+  SeaWorld scene(seaUnderVacuum(std::make_shared<AiryWaves>(
+      CalmSea{}, std::vector<WaveComponent>{{wave.amplitude, wave.period(), {1, 0, 0}, 0}})));
+  const RigidState start =
+      startAt({0, 0, wave.amplitude}, {Vector3::Zero(), {wave.amplitude * wave.frequency, 0, 0}});
+  const double mass = 500 * kBoxSize.prod();
+  const btRigidBody& body = scene.add({mass, boxMoments(kBoxSize, mass), start, nullptr},
+                                      floatingBox(kBoxSize), Medium{});
   Track track{time_step, {}, {}};
   const auto steps = [&](double periods) {
     return static_cast<int>(std::lround(periods * wave.period() / time_step));

@@ -21,8 +21,7 @@ constexpr int kStepsBetween = 50;
 
 // Fluid body with half of the density at which the body floats.
 AttachDef inThinFluid() {
-  AttachDef def;
-  def.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid(Vector3(0.5, 0.4, 0.3), 1));
+  AttachDef def{std::make_shared<FluidBody>(meshedEllipsoid(Vector3(0.5, 0.4, 0.3), 1))};
   def.medium.density = 2;
   return def;
 }
@@ -127,9 +126,8 @@ TEST_P(StockMotion, OfBodiesBesideAnAmbientOneThatSlidesIsKeptBitForBit) {
 constexpr int kLimitSteps = 60;
 // Offset from the centre of mass couples the added mass.
 AttachDef inFluid(double density) {
-  AttachDef def;
-  def.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid(kUnequalAxes, 1));
-  def.medium = {density, 1.5e-5 * density, Vector3(0.5, 0, 0), Vector3::Zero()};
+  AttachDef def{std::make_shared<FluidBody>(meshedEllipsoid(kUnequalAxes, 1)),
+                {density, 1.5e-5 * density, Vector3(0.5, 0, 0), Vector3::Zero()}};
   def.fluid_frame.translation = Vector3(0.05, 0.03, -0.02);
   return def;
 }
@@ -145,9 +143,7 @@ struct Run {
     if (density > 0) scene.fluid.add(body, inFluid(density));
   }
   static BodyDef start() {
-    BodyDef def{1, Vector3(0.04, 0.05, 0.07), {}, nullptr};
-    def.start.twist = {Vector3(1, 2, 3), Vector3(2, 1, 3)};
-    return def;
+    return {1, Vector3(0.04, 0.05, 0.07), startWith({Vector3(1, 2, 3), Vector3(2, 1, 3)})};
   }
   Vector6 velocity() const {
     return stack(toVector3(body.getAngularVelocity()), toVector3(body.getLinearVelocity()));

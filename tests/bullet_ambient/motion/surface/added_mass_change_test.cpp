@@ -184,9 +184,7 @@ std::vector<Leaper> leapers() {
 }
 
 FloatingDef leaperDef(const Leaper& leaper, double specific_gravity, bool has_loads) {
-  FloatingDef def;
-  def.shape = leaper.shape;
-  def.specific_gravity = specific_gravity;
+  FloatingDef def{leaper.shape, specific_gravity};
   def.gyration = Vector3::Constant(0.3);
   def.has_loads = has_loads;
   return def;

@@ -18,8 +18,7 @@ constexpr double kBargeInner = 1.96 * 0.96, kCapacity = kBargeInner * 0.48;
 
 /// `above_keel`: of the centre of mass [m].
 inline FloatingDef bargeDef(double above_keel, const OpenBarge& barge = {}) {
-  FloatingDef def;
-  def.shape = openBarge(barge);
+  FloatingDef def{openBarge(barge)};
   def.specific_gravity = kBargeMass / (1000 * def.shape.volume);
   def.centre_of_mass = {0, 0, above_keel - kBargeHeight / 2};
   return def;

@@ -16,8 +16,7 @@ using test::FloatingDef;
 using test::FloatingRun;
 
 FloatingDef ballDef(double gravity, double radius = 0.5) {
-  FloatingDef def;
-  def.shape = test::floatingBall(radius);
+  FloatingDef def{test::floatingBall(radius)};
   def.gyration = Vector3::Constant(std::sqrt(0.4) * radius);
   def.gravity = gravity;
   return def;
@@ -74,8 +73,7 @@ TEST(SurfaceFlight, SpinningBallThatFloatsHasNoLift) {
 }
 
 TEST(SurfaceFlight, HorizontalMomentumAndVerticalSpinStay) {
-  FloatingDef def;
-  def.shape = test::floatingEllipsoid({0.5, 0.4, 0.3}, 2);
+  FloatingDef def{test::floatingEllipsoid({0.5, 0.4, 0.3}, 2)};
   FloatingRun body(def);
   body.state.position = {0, 0, 0.6};
   body.state.orientation = Quaternion(0.9, 0.3, -0.2, 0.1).normalized();
@@ -94,8 +92,7 @@ TEST(SurfaceFlight, EnergyNeverGrows) {
                                       test::floatingBox({1, 0.8, 0.5}, 1)};
   for (int i = 0; i < 60; ++i) {
     const double size = std::pow(10, arbitrary.between(-2, 1));
-    FloatingDef def;
-    def.shape = scaled(shapes[static_cast<std::size_t>(i) % 3], size);
+    FloatingDef def{scaled(shapes[static_cast<std::size_t>(i) % 3], size)};
     def.gyration *= size;
     def.specific_gravity = std::pow(10, arbitrary.between(-1.7, 1.3));
     def.has_loads = i % 2 == 0;
@@ -122,8 +119,7 @@ TEST(SurfaceFlight, EnergyNeverGrows) {
 /// Chip of 1.3 cm, 0.035 times as heavy as water. Within a step of 0.022 s it would reach a depth
 /// that needs more than all its energy.
 FloatingRun chipAt(double height) {
-  FloatingDef def;
-  def.shape = test::floatingEllipsoid({0.0065, 0.0013, 0.00065}, 1);
+  FloatingDef def{test::floatingEllipsoid({0.0065, 0.0013, 0.00065}, 1)};
   def.gyration = Vector3::Constant(0.005);
   def.specific_gravity = 0.035;
   FloatingRun body(def);
@@ -179,8 +175,7 @@ TEST(SurfaceFlight, TakesAllSubstepsBeforeItRests) {
   int resting = 0, halted = 0;
   for (int i = 0; i < 100; ++i) {
     const double size = std::pow(10, arbitrary.between(-2.5, -1));
-    FloatingDef def;
-    def.shape = scaled(shape, size);
+    FloatingDef def{scaled(shape, size)};
     def.gyration *= size;
     def.specific_gravity = std::pow(10, arbitrary.between(-2, -1));
     FloatingRun body(def);
@@ -199,8 +194,7 @@ TEST(SurfaceFlight, TakesAllSubstepsBeforeItRests) {
 }
 
 TEST(SurfaceFlight, BodyThatFloatsStaysWhereItIs) {
-  FloatingDef def;
-  def.shape = test::floatingBox({1, 0.8, 0.5});
+  FloatingDef def{test::floatingBox({1, 0.8, 0.5})};
   def.has_loads = true;
   FloatingRun box(def);
   box.run(2, 1 / 60.0);
@@ -209,8 +203,7 @@ TEST(SurfaceFlight, BodyThatFloatsStaysWhereItIs) {
 }
 
 TEST(SurfaceFlight, MovesWithAStreamOfWater) {
-  FloatingDef def;
-  def.shape = test::floatingEllipsoid({0.5, 0.4, 0.3}, 2);
+  FloatingDef def{test::floatingEllipsoid({0.5, 0.4, 0.3}, 2)};
   def.has_loads = true;
   FloatingRun still(def), carried(def);
   const Vector3 stream(0.7, -0.4, 0);
@@ -226,8 +219,7 @@ TEST(SurfaceFlight, MovesWithAStreamOfWater) {
 }
 
 TEST(SurfaceFlight, WindPushesWhatIsOutOfTheWater) {
-  FloatingDef def;
-  def.shape = test::floatingBox({1, 0.8, 0.5});
+  FloatingDef def{test::floatingBox({1, 0.8, 0.5})};
   def.has_loads = true;
   def.above = air();
   def.above.velocity = {10, 0, 0};
@@ -242,8 +234,7 @@ TEST(SurfaceFlight, WindPushesWhatIsOutOfTheWater) {
 }
 
 TEST(SurfaceModel, KnowsOnWhichSideOfTheSurfaceABodyIs) {
-  FloatingDef def;
-  def.shape = test::floatingBox({1, 0.8, 0.5});
+  FloatingDef def{test::floatingBox({1, 0.8, 0.5})};
   const FloatingRun box(def);
   const auto sideAt = [&](double height, double travel) {
     return sideOf(box.model(), {{0, 0, 1}, height, 0, 0}, travel);

@@ -64,10 +64,7 @@ struct Pendulum {
 
   RigidState start() const {
     const Quaternion turn(Eigen::AngleAxisd(amplitude, Eigen::Vector3d::UnitZ()));
-    RigidState state;
-    state.orientation = turn * hanging;
-    state.position = turn * Vector3(0, -kLength, 0);
-    return state;
+    return startAt(turn * Vector3(0, -kLength, 0), {}, turn * hanging);
   }
   Vector3 pivot() const { return hanging.conjugate() * Vector3(0, kLength, 0); }  ///< body axes
   Vector3 axis() const { return hanging.conjugate() * Vector3::UnitZ(); }
@@ -102,10 +99,8 @@ class SwingingWorld : TreeWorld {
     body_ = &contents.add(kMass, toBullet(kMoments), no_shape_,
                           btTransform(toBullet(start.orientation), toBullet(start.position)));
     body_->setActivationState(DISABLE_DEACTIVATION);
-    AttachDef def;
-    def.fluid_body = std::make_shared<FluidBody>(shapeWithoutFaces(pendulum.added_mass, 0));
-    def.medium = {1, 0, Vector3::Zero(), Vector3::Zero()};
-    fluid_.add(*body_, def);
+    fluid_.add(*body_, {std::make_shared<FluidBody>(shapeWithoutFaces(pendulum.added_mass, 0)),
+                        {1, 0, Vector3::Zero(), Vector3::Zero()}});
     hang(pendulum);
   }
 

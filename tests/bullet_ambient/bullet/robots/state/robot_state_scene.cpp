@@ -59,9 +59,7 @@ btMultiBody& RobotStateScene::addInFluid(const RobotDef& def) {
 }
 
 void RobotStateScene::addFlight() {
-  RobotDef def;
-  def.links = 5;
-  def.joints = Joints::kAll;
+  RobotDef def{5, Joints::kAll};
   addInFluid(def);
   add(def);
   def.has_fixed_base = true;
@@ -138,9 +136,8 @@ void RobotStateScene::addWater() {
 }
 
 void RobotStateScene::addSwimmer() {
-  AttachDef def;
-  def.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid(Vector3(0.15, 0.06, 0.05), 1));
-  def.medium = water();
+  AttachDef def{std::make_shared<FluidBody>(meshedEllipsoid(Vector3(0.15, 0.06, 0.05), 1)),
+                water()};
   RobotDef chain;
   btMultiBody& body = add(chain);
   for (int link = -1; link < chain.links; ++link) attach(body, link, def);

@@ -60,8 +60,7 @@ btRigidBody& addBody(const FallDef& def, double height, test::FluidWorld& scene)
   body.start.position = {0, 0, height};
   body.start.twist.linear = {0, 0, -def.speed};
   btRigidBody& added = scene.add(body);
-  AttachDef attach;
-  attach.fluid_body = def.shape;
+  AttachDef attach{def.shape};
   if (!def.has_loads) attach.flow.own_law = [](const auto&, const auto&) { return nullptr; };
   scene.fluid.add(added, attach);
   return added;
@@ -79,11 +78,7 @@ double momentumOf(const SurfaceModel& model, const RigidState& state) {
 std::vector<FallStep> fallIntoWater(const FallDef& def) {
   test::FluidWorld scene;
   scene.world.setGravity({0, 0, test::bt(-kLittleGravity)});
-  FluidRegion sea;
-  sea.below = {kDensity, 1e-3, {0, 0, 0}, {0, 0, 0}};
-  sea.above = Medium{};  // a vacuum
-  sea.surface = std::make_shared<StillWater>(0.0, Vector3::UnitZ());
-  scene.fluid.addRegion(sea);
+  scene.fluid.addRegion(test::seaUnderVacuum());
   const auto [low, high] = extentOf(*def.shape);
   const btRigidBody& body = addBody(def, -low, scene);
 
