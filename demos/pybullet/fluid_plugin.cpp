@@ -69,6 +69,9 @@ const std::map<std::string, FluidPlugin::Answer> FluidPlugin::kCommands = {
     {"remove", &FluidPlugin::removeRegion},
     {"settings", &FluidPlugin::setSettings},
     {"body", &FluidPlugin::chooseBody},
+    {"equip", &FluidPlugin::equip},
+    {"drive", &FluidPlugin::drive},
+    {"drives", &FluidPlugin::drives},
     {"exclude", &FluidPlugin::exclude},
     {"inertia", &FluidPlugin::inertia},
     {"mass_matrix", &FluidPlugin::massMatrix},
@@ -95,6 +98,8 @@ void FluidPlugin::meetWorld() {
 
 void FluidPlugin::forgetWorld() {
   fluid_.reset();
+  equipment_ = {};
+  equipment_states_.clear();
   refusal_.clear();
   has_news_ = true;
 }
@@ -104,11 +109,27 @@ void FluidPlugin::notice(const Notification* notifications, int count) {
     const Notification& notification = notifications[i];
     if (notification.type == kSimulationReset) forgetWorld();
     if (notification.type == kBodyAdded) has_news_ = true;
-    if (notification.type == kBodyRemoved && fluid_) fluid_->forget(notification.body);
+    if (notification.type != kBodyRemoved || !fluid_) continue;
+    fluid_->forget(notification.body);
+    equipment_.forget(notification.body, WorldFluid::kAllLinks);
   }
 }
 
 void FluidPlugin::beforeStep() {
+  refresh();
+  if (fluid_ && !equipment_.isEmpty()) pushByEquipment();
+}
+
+// Bullet has the length of the substep that begins from the one before.
+void FluidPlugin::pushByEquipment() {
+  equipment_.push(fluid_->timeStep(), *fluid_, [this](RegionId id) -> const FluidRegion* {
+    for (const auto& [name, region] : regions_)
+      if (region.id == id) return &region.region;
+    return nullptr;
+  });
+}
+
+void FluidPlugin::refresh() {
   if (regions_.empty() && !fluid_) return;
   meetWorld();
   if (!fluid_) return;
@@ -136,7 +157,7 @@ WorldFluid& FluidPlugin::requireFluid() {
 
 WorldFluid& FluidPlugin::requireCurrent() {
   requireFluid();
-  beforeStep();
+  refresh();
   return requireFluid();
 }
 
@@ -191,7 +212,9 @@ std::string FluidPlugin::setSettings(const Command& command) {
 }
 
 std::string FluidPlugin::exclude(const Command& command) {
-  requireFluid().exclude(command.body(), command.link(WorldFluid::kAllLinks));
+  const int link = command.link(WorldFluid::kAllLinks);
+  requireFluid().exclude(command.body(), link);
+  equipment_.forget(command.body(), link);
   return "";
 }
 
@@ -200,6 +223,18 @@ std::string FluidPlugin::chooseBody(const Command& command) {
   requireFluid().choose(command.body(), command.link(-1), chosen, shapes());
   return "";
 }
+
+std::string FluidPlugin::equip(const Command& command) {
+  equipment_.add(command, requireCurrent(), {shapes(), flow_});
+  return "";
+}
+
+std::string FluidPlugin::drive(const Command& command) {
+  equipment_.drive(command);
+  return "";
+}
+
+std::string FluidPlugin::drives(const Command&) { return equipment_.state().dump(); }
 
 std::string FluidPlugin::inertia(const Command& command) {
   return text(requireCurrent().require(command.body(), command.link(-1)).inertia());
@@ -235,10 +270,16 @@ std::string FluidPlugin::wet(const Command& command) {
   return answer.dump();
 }
 
-std::string FluidPlugin::save(const Command&) { return std::to_string(requireCurrent().save()); }
+std::string FluidPlugin::save(const Command&) {
+  const std::size_t state = requireCurrent().save();
+  equipment_states_.push_back(equipment_.saved());
+  return std::to_string(state);
+}
 
 std::string FluidPlugin::restore(const Command& command) {
-  requireCurrent().restore(command.values.at("state").get<std::size_t>());
+  const auto state = command.values.at("state").get<std::size_t>();
+  requireCurrent().restore(state);
+  equipment_.restore(equipment_states_[state]);
   return "";
 }
 

@@ -4,8 +4,10 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "demos/pybullet/command.h"
+#include "demos/pybullet/equipment.h"
 #include "demos/pybullet/pybullet_interface.h"
 #include "demos/pybullet/world_fluid.h"
 #include "preprocess/collision_shape/fluid_body_cache.h"
@@ -33,6 +35,9 @@ class FluidPlugin {
   std::string removeRegion(const Command& command);
   std::string setSettings(const Command& command);
   std::string chooseBody(const Command& command);
+  std::string equip(const Command& command);
+  std::string drive(const Command& command);
+  std::string drives(const Command& command);
   std::string exclude(const Command& command);
   std::string inertia(const Command& command);
   std::string massMatrix(const Command& command);
@@ -45,7 +50,9 @@ class FluidPlugin {
 
   // Makes the fluid of the present world, or sets refusal_. Does nothing if that was done before.
   void meetWorld();
+  void refresh();  // adds new bodies
   void forgetWorld();
+  void pushByEquipment();
   FluidBodyCache& shapes();
   // Throws if a body of the world cannot have these settings, with shapes from this folder.
   void checkOnBodies(const FlowSettings& flow, const std::string& folder);
@@ -64,7 +71,9 @@ class FluidPlugin {
   std::shared_ptr<FluidBodyCache> shapes_;  // must outlive fluid_
   std::set<std::string> printed_;           // sentences; must outlive fluid_
   std::unique_ptr<WorldFluid> fluid_;
-  std::string refusal_;   // reason why the present world has no fluid
+  Equipment equipment_;
+  std::vector<Equipment::State> equipment_states_;  // by the number of the saved state
+  std::string refusal_;                             // reason why the present world has no fluid
   bool has_news_ = true;  // true: bodies may have been added since they were last put in the fluid
   std::map<std::string, Region> regions_;
   FlowSettings flow_;

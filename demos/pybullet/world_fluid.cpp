@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "bullet_ambient/base/elementary.h"
+#include "bullet_ambient/bullet/core/conversions.h"
 #include "bullet_ambient/fluid_body.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "bullet_ambient/spatial/rotation.h"
@@ -167,6 +168,8 @@ WorldFluid::WorldFluid(btMultiBodyDynamicsWorld& world, std::set<std::string>& p
   fluid_.setReport([this](const std::string& sentence) { say(sentence); });
 }
 
+double WorldFluid::timeStep() const { return world_.getSolverInfo().m_timeStep; }
+
 void WorldFluid::say(const std::string& sentence) {
   if (printed_.insert(sentence).second) std::fprintf(stderr, "%s\n", sentence.c_str());
   if (said_.size() < kKeptSentences) said_.push_back(sentence);
@@ -276,7 +279,24 @@ WorldFluid::Found WorldFluid::find(int body, int link) const {
 }
 
 void WorldFluid::choose(int body, int link, const ChosenBody& chosen, FluidBodyCache& shapes) {
-  const Found found = find(body, link);
+  const auto before = chosen_.find({body, link});
+  if (before != chosen_.end() && before->second.first.flow.foils)
+    throw std::invalid_argument("body: it has foils; choose it before them");
+  attach(find(body, link), {body, link}, chosen, shapes);
+}
+
+void WorldFluid::giveFoils(int body, int link, std::shared_ptr<const Foils> foils,
+                           const Settings& settings) {
+  const auto before = chosen_.find({body, link});
+  ChosenBody chosen;
+  chosen.flow = settings.flow;
+  if (before != chosen_.end()) chosen = before->second.first;
+  chosen.flow.foils = std::move(foils);
+  attach(find(body, link), {body, link}, chosen, settings.shapes);
+}
+
+void WorldFluid::attach(const Found& found, const Key& key, ChosenBody chosen,
+                        FluidBodyCache& shapes) {
   std::shared_ptr<const FluidBody> made;
   if (chosen.file.empty()) {
     const btCollisionShape* shape = found.collider ? found.collider->getCollisionShape() : nullptr;
@@ -286,10 +306,72 @@ void WorldFluid::choose(int body, int link, const ChosenBody& chosen, FluidBodyC
   AttachDef def = definitionOf(chosen, std::move(made), found.mass);
   if (found.collider) def.name = nameOf(*found.collider);
   checkFlow(*def.fluid_body, def.flow);
-  exclude(body, link);  // from what is added by its collision shape
+  const FrameOffset frame = def.fluid_frame;
+  exclude(key.first, key.second);  // from what is added by its collision shape
   const Immersed member = found.rigid ? fluid_.add(*found.rigid, std::move(def))
-                                      : fluid_.add(*found.multi_body, link, std::move(def));
-  store({body, link}, member, shapes);
+                                      : fluid_.add(*found.multi_body, key.second, std::move(def));
+  store(key, member, shapes);
+  chosen_.insert_or_assign(key, std::pair(std::move(chosen), frame));
+}
+
+FrameOffset WorldFluid::frameOf(int body, int link) const {
+  const auto chosen = chosen_.find({body, link});
+  return chosen == chosen_.end() ? FrameOffset() : chosen->second.second;
+}
+
+MotionSample WorldFluid::motionInF(int body, int link) const {
+  const Found found = find(body, link);
+  btTransform pose;
+  Twist twist;
+  if (found.rigid) {
+    pose = found.rigid->getWorldTransform();
+    twist = {toVector3(found.rigid->getAngularVelocity()),
+             toVector3(found.rigid->getLinearVelocity())};
+  } else if (link < 0) {
+    pose = found.multi_body->getBaseWorldTransform();
+    twist = {toVector3(found.multi_body->getBaseOmega()),
+             toVector3(found.multi_body->getBaseVel())};
+  } else {
+    pose = found.multi_body->getLink(link).m_cachedWorldTransform;
+    std::vector<btVector3> angular(static_cast<std::size_t>(found.multi_body->getNumLinks()) + 1),
+        linear(angular.size());
+    found.multi_body->compTreeLinkVelocities(angular.data(), linear.data());  // in link frames
+    const auto index = static_cast<std::size_t>(link) + 1;
+    twist = {toVector3(pose.getBasis() * angular[index]),
+             toVector3(pose.getBasis() * linear[index])};
+  }
+  MotionSample sample;
+  sample.position = toVector3(pose.getOrigin());
+  sample.orientation = toQuaternion(pose.getRotation()) * Quaternion(frameOf(body, link).rotation);
+  sample.twist = twist;
+  return sample;
+}
+
+void WorldFluid::push(int body, int link, const Wrench& wrench, Push& last) const {
+  const Found found = find(body, link);
+  btMultiBody* const tree = found.multi_body;
+  const auto force = [&] {
+    if (found.rigid) return found.rigid->getTotalForce();
+    return link < 0 ? tree->getBaseForce() : tree->getLinkForce(link);
+  };
+  const auto torque = [&] {
+    if (found.rigid) return found.rigid->getTotalTorque();
+    return link < 0 ? tree->getBaseTorque() : tree->getLinkTorque(link);
+  };
+  Wrench change = wrench;
+  if (force() == last.force && torque() == last.torque) change -= last.wrench;
+  const btVector3 f = toBullet(change.force), t = toBullet(change.torque);
+  if (found.rigid) {
+    found.rigid->applyCentralForce(f);
+    found.rigid->applyTorque(t);
+  } else if (link < 0) {
+    tree->addBaseForce(f);
+    tree->addBaseTorque(t);
+  } else {
+    tree->addLinkForce(link, f);
+    tree->addLinkTorque(link, t);
+  }
+  last = {wrench, force(), torque()};
 }
 
 void WorldFluid::check(const FlowSettings& flow, FluidBodyCache& shapes) const {
@@ -326,6 +408,7 @@ void WorldFluid::exclude(int body, int link) {
        it != members_.end() && it->first.first == body;) {
     const bool is_meant = link == kAllLinks || it->first.second == link;
     if (is_meant) it->second.remove();
+    if (is_meant) chosen_.erase(it->first);
     it = is_meant ? members_.erase(it) : std::next(it);
   }
 }

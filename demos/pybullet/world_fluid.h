@@ -1,5 +1,7 @@
 #pragma once
 
+#include <LinearMath/btVector3.h>
+
 #include <functional>
 #include <map>
 #include <memory>
@@ -12,6 +14,7 @@
 #include "bullet_ambient/ambient.h"
 #include "bullet_ambient/immersed/attach_def.h"
 #include "bullet_ambient/saved_state.h"
+#include "demos/analysis/motion_sample.h"
 #include "demos/pybullet/command.h"
 #include "demos/pybullet/pybullet_interface.h"
 #include "demos/pybullet/world_end.h"
@@ -68,6 +71,8 @@ class WorldFluid {
              std::function<void()> at_end);
 
   Fluid& fluid() { return fluid_; }
+  /// Length of the last substep [s]; before the first, Bullet's default.
+  double timeStep() const;
   /// True once bodies have met the settings.
   bool hasBodies() const { return was_added_ || fluid_.size() > 0; }
   /// Call before each substep. Puts the fluid's solver into the place of the world's present one.
@@ -80,8 +85,24 @@ class WorldFluid {
   /// Removes a body that PyBullet has destroyed. Its number may be given to a new body.
   void forget(int body);
   /// Gives a body or link a fluid body that the user has chosen, in place of the one that it has.
-  /// @throws std::exception, in one line, if there is no such body or link, or it cannot have it
+  /// @throws std::exception, in one line, if there is no such body or link, if it cannot have it,
+  /// or if it has foils
   void choose(int body, int link, const ChosenBody& chosen, FluidBodyCache& shapes);
+  /// Gives a body or link in the fluid these foils, in place of those that it has, and adds it
+  /// anew. @throws std::exception in one line
+  void giveFoils(int body, int link, std::shared_ptr<const Foils> foils, const Settings& settings);
+  /// Returns the pose of the fluid body's frame F in that of a body or link.
+  FrameOffset frameOf(int body, int link) const;
+  /// Returns the motion of a body or link: its centre of mass, axes of F.
+  MotionSample motionInF(int body, int link) const;
+  /// Total force and torque on a body or link after a push.
+  struct Push {
+    Wrench wrench;
+    btVector3 force{0, 0, 0}, torque{0, 0, 0};
+  };
+  /// Pushes a body or link about its centre of mass, world axes. `last`: its push of the substep
+  /// before, which is taken back where Bullet has kept the forces.
+  void push(int body, int link, const Wrench& wrench, Push& last) const;
   /// Removes a body or link from the fluid, and never adds it again.
   void exclude(int body, int link);
   /// Returns the handle of a body or link; link -1: the base, or a rigid body. @throws
@@ -119,6 +140,7 @@ class WorldFluid {
   Found find(int body, int link) const;
   void checkLayouts() const;
   void sayHulls();
+  void attach(const Found& found, const Key& key, ChosenBody chosen, FluidBodyCache& shapes);
   void addAll(const Settings& settings);
   void storeHandles(const FluidBodyCache& shapes);
   void store(const Key& key, const Immersed& member, const FluidBodyCache& shapes);
@@ -133,6 +155,8 @@ class WorldFluid {
   bool was_added_ = false;  // true after addAll(): the fluid adds later bodies with its settings
   std::set<Key> excluded_;
   std::map<Key, Immersed> members_;
+  /// Of members that were attached one by one, with their foils and where F is.
+  std::map<Key, std::pair<ChosenBody, FrameOffset>> chosen_;
   // Links and bodies that passed the filters since the last storeHandles(), which looks them up.
   std::vector<std::pair<Key, const btMultiBody*>> new_links_;
   std::vector<std::pair<Key, const btRigidBody*>> new_bodies_;

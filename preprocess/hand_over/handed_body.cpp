@@ -234,30 +234,6 @@ Matrix6 inBodyAxes(const Matrix6& matrix_F, const Matrix3& axes) {
   return linearFirst(rotateAxes(matrix_F, axes.transpose()));
 }
 
-// Loads of the fluid in a steady motion, and minus their derivative by its velocities. In F,
-// rotation first.
-struct LinearDrag {
-  Vector6 load;
-  Matrix6 damping;
-};
-
-LinearDrag linearDrag(const HandedBody& body) {
-  constexpr double kStep = 1e-4;  // of the speed
-  const double speed = *body.settings.speed, size = std::sqrt(body.shape->area);
-  const BodyLoads loads(body.shape, body.settings.medium, {});
-  Vector6 motion = stack(Vector3::Zero(), speed * body.settings.forward);
-  LinearDrag drag{loads.at(Twist::fromVector(motion)).total().vector(), Matrix6::Zero()};
-  for (int k = 0; k < 6; ++k) {
-    const double step = kStep * (k < 3 ? speed / size : speed);
-    const auto loadAt = [&](double change) {
-      const Vector6 moved = motion + change * Vector6::Unit(k);
-      return loads.at(Twist::fromVector(moved)).total().vector();
-    };
-    drag.damping.col(k) = (loadAt(-step) - loadAt(step)) / (2 * step);
-  }
-  return drag;
-}
-
 /// Entries "key": value of one JSON object. Keys and texts have no letters to be escaped.
 class JsonObject {
  public:
@@ -295,17 +271,18 @@ void addHydrostatics(JsonObject& json, const HandedBody& body, const Matrix3& ax
 }
 
 void addDrag(JsonObject& json, const HandedBody& body, const Matrix3& axes) {
-  const LinearDrag drag = linearDrag(body);
   const double speed = *body.settings.speed;
+  const BodyLoads loads(body.shape, body.settings.medium, {});
+  const Twist motion{Vector3::Zero(), speed * body.settings.forward};
+  const Wrench load = loads.at(motion).total();
+  const Matrix6 damping = loads.dampingAt(motion);
   // Loads of a sphere are 0 beyond that.
   const bool has_pressure = std::isfinite(body.settings.medium.density * speed * speed);
-  if (!has_pressure || !drag.load.allFinite() || !drag.damping.allFinite())
+  if (!has_pressure || !load.vector().allFinite() || !damping.allFinite())
     reject(*body.shape, "speed [m/s]", speed, "small enough for a finite drag");
-  Vector6 load;
-  load << axes.transpose() * drag.load.tail<3>(), axes.transpose() * drag.load.head<3>();
   json.number("speed", speed);
-  json.matrix("D", inBodyAxes(drag.damping, axes));
-  json.row("tau", load);
+  json.matrix("D", inBodyAxes(damping, axes));
+  json.row("tau", stack(axes.transpose() * load.force, axes.transpose() * load.torque));
 }
 
 }  // namespace

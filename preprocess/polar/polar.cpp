@@ -189,4 +189,18 @@ FaceLoads BodyLoads::at(const Twist& x) const {
   return {{unknown, unknown}, {unknown, unknown}};
 }
 
+Matrix6 BodyLoads::dampingAt(const Twist& x) const {
+  constexpr double kStep = 1e-4;
+  const double speed = x.linear.norm(), size = std::sqrt(kPi) * diameter_;  // root of the area
+  Matrix6 damping;
+  for (int k = 0; k < 6; ++k) {
+    const double step = kStep * (k < 3 ? speed / size : speed);
+    const auto loadAt = [&](double change) {
+      return at(Twist::fromVector(x.vector() + change * Vector6::Unit(k))).total().vector();
+    };
+    damping.col(k) = (loadAt(-step) - loadAt(step)) / (2 * step);
+  }
+  return damping;
+}
+
 }  // namespace ambient

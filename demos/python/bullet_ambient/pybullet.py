@@ -159,6 +159,41 @@ class Fluid:
             source.write(file)
             self._give("body", body=body, link=link, file=str(file), **more)
 
+    def equip(self, body: int, link: int = -1, *, foils: Iterable[Mapping[str, Any]] = (),
+              thrusters: Iterable[Mapping[str, Any]] = ()) -> None:
+        """Puts foils (rudders, fins, hydrofoils) and thrusters (screws, rotors, jets) on a body or link that is in a fluid.
+
+        Each is a mapping with the keys that `foils` and `thrusters` have in scenes, but for "on"; places and axes are in the
+        frame of the URDF's link. Call it after body(), and as often as you like: what came before stays.
+        """
+        inertial = self._bullet.getDynamicsInfo(body, link, physicsClientId=self._client)[3:5]
+        place, turn = self._bullet.invertTransform(*inertial)
+        on = str(body) if link < 0 else f"{body}/{link}"
+
+        def placed(entry: Mapping[str, Any], axes: Mapping[str, _Vector]) -> dict[str, Any]:
+            moved = dict(entry, on=on)
+            unturned = (0, 0, 0, 1)
+            moved["position"] = self._bullet.multiplyTransforms(place, turn, entry.get("position", (0, 0, 0)), unturned)[0]
+            for key, usual in axes.items():
+                moved[key] = self._bullet.multiplyTransforms((0, 0, 0), turn, entry.get(key, usual), unturned)[0]
+            return moved
+
+        self._give("equip", foils=[placed(foil, {"chord_axis": (1, 0, 0), "span_axis": (0, 1, 0)}) for foil in foils],
+                   thrusters=[placed(thruster, {"axis": (1, 0, 0)}) for thruster in thrusters])
+
+    def drive(self, **commands: float) -> None:
+        """Sets what foils and thrusters are asked for, by their names, until the next call: `fluid.drive(rudder=0.3)`."""
+        self._give("drive", **commands)
+
+    def drives(self) -> dict[str, dict[str, dict[str, float]]]:
+        """Returns what foils and thrusters do, as {"foils": {name: ...}, "thrusters": {name: ...}}.
+
+        Of a foil "command" and "angle" [rad]; of a thruster "command", "drive" (thrust [N], or turns [1/s]), and "thrust" [N],
+        "torque" [N m] and "power" [W] of the last substep.
+        """
+        answer: dict[str, dict[str, dict[str, float]]] = json.loads(self._give("drives"))
+        return answer
+
     def read_urdf(self, body: int, file: Union[str, Path]) -> None:
         """Honours the `<ambient>` elements of the URDF file that a body came from; PyBullet itself passes over them.
 

@@ -8,17 +8,22 @@
 #include <string>
 #include <vector>
 
+#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/base/plain_text.h"
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "bullet_ambient/fluid_body/fluid_body.h"
 #include "bullet_ambient/force/medium/medium.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/base/fluid_body_writer.h"
 #include "preprocess/builder/parse_exit.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/fluid_body_report.h"
 #include "preprocess/command_line/option_values.h"
 #include "preprocess/floating/floating_body.h"
+#include "preprocess/hand_over/glide.h"
+#include "preprocess/hand_over/handed_body.h"
 #include "preprocess/mesh/holds/vessel.h"
+#include "preprocess/polar/polar.h"
 #include "preprocess/potential_flow.h"
 #include "preprocess/resistance/prepare.h"
 #include "preprocess/resistance/separation.h"
@@ -82,9 +87,18 @@ struct InspectArguments {
   std::vector<double> inertia;         // xx yy zz xy xz yz [kg m^2]; empty: likewise
   std::vector<double> water;           // in its holds [m^3]
   double density = 998;                // [kg/m^3]
+  double viscosity = 0;                // [Pa s]
   double gravity = 9.81;               // [m/s^2]
-  bool json = false;
+  std::string forward = "x", up = "z";
+  bool fly = false, json = false;
 };
+
+Matrix3 inertiaOf(const InspectArguments& arguments) {
+  const std::vector<double>& v = arguments.inertia;
+  Matrix3 inertia;
+  inertia << v[0], v[3], v[4], v[3], v[1], v[5], v[4], v[5], v[2];
+  return inertia;
+}
 
 /// Returns the body with mass and water of the arguments. Inertia that is not given is that of a
 /// mass spread evenly over the volume, even if its centre is given.
@@ -96,8 +110,7 @@ FloatingBody onWater(const FluidBody& body, const InspectArguments& arguments) {
   if (!arguments.centre_of_mass.empty())
     floating.centre_of_mass = Eigen::Map<const Eigen::Vector3d>(arguments.centre_of_mass.data());
   floating.inertia = floating.mass * body.uniform_mass.inertia;
-  if (const std::vector<double>& v = arguments.inertia; !v.empty())
-    floating.inertia << v[0], v[3], v[4], v[3], v[1], v[5], v[4], v[5], v[2];
+  if (!arguments.inertia.empty()) floating.inertia = inertiaOf(arguments);
   floating.density = arguments.density;
   floating.gravity = arguments.gravity;
   setWater(floating, arguments.water);
@@ -134,16 +147,108 @@ void addLayerPlaces(const FluidBody& body, ordered_json& axes) {
   }
 }
 
+/// Returns the body with mass and fluid of the arguments. @throws UsageError for numbers that are
+/// not physical
+HandedBody inFlight(const FluidBody& body, const InspectArguments& arguments) {
+  ExportSettings settings;
+  settings.medium = {arguments.density, arguments.viscosity, Vector3::Zero(), Vector3::Zero()};
+  settings.gravity = arguments.gravity;
+  settings.mass = arguments.mass;
+  if (!arguments.centre_of_mass.empty())
+    settings.centre_of_mass =
+        Vector3(Eigen::Map<const Eigen::Vector3d>(arguments.centre_of_mass.data()));
+  const Matrix3 axes = flightAxesOf(arguments.forward, arguments.up);
+  settings.forward = axes.col(0);
+  settings.up = axes.col(2);
+  HandedBody handed = handedBody(std::make_shared<const FluidBody>(body), settings);
+  if (!arguments.inertia.empty()) handed.inertia = inertiaOf(arguments);
+  const double least = symmetricEigen<3>(handed.inertia).values[0];
+  if (!(least > 0)) raiseUsageError("--inertia", "smallest moment ", least, " must be above 0");
+  return handed;
+}
+
+ordered_json glideJson(const Glide& glide) {
+  constexpr double kRadian = 180 / kPi;
+  return {{"speed", glide.speed},
+          {"incidence", kRadian * glide.incidence},
+          {"glide_angle", kRadian * glide.angle},
+          {"glide_ratio", glide.ratio}};
+}
+
+ordered_json swingJson(const Swing& swing) {
+  return {{"frequency", swing.frequency}, {"damping", swing.damping}, {"period", swing.period}};
+}
+
+/// `names`: of the swings, the quickest first.
+ordered_json modesJson(const GlideModes& modes, std::vector<const char*> names) {
+  ordered_json json;
+  for (std::size_t i = 0; i < modes.swings.size(); ++i) json[names[i]] = swingJson(modes.swings[i]);
+  if (!modes.rates.empty()) json["rates"] = modes.rates;
+  return json;
+}
+
+/// One swing alone is the slow one if a motion that does not swing is quicker.
+ordered_json pitchingJson(const GlideModes& modes) {
+  const bool is_alone = modes.swings.size() == 1;
+  if (is_alone && -modes.rates[0] > modes.swings[0].frequency) return modesJson(modes, {"phugoid"});
+  return modesJson(modes, {"short_period", "phugoid"});
+}
+
+/// Chord of the largest wing, or the length along forward [m].
+double chordOf(const HandedBody& body) {
+  const std::vector<Wing>& wings = body.shape->wings;
+  const auto isSmaller = [](const Wing& a, const Wing& b) {
+    return a.span * a.chord < b.span * b.chord;
+  };
+  if (!wings.empty()) return std::max_element(wings.begin(), wings.end(), isSmaller)->chord;
+  return usualReference(*body.shape, body.axes()).length;
+}
+
+ordered_json stabilityJson(const HandedBody& body, const GlideStability& stability) {
+  ordered_json json{{"neutral_point", vectorJson(stability.neutral_point)},
+                    {"static_margin", stability.static_margin},
+                    {"margin_over_chord", stability.static_margin / chordOf(body)}};
+  json["pitching"] = pitchingJson(stability.pitching);
+  json["sideways"] = modesJson(stability.sideways, {"dutch_roll", "slow_roll"});
+  return json;
+}
+
+/// Says on standard error if there is no trim.
+ordered_json flyingFacts(const HandedBody& body) {
+  const GlidePlan plan = planGlide(body);
+  ordered_json json;
+  if (plan.trim)
+    json = {{"trim", glideJson(*plan.trim)}, {"stability", stabilityJson(body, plan.stability)}};
+  else
+    std::cerr << "it has no trim: at no upright incidence from -" << plan.kWidest << " to "
+              << plan.kWidest << " degrees it is in balance; its nose goes "
+              << (plan.goes_nose_up ? "up: move its mass ahead\n" : "down: move its mass back\n");
+  if (plan.best) json["best_glide"] = glideJson(*plan.best);
+  return json;
+}
+
 void runInspect(const InspectArguments& arguments) {
   const FluidBody body = readPrepared(arguments.file);
   ordered_json facts = bodyFacts(body);
   if (facts.contains("viscous_flow")) addLayerPlaces(body, facts["viscous_flow"]["separation"]);
-  if (arguments.mass) {
+  if (arguments.fly) {
+    facts["flying"] = flyingFacts(inFlight(body, arguments));
+  } else if (arguments.mass) {
     const FloatingBody floating = onWater(body, arguments);
     facts["floating"] = floatingFacts(floating, arguments.json);
     if (!arguments.json) warnOfMass(floating, facts["floating"]);
   }
   std::cout << factsText(facts, arguments.json);
+}
+
+/// Fills in what --fly takes for granted. @throws UsageError for options that are missing
+void useAir(const CLI::App& command, InspectArguments& arguments) {
+  if (!arguments.mass) raiseUsageError("--fly", "needs --mass");
+  if (command.count("--density") != command.count("--viscosity"))
+    raiseUsageError("--fly", "needs both --density and --viscosity of a fluid, or none: air");
+  if (command.count("--density") > 0) return;
+  arguments.density = air().density;
+  arguments.viscosity = air().viscosity;
 }
 
 }  // namespace
@@ -162,12 +267,23 @@ void addInspect(CLI::App& app) {
   addOption(command, "--water", arguments->water, "V,V,...",
             "With --mass: water in its holds, in their order [m^3]; default: none")
       ->delimiter(',');
-  command.add_option("--density", arguments->density, "With --mass: of the water [kg/m^3]")
-      ->capture_default_str();
+  command.add_option("--density", arguments->density,
+                     "With --mass: of the water, or with --fly of the fluid [kg/m^3] (default 998; "
+                     "1.204 with --fly)");
   command.add_option("--gravity", arguments->gravity, "With --mass: [m/s^2]")
       ->capture_default_str();
+  command.add_flag("--fly", arguments->fly, "With --mass: shows how it glides, in place of floats");
+  addOption(command, "--viscosity", arguments->viscosity, "MU",
+            "With --fly: of the fluid [Pa s] (default: of air, 1.82e-5)");
+  addOption(command, "--forward", arguments->forward, "AXIS",
+            "With --fly: the body's forward axis (default x)");
+  addOption(command, "--up", arguments->up, "AXIS",
+            "With --fly: the body's upward axis (default z)");
   addJson(command, arguments->json);
-  command.callback([arguments] { runInspect(*arguments); });
+  command.callback([arguments, &command] {
+    if (arguments->fly) useAir(command, *arguments);
+    runInspect(*arguments);
+  });
 }
 
 namespace {

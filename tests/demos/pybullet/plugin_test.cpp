@@ -316,6 +316,66 @@ TEST_F(PyBulletPlugin, TakesTextsLongerThanPyBulletDoes) {
   EXPECT_TRUE(server.floats());
 }
 
+TEST_F(PyBulletPlugin, PushesBodiesByThrustersAsMuchInStepsOfSubsteps) {
+  server.command(R"({"region": {"density": 1000, "viscosity": 0}})");
+  server.world().setGravity({0, 0, 0});
+  const int cube = server.add(0.5, 1000);
+  const std::string screw = R"({"equip": {"thrusters": [{"name": "screw", "on": ")" +
+                            std::to_string(cube) + R"(", "curve": [[-1, -40], [1, 40]]}]}})";
+  ASSERT_EQ(server.command(screw), "0 ");
+  ASSERT_EQ(server.command(R"({"drive": {"screw": 0.5}})"), "0 ");
+  const double mass = massAlongX(cube);
+  EXPECT_GT(mass, 1500);
+  double speed = 0;
+  // Drag of 1/2 rho A v^2 is 1e-9 of the thrust.
+  for (const int substeps : {1, 4}) {
+    server.world().stepSimulation(0.01, substeps, 0.01 / substeps);
+    speed += 20 * 0.01 / mass;
+    EXPECT_NEAR(server.body(cube).getBaseVel().x(), speed, 1e-6 * speed) << substeps;
+  }
+  EXPECT_NEAR(number(R"({"drives": {}})", "thrust"), 20, 1e-12);
+  EXPECT_EQ(server.command(of(cube, "exclude")), "0 ");
+  EXPECT_EQ(server.command(R"({"drives": {}})"), "0 {\"thrusters\":{},\"foils\":{}}");
+}
+
+TEST_F(PyBulletPlugin, TurnsFoilsAndKeepsTheirAnglesInSavedStates) {
+  server.command(R"({"region": {"density": 1000, "viscosity": 0}})");
+  server.world().setGravity({0, 0, 0});
+  const int cube = server.add(0.5, 1000);
+  const auto foil = [&](const std::string& name, const std::string& more) {
+    return server.command(R"({"equip": {"foils": [{"name": ")" + name + R"(", "on": ")" +
+                          std::to_string(cube) + R"(", "span": 2, "chord": 0.2, )" + more +
+                          "}]}})");
+  };
+  const std::string turns = R"("curve": [[-1, 0.5], [1, -0.5]], "lag": 0.05)";
+  ASSERT_EQ(foil("rudder", R"("span_axis": [0, 0, 1], "position": [-1, 0, 0], )" + turns), "0 ");
+  EXPECT_EQ(foil("plane", R"("aspect": 5)"), "0 ") << "beside the first";
+  server.command(R"({"drive": {"rudder": 1}})");
+  server.step(48);
+  const double angle = number(R"({"drives": {}})", "angle");
+  EXPECT_NEAR(angle, -0.5, 0.02) << "after four times its lag";
+  EXPECT_EQ(server.command(R"({"save": {}})"), "0 0");
+  server.command(R"({"drive": {"rudder": -1}})");
+  server.step(48);
+  EXPECT_GT(number(R"({"drives": {}})", "angle"), 0.4);
+  server.command(restoring(0));
+  EXPECT_EQ(number(R"({"drives": {}})", "angle"), angle);
+  // Nose to the left where the rudder's leading edge is turned to the right: it moves ahead.
+  server.body(cube).setBaseVel({2, 0, 0});
+  server.command(R"({"drive": {"rudder": 1}})");
+  server.step(10);
+  EXPECT_LT(server.body(cube).getBaseOmega().z(), -1e-3);
+  expectRefusal(of(cube, "body", R"(, "density": 500)"), "body: it has foils; choose it before");
+  expectRefusal(R"({"drive": {"ruder": 1}})", "drive: there is no foil or thruster \"ruder\"");
+  expectRefusal(R"({"equip": {"foils": [{"on": "77", "span": 1, "chord": 1}]}})",
+                "body 77, link -1 is not in the fluid");
+  expectRefusal(R"({"equip": {"foils": [{"on": "boat", "span": 1, "chord": 1}]}})",
+                "equip: on is \"boat\"; must be numbers of a body, or of body/link");
+  server.remove(cube);
+  server.step(1);
+  EXPECT_EQ(server.command(R"({"drives": {}})"), "0 {\"thrusters\":{},\"foils\":{}}");
+}
+
 TEST_F(PyBulletPlugin, RefusesInOneLineWhatItDoesNotUnderstand) {
   expectRefusal(R"({"nonsense": {}})",
                 "unknown key \"nonsense\" in the command, which has air, body");

@@ -2,6 +2,7 @@
 """The plugin in a real PyBullet; skipped where none imports."""
 
 import importlib.util
+import json
 import math
 import subprocess
 import sys
@@ -461,6 +462,29 @@ class LifeTest(Case):
         self.assertAlmostEqual(self.fluid.status()["bodies"][0]["volume"], 0.05, delta=1e-6)
         with self.assertRaisesRegex(ValueError, "no such file"):
             self.fluid.body(body, -1, "nothing.ambient")
+
+    def test_a_rudder_in_the_wash_of_a_screw_turns_a_boat(self):
+        """That of data/scenes/rudder_and_screw.json, of which docs/wings.md has the numbers."""
+        self.fluid.water(level=0)
+        self.gravity()
+        shape = p.createCollisionShape(p.GEOM_BOX, halfExtents=[2, 0.6, 0.4], physicsClientId=self.client)
+        boat = p.createMultiBody(1600, shape, basePosition=[0, 0, -0.134], baseInertialFramePosition=[0, 0, -0.2], physicsClientId=self.client)
+        p.changeDynamics(boat, -1, linearDamping=0, angularDamping=0, physicsClientId=self.client)
+        scene = json.loads((Path(__file__).parents[3] / "data/scenes/rudder_and_screw.json").read_text())
+        without_on = [[{key: value for key, value in entry.items() if key != "on"} for entry in scene[kind]] for kind in ("foils", "thrusters")]
+        self.fluid.equip(boat, foils=without_on[0])
+        self.fluid.equip(boat, thrusters=without_on[1])
+        self.fluid.drive(rudder=0)
+        self.fluid.drive(rudder=-0.8)
+        self.steps(240 * 6)
+        place, turn = p.getBasePositionAndOrientation(boat, physicsClientId=self.client)
+        self.assertAlmostEqual(abs(p.getEulerFromQuaternion(turn)[2]), 1.02, delta=0.02)
+        self.assertGreater(place[0], 0.5)
+        drives = self.fluid.drives()
+        self.assertAlmostEqual(drives["foils"]["rudder"]["angle"], 0.48, delta=1e-4)
+        self.assertAlmostEqual(drives["thrusters"]["screw"]["drive"], 10, delta=1e-4)
+        with self.assertRaisesRegex(ValueError, "there is no foil or thruster"):
+            self.fluid.drive(sail=1)
 
     def test_elements_of_links_say_how_rough_they_are(self):
         self.fluid.water(level=0, density=1000)

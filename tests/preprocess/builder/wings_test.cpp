@@ -16,6 +16,7 @@
 #include "preprocess/builder/wing_plan.h"
 #include "preprocess/mesh/shapes/primitives.h"
 #include "preprocess/mesh/wings/wing_search.h"
+#include "tests/support/bodies/named_parts.h"
 #include "tests/support/bodies/random_bodies.h"
 #include "tests/support/refusal_of.h"
 #include "tests/support/temporary_folder.h"
@@ -25,24 +26,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A part of an OBJ file.
-struct Named {
-  std::string name;
-  TriangleMesh mesh;
-};
-
-TriangleMesh placed(TriangleMesh mesh, const Matrix3& rotation, const Vector3d& place) {
-  mesh.vertices = (rotation * mesh.vertices).colwise() + place;
-  return mesh;
-}
-
-TriangleMesh box(const Vector3d& low, const Vector3d& high) {
-  return placed(makeBoxMesh((high - low) / 2, 12), Matrix3::Identity(), (low + high) / 2);
-}
-
-Matrix3 turnAbout(const Vector3d& axis, double angle) {
-  return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
-}
+using test::box;
+using test::built;
+using test::Named;
+using test::placed;
+using test::turnAbout;
 
 /// Expects that an action is refused with these words.
 template <class Action>
@@ -63,38 +51,6 @@ std::vector<Named> rocket() {
     parts.push_back({"Fin_" + std::to_string(k),
                      placed(fin, turnAbout(Vector3d::UnitX(), (k + 0.5) * kPi / 2), {0, 0, 0})});
   return parts;
-}
-
-std::string objOf(const std::vector<Named>& parts) {
-  std::ostringstream text;
-  text.precision(9);
-  Eigen::Index first = 1;
-  for (const Named& part : parts) {
-    text << "o " << part.name << "\n";
-    for (Eigen::Index v = 0; v < part.mesh.vertexCount(); ++v)
-      text << "v " << part.mesh.vertices.col(v).transpose() << "\n";
-    for (Eigen::Index t = 0; t < part.mesh.triangleCount(); ++t)
-      text << "f " << (part.mesh.triangles.col(t).array() + static_cast<int>(first)).transpose()
-           << "\n";
-    first += part.mesh.vertexCount();
-  }
-  return text.str();
-}
-
-/// Builds a mesh file of these parts with few panels.
-FluidBody built(const std::vector<Named>& parts, const std::string& wings, int least_faces = 0) {
-  const TemporaryFolder folder;
-  writeText(folder / "body.obj", objOf(parts));
-  ShapeDescription shape;
-  shape.geometry = MeshFile{folder / "body.obj"};
-  shape.source = "body.obj";
-  ShapeBuildSettings settings;
-  settings.name = "body";
-  settings.origin = Vector3d::Zero();
-  settings.flow.max_panels = 1500;
-  settings.least_faces = least_faces;
-  settings.wings = wings;
-  return buildShape(shape, settings).body;
 }
 
 const FluidBody& builtRocket() {

@@ -757,6 +757,33 @@ class FloatingTest(CommandTest):
         self.assertEqual(self.build_refusal(ball, "--tank", tank), f"{ball}: a tank or an opening needs a closed mesh or a compound")
 
 
+class FlyingTest(CommandTest):
+    def test_a_plate_with_its_mass_ahead_glides(self):
+        file = self.path("plate.ambient")  # with the added mass of tables
+        self.run_well("build", self.write("plate.json", {"type": "box", "half_sizes": [0.1, 0.5, 0.002], "faces": 400}), "-o", file)
+        flying = "inspect", file, "--fly", "--mass", "0.3", "--centre-of-mass", "0.04", "0", "0"
+        facts = self.result_of(*flying, "--json")["flying"]
+        trim, stability = facts["trim"], facts["stability"]
+        self.expect_close(math.tan(math.radians(trim["glide_angle"])) * trim["glide_ratio"], 1, 1e-9)
+        self.assertGreater(facts["best_glide"]["glide_ratio"], trim["glide_ratio"])
+        self.expect_close(stability["margin_over_chord"], stability["static_margin"] / 0.2, 1e-9)
+        self.expect_close(stability["neutral_point"][0], 0.04 - stability["static_margin"], 1e-12)
+        text = self.run_well(*flying)
+        self.assertIn("    glide ratio   %.4g" % trim["glide_ratio"], text.output)
+        self.assertEqual(text.errors, "")
+
+    def test_where_there_is_no_trim_a_sentence_says_so(self):
+        _, file = self.build(BALL)
+        flying = "inspect", file, "--fly", "--mass", 30
+        result = self.run_well(*flying, "--centre-of-mass", 0, 0, -0.1, "--json")  # the drag acts above it
+        self.assertEqual(result.errors, "it has no trim: at no upright incidence from -30 to 30 degrees it is in balance; its nose goes up: "
+                                        "move its mass ahead\n")
+        self.assertEqual(list(json.loads(result.output)["flying"]), ["best_glide"])
+        self.assertEqual(self.refusal("inspect", file, "--fly", status=2), "--fly: needs --mass")
+        self.assertEqual(self.refusal(*flying, "--density", 998, status=2),
+                         "--fly: needs both --density and --viscosity of a fluid, or none: air")
+
+
 ATTACK, SIDE_SLIP, LIFT, DRAG, SIDE, ROLL, PITCH, YAW = range(8)
 
 
