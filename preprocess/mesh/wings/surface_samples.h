@@ -8,6 +8,8 @@
 
 namespace ambient {
 
+constexpr double kThinPart = 0.3;  ///< thickness over chord of a wing, at most
+
 /// Point of a closed surface, and the solid behind it.
 struct SurfaceSample {
   Eigen::Vector3d place, normal;  ///< normal into the fluid
