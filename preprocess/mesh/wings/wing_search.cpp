@@ -433,7 +433,7 @@ class WingSearch {
     constexpr double kLeastStep = 2.5, kLeastBody = 4, kThickest = 0.25, kSlender = 1.2;
     const WingJoint& joint = measured.joint;
     const Wing& wing = measured.wing;
-    if (!(wing.thickness < kThinPart * wing.chord)) return false;
+    if (!(wing.thickness > 0 && wing.thickness < kThinPart * wing.chord)) return false;
     if (!(joint.rest_share > 0.5)) return true;
     if (!(wing.thickness < kThickest * wing.chord)) return false;
     if (wing.is_joined && wing.span >= kSlender * wing.chord) return true;
