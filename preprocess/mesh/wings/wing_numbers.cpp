@@ -130,7 +130,7 @@ class WingMeasure {
   /// Finds where a wing leaves the body; false if it is free.
   bool setJoint(const std::vector<JointEdge>& joint, const Matrix3& variance,
                 MeasuredWing& measured) const {
-    constexpr double kLeastJoint = 0.5, kLeastArm = 0.25, kLeastAcross = 0.5;
+    constexpr double kLeastJoint = 0.5, kLeastArm = 0.25, kLeastAcross = 0.5, kFewWithRest = 0.3;
     Wing& wing = measured.wing;
     WeightedPlaces edges;
     double with_rest = 0;
@@ -146,7 +146,8 @@ class WingMeasure {
     const Vector3 outward = off_joint - z.dot(off_joint) * z;
     Vector3 along = (longest - z.dot(longest) * z).normalized();
     Vector3 h = z.cross(along);
-    if (std::abs(h.dot(outward)) < kLeastAcross * outward.norm()) {  // arms that meet in a hub
+    const bool is_arm = with_rest < kFewWithRest * edges.sum;  // that meets others in a hub
+    if (is_arm && std::abs(h.dot(outward)) < kLeastAcross * outward.norm()) {
       h = outward.normalized();
       along = h.cross(z);
     }

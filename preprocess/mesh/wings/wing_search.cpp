@@ -27,10 +27,12 @@ constexpr std::size_t kFewest = 12;   // samples of a wing
 constexpr double kConvex = 0.75;      // area over that of the convex hull
 constexpr double kPitched = 0.08;     // 1 - phi from which on blades are looked for
 constexpr double kLeastWing = 0.3;    // W of eq. (45a)
+constexpr double kOneSided = 0.5;     // mean of the normals of a skin that has no other side
 
 /// Plane through samples: their normals, mean place, and extents in the plane.
 struct Planform {
   Vector3 facing{0, 0, 0}, span{0, 0, 0}, centre{0, 0, 0};
+  double one_sided = 0;                // length of the mean of the normals
   double phi = 0;                      // mean square of the normals' cosine to `facing`
   double along_sq = 0, across_sq = 0;  // variances [m^2]
 };
@@ -129,15 +131,18 @@ class WingSearch {
   Planform planformOf(const Chosen& piece) const {
     Planform plane;
     Matrix3 normals = Matrix3::Zero(), spread = Matrix3::Zero();
+    Vector3 mean(0, 0, 0);
     const auto size = static_cast<double>(piece.size());
     for (const int i : piece) {
       const Vector3 n(sample(i).normal);
       normals += n * n.transpose() / size;
+      mean += n / size;
       plane.centre += Vector3(sample(i).middle) / size;
     }
     const SymmetricEigen<3> of_normals = symmetricEigen<3>(normals);
     plane.facing = of_normals.vectors.col(2);
     plane.phi = of_normals.values[2];
+    plane.one_sided = mean.norm();
     for (const int i : piece) {
       Vector3 d = Vector3(sample(i).middle) - plane.centre;
       d -= plane.facing.dot(d) * plane.facing;
@@ -280,6 +285,7 @@ class WingSearch {
     for (const Chosen& arm : arms) {
       if (!isLarge(arm.size())) continue;
       const Planform plane = planformOf(arm);
+      if (plane.one_sided > kOneSided) continue;
       double thickness = 0;
       for (const int i : arm) thickness += sample(i).thickness / static_cast<double>(arm.size());
       const double thick = thickness * thickness / (12 * plane.across_sq);
