@@ -69,9 +69,10 @@ class PlanMaker {
     for (const EdgePair& pair : edgePairs(computeMeshEdges(mesh))) pairs_.push_back(pair);
   }
 
-  /// Adds triangles that no other wing has; each piece of at least kLeast of their area is a wing.
-  /// Returns how many wings it adds.
-  int add(const GivenWing& given, const std::function<bool(std::size_t)>& belongs) {
+  /// Adds triangles that no other wing has; each piece of at least kLeast of their area, and
+  /// `least_share` of that of the mesh, is a wing. Returns how many wings it adds.
+  int add(const GivenWing& given, const std::function<bool(std::size_t)>& belongs,
+          double least_share = 0) {
     constexpr double kLeast = 0.1;
     DisjointSets pieces(is_taken_.size());
     std::vector<bool> chosen(is_taken_.size());
@@ -81,10 +82,11 @@ class PlanMaker {
           chosen[static_cast<std::size_t>(other.triangle)])
         pieces.join(one.triangle, other.triangle);
     std::vector<double> areas(chosen.size());
-    double whole = 0;
+    double whole = 0, all = 0;
     for (std::size_t t = 0; t < chosen.size(); ++t) {
-      if (!chosen[t]) continue;
       const double area = mesh_.twiceArea(static_cast<Eigen::Index>(t)).norm();
+      all += area;
+      if (!chosen[t]) continue;
       areas[static_cast<std::size_t>(pieces.find(static_cast<int>(t)))] += area;
       whole += area;
     }
@@ -92,7 +94,7 @@ class PlanMaker {
     int added = 0;
     for (std::size_t t = 0; t < chosen.size(); ++t) {
       const auto piece = static_cast<std::size_t>(pieces.find(static_cast<int>(t)));
-      if (!chosen[t] || areas[piece] < kLeast * whole) continue;
+      if (!chosen[t] || areas[piece] < std::max(kLeast * whole, least_share * all)) continue;
       if (labels[piece] == 0) {
         labels[piece] = newWing(given);
         ++added;
@@ -130,14 +132,17 @@ class PlanMaker {
   WingPlan plan_;
 };
 
-/// Adds the nodes whose names say that they are wings; if there are none, what findWings() finds.
+/// Adds the nodes whose names say that they are wings, unless they are as small as the blades of an
+/// airliner's fans; if there are none, what findWings() finds.
 void addFound(const SourceTriangles& source, const TriangleMesh& mesh, bool sheet,
               PlanMaker& maker) {
+  constexpr double kLeastNamed = 0.005;  // of the area of the body
   int named = 0;
   if (source.areKnown())
     for (const std::string name : {"wing*", "fin*", "blade*", "tail*", "rudder*", "keel*", "foil*"})
-      named += maker.add({name.substr(0, name.size() - 1), {}, {}, {}},
-                         [&](std::size_t t) { return isNamed(source.nodeOf(t), name); });
+      named += maker.add(
+          {name.substr(0, name.size() - 1), {}, {}, {}},
+          [&](std::size_t t) { return isNamed(source.nodeOf(t), name); }, kLeastNamed);
   if (named > 0 || sheet) return;
   const std::vector<std::uint8_t> labels = findWings(mesh);
   const bool is_whole =

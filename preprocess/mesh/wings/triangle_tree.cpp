@@ -129,7 +129,6 @@ int TriangleTree::nearest(const Vector3d& point) const {
 
 namespace {
 
-constexpr double kThin = 0.3;       // thickness over chord of a wing, at most
 constexpr double kThickest = 0.35;  // of the size of the body: not looked at beyond
 constexpr int kLines = 6;           // through the middle of the solid, across the normal
 
@@ -180,7 +179,7 @@ SurfaceSamples sampleSurface(const TriangleMesh& mesh, const TriangleTree& tree,
     if (!(sample.thickness < 10 * size)) sample.thickness = size;
     sample.middle = sample.place - sample.thickness / 2 * sample.normal;
     if (sample.thickness < kThickest * size)
-      sample.is_thin = sample.thickness < kThin * chordAt(sample, tree);
+      sample.is_thin = sample.thickness < kThinPart * chordAt(sample, tree);
     samples.all.push_back(sample);
   }
   return samples;

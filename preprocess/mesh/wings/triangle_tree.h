@@ -40,6 +40,8 @@ class TriangleTree {
   std::vector<Node> nodes_;
 };
 
+constexpr double kThinPart = 0.3;  ///< thickness over chord of a wing, at most
+
 /// Point of a closed surface, and the solid behind it.
 struct SurfaceSample {
   Eigen::Vector3d place, normal;  ///< normal into the fluid

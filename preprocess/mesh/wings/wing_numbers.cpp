@@ -258,7 +258,7 @@ class WingMeasure {
   /// Finds where a wing leaves the body; false if it is free.
   bool setJoint(const std::vector<JointEdge>& joint, const Matrix3& variance,
                 MeasuredWing& measured) const {
-    constexpr double kLeastJoint = 0.5, kLeastArm = 0.25;
+    constexpr double kLeastJoint = 0.5, kLeastArm = 0.25, kLeastAcross = 0.5, kFewWithRest = 0.3;
     Wing& wing = measured.wing;
     WeightedPlaces edges;
     double with_rest = 0;
@@ -270,9 +270,16 @@ class WingMeasure {
     if (!(edges.sum > 0)) return false;
     const Vector3& z = wing.facing;
     const Vector3 longest = symmetricEigen<3>(inPlane(edges.variance(), z)).vectors.col(2);
-    const Vector3 along = (longest - z.dot(longest) * z).normalized();
+    const Vector3 off_joint = wing.centre - edges.mean();
+    const Vector3 outward = off_joint - z.dot(off_joint) * z;
+    Vector3 along = (longest - z.dot(longest) * z).normalized();
     Vector3 h = z.cross(along);
-    const double arm = h.dot(wing.centre - edges.mean());
+    const bool is_arm = with_rest < kFewWithRest * edges.sum;  // that meets others in a hub
+    if (is_arm && std::abs(h.dot(outward)) < kLeastAcross * outward.norm()) {
+      h = outward.normalized();
+      along = h.cross(z);
+    }
+    const double arm = h.dot(outward);
     if (arm < 0) h = -h;
     double low = 0, high = 0;
     for (const JointEdge& edge : joint)

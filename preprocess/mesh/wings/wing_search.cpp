@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/base/numerics.h"
@@ -27,10 +28,12 @@ constexpr std::size_t kFewest = 12;   // samples of a wing
 constexpr double kConvex = 0.75;      // area over that of the convex hull
 constexpr double kPitched = 0.08;     // 1 - phi from which on blades are looked for
 constexpr double kLeastWing = 0.3;    // W of eq. (45a)
+constexpr double kOneSided = 0.5;     // mean of the normals of a skin that has no other side
 
 /// Plane through samples: their normals, mean place, and extents in the plane.
 struct Planform {
   Vector3 facing{0, 0, 0}, span{0, 0, 0}, centre{0, 0, 0};
+  double one_sided = 0;                // length of the mean of the normals
   double phi = 0;                      // mean square of the normals' cosine to `facing`
   double along_sq = 0, across_sq = 0;  // variances [m^2]
 };
@@ -52,8 +55,7 @@ class WingSearch {
     addEdges(labels);
     mendIslands(labels);
     keep(labels, [](std::size_t) { return true; });  // of those that have a triangle
-    const std::vector<MeasuredWing> measured = measureWings(mesh_, labels, false);
-    keep(labels, [&](std::size_t w) { return wings_[w].is_cut || standsOff(measured[w]); });
+    dropWhatRunsOut(labels);
     const int count = static_cast<int>(wings_.size());
     if (count == 0 || count > kMostFoundWings) return {};
     return isWhole(labels, count) ? all() : labels;
@@ -63,8 +65,9 @@ class WingSearch {
   struct Found {
     Chosen samples;
     Vector3 facing;
-    bool is_cut;  // from a piece of several arms
+    int piece;  // of which it is an arm; kNoPiece: it is a piece of its own
   };
+  static constexpr int kNoPiece = -1;
 
   const SurfaceSample& sample(int i) const { return samples_.all[static_cast<std::size_t>(i)]; }
   int count() const { return static_cast<int>(samples_.all.size()); }
@@ -129,15 +132,18 @@ class WingSearch {
   Planform planformOf(const Chosen& piece) const {
     Planform plane;
     Matrix3 normals = Matrix3::Zero(), spread = Matrix3::Zero();
+    Vector3 mean(0, 0, 0);
     const auto size = static_cast<double>(piece.size());
     for (const int i : piece) {
       const Vector3 n(sample(i).normal);
       normals += n * n.transpose() / size;
+      mean += n / size;
       plane.centre += Vector3(sample(i).middle) / size;
     }
     const SymmetricEigen<3> of_normals = symmetricEigen<3>(normals);
     plane.facing = of_normals.vectors.col(2);
     plane.phi = of_normals.values[2];
+    plane.one_sided = mean.norm();
     for (const int i : piece) {
       Vector3 d = Vector3(sample(i).middle) - plane.centre;
       d -= plane.facing.dot(d) * plane.facing;
@@ -196,17 +202,19 @@ class WingSearch {
     const bool is_flat = 1 - plane.phi <= kPitched, is_convex = convexity(places) >= kConvex;
     if (is_flat && is_convex) return {piece};
     constexpr int kMostArms = 6;
+    constexpr double kGain = 0.1;  // by which each further arm must fill more of its hull
     std::vector<Chosen> best{piece};
-    double best_worst = -1;
-    for (int arms = 2; arms <= kMostArms && best_worst < kConvex; ++arms)
+    double best_worst = -1, most = -1;
+    for (int arms = 2; arms <= kMostArms && most + kGain * arms < 1; ++arms)
       for (int start = 0; start < 4; ++start) {
         const std::vector<Chosen> cut = clustered(piece, places, arms, start);
-        const double worst = worstOf(cut, plane, is_flat);
-        if (worst <= best_worst + 0.03) continue;
+        const double worst = worstOf(cut, plane, is_flat), gain = worst - kGain * arms;
+        if (worst < 0 || gain <= most) continue;
         best = cut;
         best_worst = worst;
+        most = gain;
       }
-    return best_worst >= (is_convex ? kConvex : 0.6) ? best : std::vector<Chosen>{piece};
+    return best_worst >= (is_convex ? kConvex : 0.5) ? best : std::vector<Chosen>{piece};
   }
 
   /// Least convexity of arms; -1 if they are too small, or neither incline alike nor are flatter
@@ -274,16 +282,18 @@ class WingSearch {
 
   void addArms(const Chosen& piece) {
     const std::vector<Chosen> arms = armsOf(piece);
+    ++pieces_;
     for (const Chosen& arm : arms) {
       if (!isLarge(arm.size())) continue;
       const Planform plane = planformOf(arm);
+      if (plane.one_sided > kOneSided) continue;
       double thickness = 0;
       for (const int i : arm) thickness += sample(i).thickness / static_cast<double>(arm.size());
       const double thick = thickness * thickness / (12 * plane.across_sq);
       const double aside = 1.5 * (1 - plane.phi);
       const double root = std::max(0.0, 1 - thick);
       if (root * root * std::max(0.0, 1 - aside * aside) < kLeastWing) continue;
-      wings_.push_back({arm, plane.facing, arms.size() > 1});
+      wings_.push_back({arm, plane.facing, arms.size() > 1 ? pieces_ : kNoPiece});
       for (const int i : arm) partOf(i) = static_cast<int>(wings_.size());
     }
   }
@@ -424,15 +434,35 @@ class WingSearch {
     wings_ = std::move(kept);
   }
 
-  /// False of a part that runs out of the body without a step, as bows and ears do.
+  /// False of a part that runs out of the body without a step, as bows and ears do. A slender one,
+  /// as the wing of an airliner, may.
   static bool standsOff(const MeasuredWing& measured) {
-    constexpr double kLeastStep = 2.5, kLeastBody = 4, kThickest = 0.25;
+    constexpr double kLeastStep = 2.5, kLeastBody = 4, kThickest = 0.25, kSlender = 1.2;
     const WingJoint& joint = measured.joint;
+    const Wing& wing = measured.wing;
+    if (!(wing.thickness > 0 && wing.thickness < kThinPart * wing.chord)) return false;
     if (!(joint.rest_share > 0.5)) return true;
-    const bool is_beside =
-        !measured.wing.is_joined || joint.body_width >= kLeastBody * joint.root_thickness;
-    return joint.step >= kLeastStep && std::isfinite(joint.step) && is_beside &&
-           measured.wing.thickness < kThickest * measured.wing.chord;
+    if (!(wing.thickness < kThickest * wing.chord)) return false;
+    if (wing.is_joined && wing.span >= kSlender * wing.chord) return true;
+    const bool is_beside = !wing.is_joined || joint.body_width >= kLeastBody * joint.root_thickness;
+    return joint.step >= kLeastStep && std::isfinite(joint.step) && is_beside;
+  }
+
+  /// Drops parts that run out of the body, until none of those that border on each other does: what
+  /// is dropped belongs to the body then. Arms stay or go together.
+  void dropWhatRunsOut(std::vector<std::uint8_t>& labels) {
+    for (std::size_t before = wings_.size() + 1; wings_.size() < before && !wings_.empty();) {
+      before = wings_.size();
+      const std::vector<MeasuredWing> measured = measureWings(mesh_, labels, false);
+      std::set<int> thick;  // pieces with an arm that is too thick
+      for (std::size_t w = 0; w < before; ++w)
+        if (!(measured[w].wing.thickness < kThinPart * measured[w].wing.chord))
+          thick.insert(wings_[w].piece);
+      keep(labels, [&](std::size_t w) {
+        return wings_[w].piece == kNoPiece ? standsOff(measured[w])
+                                           : thick.count(wings_[w].piece) == 0;
+      });
+    }
   }
 
   std::vector<std::uint8_t> all() const {
@@ -446,7 +476,7 @@ class WingSearch {
     return wings_.size() == 1 && static_cast<double>(own) > kNearly * count();
   }
 
-  /// True if one wing, not joined and no aerofoil, is most of the body.
+  /// True if one wing, no aerofoil, is most of the body.
   bool isWhole(const std::vector<std::uint8_t>& labels, int count) const {
     constexpr double kMost = 0.6;
     if (count > 1) return false;
@@ -457,14 +487,14 @@ class WingSearch {
       own += labels[t] * area;
     }
     if (!(own > kMost * all)) return false;
-    const Wing wing = measureWings(mesh_, labels, false).front().wing;
-    return !wing.is_joined && wing.nose == 0;
+    return measureWings(mesh_, labels, false).front().wing.nose == 0;
   }
 
   const TriangleMesh& mesh_;
   TriangleTree tree_;
   SurfaceSamples samples_;
   std::vector<int> part_;  // of each sample: 0 or the number of a wing
+  int pieces_ = 0;         // whose arms were added
   std::vector<Found> wings_;
 };
 

@@ -80,11 +80,39 @@ Labels dilated(Labels labels, const CubicGrid& grid) {
   return labels;
 }
 
+/// Nodes beside plates that pass between two nodes outside of them: both sides of the plate, or the
+/// sheet, meet the line from one to the other.
+Labels besidePlates(const TriangleMesh& mesh, const CubicGrid& grid, const GridCrossings& crossings,
+                    const Labels& is_solid) {
+  constexpr double kAlike = 0.9;  // cosine of the normals of both sides
+  Labels is_beside(is_solid.size(), 0);
+  for (std::int64_t node = 0; node < grid.nodeCount(); ++node) {
+    if (is_solid[static_cast<std::size_t>(node)] != 0) continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      const LineCrossings* passed = crossings.find(node, axis);
+      if (passed == nullptr) continue;
+      const auto next = static_cast<std::size_t>(node + grid.stride(axis));
+      if (next >= is_solid.size() || is_solid[next] != 0) continue;
+      const Vector3d near = normalOf(cornersOf(mesh, passed->first.triangle));
+      const Vector3d far = normalOf(cornersOf(mesh, passed->last.triangle));
+      if (std::abs(near.dot(far)) < kAlike) continue;
+      is_beside[static_cast<std::size_t>(node)] = 1;
+      is_beside[next] = 1;
+    }
+  }
+  return is_beside;
+}
+
 /// Keeps, for every node near a thin part, the nearest triangle of it.
 class ThinSearch {
  public:
-  ThinSearch(const TriangleMesh& mesh, const CubicGrid& grid, const Labels& is_solid)
-      : mesh_(mesh), grid_(grid), is_solid_(is_solid), is_near_solid_(dilated(is_solid, grid)) {}
+  ThinSearch(const TriangleMesh& mesh, const CubicGrid& grid, const GridCrossings& crossings,
+             const Labels& is_solid)
+      : mesh_(mesh),
+        grid_(grid),
+        is_solid_(is_solid),
+        is_near_solid_(dilated(is_solid, grid)),
+        is_beside_plate_(besidePlates(mesh, grid, crossings, is_solid)) {}
 
   std::unordered_map<std::int64_t, ThinPart> findAll() {
     for (int t = 0; t < static_cast<int>(mesh_.triangleCount()); ++t) {
@@ -128,13 +156,14 @@ class ThinSearch {
     const Vector3d place = grid_.inSteps(point);
     const auto nearest =
         grid_.nodeAt({std::llround(place.x()), std::llround(place.y()), std::llround(place.z())});
-    return is_near_solid_[static_cast<std::size_t>(nearest)] == 0;
+    return is_near_solid_[static_cast<std::size_t>(nearest)] == 0 ||
+           is_beside_plate_[static_cast<std::size_t>(nearest)] != 0;
   }
 
   const TriangleMesh& mesh_;
   const CubicGrid& grid_;
   const Labels& is_solid_;
-  Labels is_near_solid_;
+  Labels is_near_solid_, is_beside_plate_;
   std::unordered_map<std::int64_t, ThinPart> found_;
 };
 
@@ -184,7 +213,7 @@ SolidNodes findSolidNodes(const TriangleMesh& mesh, const CubicGrid& grid,
   nodes.is_solid = reachable(
       grid, [&](std::int64_t node, int axis) { return crossings.find(node, axis) == nullptr; });
   for (char& label : nodes.is_solid) label = static_cast<char>(1 - label);
-  nodes.thin = ThinSearch(mesh, grid, nodes.is_solid).findAll();
+  nodes.thin = ThinSearch(mesh, grid, crossings, nodes.is_solid).findAll();
   Labels& is_solid = nodes.is_solid;
   for (const auto& [node, part] : nodes.thin) {
     if (part.distance <= kThinReach * grid.step) is_solid[static_cast<std::size_t>(node)] = 1;

@@ -406,6 +406,15 @@ std::string beforeAndAfter(const TriangleMesh& before, const WrapInput& filled,
   return text.str();
 }
 
+/// Says of a mesh that was refused that it has been closed.
+std::string filledHoles(const std::string& refusal, const FilledMesh& filled, double unit) {
+  std::ostringstream text;
+  text.precision(4);
+  text << refusal << "; holes filled: " << filled.holes << ", of " << unit * unit * filled.area
+       << " m^2 in all";
+  return text.str();
+}
+
 }  // namespace
 
 double gridNodesAround(const TriangleMesh& mesh, double size) {
@@ -438,10 +447,18 @@ CheckedMesh makeBodyMesh(const TriangleMesh& mesh, const std::string& name, bool
   if (strict)
     throw std::runtime_error(refusal + " (build --wrap makes a closed surface around it)");
   if (enclosesNothing(checked.mesh)) throw std::runtime_error(refusal);
-  if (withHolesFilled(checked.mesh).is_sheet) {
+  const FilledMesh filled = withHolesFilled(checked.mesh);
+  if (filled.is_sheet) {
     throw std::runtime_error(refusal +
                              " (a surface of zero thickness is a sheet: --sheet, in Python "
                              "sheet=True; --wrap makes it thick)");
+  }
+  if (filled.holes > 0) {
+    CheckedMesh whole = checkMesh(filled.mesh, name);
+    if (whole.defects.empty()) {
+      whole.warnings.insert(whole.warnings.begin(), filledHoles(refusal, filled, unit));
+      return whole;
+    }
   }
   const WrapInput input = usableInput(checked.mesh, 0, name);
   CheckedMesh result = wrapWhatIsBroken(input, name, refusal);

@@ -27,8 +27,9 @@ constexpr double kDefaultWrapSize = 0.01;
 CheckedMesh wrapSurface(const TriangleMesh& mesh, double size, const std::string& name);
 
 /// Makes the closed surface of a body from any mesh: the result of checkMesh(); a mesh with
-/// defects is wrapped at the default size instead, with one warning that names the defect and gives
-/// volume and area before and after. Every way from a mesh to a body leads through here.
+/// defects gets its holes filled, with a warning that names them; what has defects then is wrapped
+/// at the default size instead, with one that names the defect and gives volume and area before and
+/// after. Every way from a mesh to a body leads through here.
 /// @param strict true: nothing is wrapped
 /// @param unit a length of 1 in metres, for the numbers of that warning
 /// @throws std::runtime_error in one line that begins with `name`, with the first defect: of any

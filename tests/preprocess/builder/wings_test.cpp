@@ -354,6 +354,40 @@ TEST(Wings, WithoutNamesAreFoundByTheirShape) {
   }
 }
 
+TEST(Wings, LowOnASlenderHullAreFoundOnBothSides) {
+  const FluidBody body = built({{"hull", makeEllipsoidMesh({0.5, 0.06, 0.06}, 1200)},
+                                {"plate", box({-0.05, -0.45, -0.045}, {0.07, 0.45, -0.025})}},
+                               "auto");
+  ASSERT_EQ(body.wings.size(), 2u);
+  for (const Wing& wing : body.wings) {
+    EXPECT_TRUE(wing.is_joined);
+    EXPECT_NEAR(wing.span, 0.4, 0.01) << "the hull hides 5 cm of 45";
+    EXPECT_NEAR(wing.chord, 0.12, 0.005);
+  }
+}
+
+TEST(Wings, ThatMeetInAHubHaveTheirSpansAlongTheArms) {
+  std::vector<Named> arms;
+  for (int k = 0; k < 3; ++k)
+    arms.push_back({"part", placed(box({0, -0.06, -0.008}, {0.5, 0.06, 0.008}),
+                                   turnAbout(Vector3d::UnitZ(), k * 2 * kPi / 3), {0, 0, 0})});
+  const FluidBody body = built(arms, "auto");
+  ASSERT_EQ(body.wings.size(), 3u);
+  for (const Wing& arm : body.wings) {
+    EXPECT_NEAR(arm.span, 0.48, 0.02) << "a third of the hub belongs to each";
+    EXPECT_NEAR(arm.chord, 0.12, 0.005);
+    EXPECT_GT(arm.span_axis.dot(arm.centre.normalized()), 0.99);
+  }
+}
+
+TEST(Wings, OfAMeshWithAHoleKeepTheirSections) {
+  std::vector<Named> open = rocket();
+  open[1].mesh.triangles.conservativeResize(3, open[1].mesh.triangleCount() - 1);
+  const FluidBody body = built(open, "auto");
+  ASSERT_EQ(body.wings.size(), 4u);
+  for (const Wing& fin : body.wings) EXPECT_NEAR(fin.thickness, 0.002, 2e-5);
+}
+
 TEST(Wings, AreNotFoundOnBodiesWithoutOnes) {
   const std::vector<TriangleMesh> bodies{
       makeEllipsoidMesh({1, 1, 1}, 500),  makeEllipsoidMesh({3, 1, 0.8}, 500),

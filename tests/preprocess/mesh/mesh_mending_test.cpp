@@ -320,6 +320,16 @@ TEST(SurfaceWrap, GivesSheetsAThickness) {
   EXPECT_NEAR(found.volume / slab, 1, 0.02);
 }
 
+TEST(SurfaceWrap, LeavesNoHolesInPlatesThinnerThanItsGrid) {
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()).matrix();
+  const TriangleMesh plate = rotated(boxOf12({2, 1, 0.03}), turn);
+  const TriangleMesh surface = wrapSurface(plate, 0.05, "thing.obj").mesh;
+  double above = 0;  // area of all that faces up, seen from there
+  for (Eigen::Index t = 0; t < surface.triangleCount(); ++t)
+    above += std::max(0.0, surface.twiceArea(t).dot(turn.col(2)) / 2);
+  EXPECT_NEAR(above, 2, 0.2) << "a layer of half a step around it, no more";
+}
+
 TEST(SurfaceWrap, ReportsTheChangeOfVolumeAndArea) {
   const CheckedMesh checked = wrapSurface(boxOf12({1, 1, 1}), 0.05, "thing.obj");
   ASSERT_FALSE(checked.warnings.empty());
