@@ -407,10 +407,10 @@ std::string beforeAndAfter(const TriangleMesh& before, const WrapInput& filled,
 }
 
 /// Says of a mesh that was refused that it has been closed.
-std::string filledHoles(const std::string& refusal, const FilledMesh& filled, double unit) {
+std::string filledHoles(const std::string& refusal, const WrapInput& filled, double unit) {
   std::ostringstream text;
   text.precision(4);
-  text << refusal << "; holes filled: " << filled.holes << ", of " << unit * unit * filled.area
+  text << refusal << "; holes filled: " << filled.holes << ", of " << unit * unit * filled.hole_area
        << " m^2 in all";
   return text.str();
 }
@@ -447,7 +447,7 @@ CheckedMesh makeBodyMesh(const TriangleMesh& mesh, const std::string& name, bool
   if (strict)
     throw std::runtime_error(refusal + " (build --wrap makes a closed surface around it)");
   if (enclosesNothing(checked.mesh)) throw std::runtime_error(refusal);
-  const FilledMesh filled = withHolesFilled(checked.mesh);
+  const WrapInput filled = withHolesFilled(checked.mesh);
   if (filled.is_sheet) {
     throw std::runtime_error(refusal +
                              " (a surface of zero thickness is a sheet: --sheet, in Python "
