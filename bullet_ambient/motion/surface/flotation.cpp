@@ -130,8 +130,11 @@ Wrench gradientAt(const SurfaceModel& model, const SurfacePlace& place, const Tw
 }
 
 Vector3 centreOfBuoyancy(const SurfaceModel& model, const SurfacePlace& place) noexcept {
-  const WetVolume wet = wetOutside(model, place);
-  return wet.volume > 0 ? Vector3(wet.moment / wet.volume) : model.above.centre_of_volume;
+  const WetVolume& wet_F = place.immersion_F.wet;
+  if (!(wet_F.volume > 0)) return model.above.centre_of_volume;
+  const FrameOffset& frame = model.fluid_frame;
+  if (frame.isIdentity()) return wet_F.moment / wet_F.volume;
+  return (frame.rotation * wet_F.moment + wet_F.volume * frame.translation) / wet_F.volume;
 }
 
 MeanDepths meanDepths(const Immersion& before, const Immersion& after) noexcept {
