@@ -56,8 +56,7 @@ Matrix6 rigidBodyInertia(double mass, const Matrix3& rotational_inertia) {
 
 Matrix6 FrameOffset::inertiaToB(const Matrix6& inertia_F) const {
   // The vector from F's origin to B's origin, in B's axes, is -translation.
-  const bool is_turned = !rotation.isIdentity(0);
-  return shiftOrigin(is_turned ? rotateAxes(inertia_F, rotation) : inertia_F, -translation);
+  return shiftOrigin(rotateAxes(inertia_F, rotation), -translation);
 }
 
 }  // namespace ambient
