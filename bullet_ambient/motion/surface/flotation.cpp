@@ -129,9 +129,19 @@ Wrench gradientAt(const SurfaceModel& model, const SurfacePlace& place, const Tw
   return model.added_density * frame.toB(model.wetted->gradient(at, frame.toF(x)).wrench(at.plane));
 }
 
+namespace {
+
+/// Moment of a wet volume in B, as WetVolume::inB() has it.
+Vector3 momentInB(const WetVolume& wet_F, const FrameOffset& frame) {
+  return frame.rotation * wet_F.moment + wet_F.volume * frame.translation;
+}
+
+}  // namespace
+
 Vector3 centreOfBuoyancy(const SurfaceModel& model, const SurfacePlace& place) noexcept {
-  const WetVolume wet = wetOutside(model, place);
-  return wet.volume > 0 ? Vector3(wet.moment / wet.volume) : model.above.centre_of_volume;
+  const WetVolume& wet_F = place.immersion_F.wet;
+  if (!(wet_F.volume > 0)) return model.above.centre_of_volume;
+  return momentInB(wet_F, model.fluid_frame) / wet_F.volume;
 }
 
 MeanDepths meanDepths(const Immersion& before, const Immersion& after) noexcept {
@@ -232,10 +242,11 @@ void setPlane(FlotationLanes& lanes, int body, const SurfacePlane& plane) {
   lanes.specific_weight[body] = plane.density * plane.gravity;
 }
 
-void setWetVolume(FlotationLanes& lanes, int body, const WetVolume& wet) {
+/// `moment`: in B.
+void setWetVolume(FlotationLanes& lanes, int body, const WetVolume& wet, const Vector3& moment) {
   lanes.volume[body] = wet.volume;
   lanes.depth_integral[body] = wet.depth_integral;
-  setLane(lanes.moment, body, wet.moment);
+  setLane(lanes.moment, body, moment);
 }
 
 /// Added mass along the normal per unit density, without its factor, times c of docs/theory.md
@@ -257,7 +268,7 @@ void setPlace(FlotationLanes& lanes, int body, const SurfaceModel& model,
               const SurfacePlace& place) noexcept {
   setPlane(lanes, body, place.plane);
   const WetVolume wet = wetVolume(model, place);
-  setWetVolume(lanes, body, wet);
+  setWetVolume(lanes, body, wet, wet.moment);
   const Waterplane& section = wet.waterplane;
   lanes.area[body] = section.area;
   setLane(lanes.centroid, body, section.centroid);
@@ -271,7 +282,9 @@ void setPlace(FlotationLanes& lanes, int body, const SurfaceModel& model,
 void setFlotation(FlotationLanes& lanes, int body, const SurfaceModel& model,
                   const Flotation& flotation) noexcept {
   setPlane(lanes, body, flotation.plane);
-  setWetVolume(lanes, body, wetVolume(model, flotation));
+  const WetVolume& vessel_F = flotation.immersion_F.wet;
+  const WetVolume wet_F = flotation.inside_F ? flotation.inside_F->with(vessel_F) : vessel_F;
+  setWetVolume(lanes, body, wet_F, momentInB(wet_F, model.fluid_frame));
   forEachNumber(lanes.modes, flotation.modes,
                 [&](FlightLane& to, const double& from) { to[body] = from; });
 }

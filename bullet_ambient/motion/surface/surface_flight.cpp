@@ -38,6 +38,7 @@ struct Progress {
   double error = 0;               ///< the largest of the substeps, eq. (25) and (68b)
   SurfacePlace later;             ///< where a substep has come to
   WaterInside inside;             ///< there
+  Matrix3 to_world;               ///< B to W there, of a body with water in its holds
   WaterLeft left;                 ///< water in the holds where a substep begins
   SurfacePlace* place = nullptr;  ///< that of now: that of the flotation at the start, or `later`
 
@@ -147,6 +148,7 @@ class SurfaceFlights {
     p.error = p.energy_removed = 0;
     p.has_gained = false;
     if (!p.hasWater()) return;
+    turnWater(i);
     VesselSloshing& sloshing = *flight.water.sloshing;
     sloshing.moved = sloshing.now;
     const SloshingAt at = waterAt(i).sloshing();
@@ -157,8 +159,11 @@ class SurfaceFlights {
   /// The water in the holds of a body that has some, where it is now.
   WaterAt waterAt(int i) const {
     const Progress& p = progress_[i];
-    return {p.model(), *p.place, orientationOf(lanes_.flight.orientation, i).toRotationMatrix(),
-            vectorOf(lanes_.flight.displacement_W, i)};
+    return {p.model(), *p.place, p.to_world, vectorOf(lanes_.flight.displacement_W, i)};
+  }
+  /// Notes the attitude in which it is.
+  void turnWater(int i) {
+    progress_[i].to_world = orientationOf(lanes_.flight.orientation, i).toRotationMatrix();
   }
 
   /// Lets the water in the holds slosh for half of a kick.
@@ -178,6 +183,7 @@ class SurfaceFlights {
   /// Brings the water in the holds of a body to the place where it has come to.
   void shiftWater(int i) {
     Progress& p = progress_[i];
+    turnWater(i);
     SymmetricMatrix inertia = symmetricOf(lanes_.flight.inertia, i);
     const Vector6 x = ambient::shiftWater(
         p.left, waterAt(i), twistOf(lanes_.flight.twist_B, i).vector(), inertia, p.sloshing());

@@ -162,7 +162,9 @@ Matrix6 inertiaAt(const SurfaceModel& model, const Immersion& immersion) noexcep
   const Matrix6 in_F = model.wetted->inertia(immersion);
   AMBIENT_ASSERT(isSymmetric(in_F, 1e-9));
   if (model.fluid_frame.isIdentity()) return model.above.inertia + model.added_density * in_F;
-  const Matrix6 in_B = model.fluid_frame.inertiaToB(in_F);
+  const FrameOffset& frame = model.fluid_frame;
+  const Matrix6 in_B =
+      frame.rotation.isIdentity(0) ? shiftOrigin(in_F, -frame.translation) : frame.inertiaToB(in_F);
   return model.above.inertia + model.added_density * 0.5 * (in_B + in_B.transpose());
 }
 
