@@ -50,7 +50,7 @@ bool AmbientTree::isSame() const noexcept {
 }
 
 AmbientTree* AmbientTrees::at(const btMultiBody* address) const noexcept {
-  if (trees_.empty()) return nullptr;
+  if (!address || trees_.empty()) return nullptr;
   const auto found = by_body_.find(address);
   return found == by_body_.end() ? nullptr : found->second;
 }

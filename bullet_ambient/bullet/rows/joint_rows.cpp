@@ -22,13 +22,14 @@ using SolverBodies = btAlignedObjectArray<btSolverBody>;
 // a row with bounds, which may be a motor with its speed in the right-hand side.
 double correctionOf(btSolverConstraint& row, const SolverBodies& bodies) {
   if (hasBounds(row) || !(row.m_jacDiagABInv > 0)) return 0;
-  btScalar velocity = row.m_rhs / row.m_jacDiagABInv;
-  for (const RowSide& side : sidesOf(row)) {
+  const auto [a, b] = sidesOf(row);
+  const auto velocityAt = [&](const RowSide& side) {
     const btSolverBody& body = bodies[side.solver_body];
-    velocity += side.rigid.along(body.m_linearVelocity + body.m_externalForceImpulse,
-                                 body.m_angularVelocity + body.m_externalTorqueImpulse);
-  }
-  return std::abs(static_cast<double>(velocity));
+    return side.rigid.along(body.m_linearVelocity + body.m_externalForceImpulse,
+                            body.m_angularVelocity + body.m_externalTorqueImpulse);
+  };
+  return std::abs(
+      static_cast<double>(row.m_rhs / row.m_jacDiagABInv + velocityAt(a) + velocityAt(b)));
 }
 
 // Returns the difference between the velocity that the row asks for and the one reached [m/s]; 0 if
@@ -37,12 +38,13 @@ double missedBy(btSolverConstraint& row, const SolverBodies& bodies) {
   const btScalar impulse = row.m_appliedImpulse;
   const bool is_bound = impulse <= row.m_lowerLimit || impulse >= row.m_upperLimit;
   if (is_bound || !(row.m_jacDiagABInv > 0)) return 0;
-  btScalar missed = (row.m_rhs - impulse * row.m_cfm) / row.m_jacDiagABInv;
-  for (const RowSide& side : sidesOf(row)) {
+  const auto [a, b] = sidesOf(row);
+  const auto changeAt = [&](const RowSide& side) {
     const btSolverBody& body = bodies[side.solver_body];
-    missed -= side.rigid.along(body.m_deltaLinearVelocity, body.m_deltaAngularVelocity);
-  }
-  return std::abs(static_cast<double>(missed));
+    return side.rigid.along(body.m_deltaLinearVelocity, body.m_deltaAngularVelocity);
+  };
+  const btScalar wanted = (row.m_rhs - impulse * row.m_cfm) / row.m_jacDiagABInv;
+  return std::abs(static_cast<double>(wanted - changeAt(a) - changeAt(b)));
 }
 
 }  // namespace

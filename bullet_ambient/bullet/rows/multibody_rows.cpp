@@ -3,6 +3,7 @@
 #include <BulletDynamics/Featherstone/btMultiBodyConstraint.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
@@ -16,7 +17,7 @@ using Row = btMultiBodySolverConstraint;
 
 // One side of a row, and the tree that moves in a fluid or the ambient body there; null: none.
 struct FluidSide {
-  RowSide at;
+  const RowSide& at;
   AmbientTree* tree;
   RowBody* ambient;
 
@@ -114,11 +115,9 @@ void rewriteMultiBodyRows(const RowPools& rows, const btContactSolverInfo& info,
   const auto rewrite = [&](btMultiBodyConstraintArray& pool, btScalar relaxation,
                            btScalar time_step) {
     for (int i = 0; i < pool.size(); ++i) {
-      const auto inFluid = [&](const RowSide& side) -> FluidSide {
-        return {side, trees.findSolved(side.multibody), bodies.find(side.solver_body)};
-      };
-      const auto sides = sidesOf(pool[i]);
-      const FluidSide a = inFluid(sides[0]), b = inFluid(sides[1]);
+      const auto [of_a, of_b] = sidesOf(pool[i]);
+      const FluidSide a{of_a, trees.findSolved(of_a.multibody), bodies.find(of_a.solver_body)};
+      const FluidSide b{of_b, trees.findSolved(of_b.multibody), bodies.find(of_b.solver_body)};
       if (!a.isInFluid() && !b.isInFluid()) continue;
       rewriteRow(pool[i], a, b, relaxation, time_step, rows);
       const FluidSide& counted = a.isInFluid() ? a : b;
@@ -139,31 +138,30 @@ namespace {
 
 using SolverBodies = btAlignedObjectArray<btSolverBody>;
 
+using Sides = std::array<RowSide, 2>;
+
 // Returns the impulse that a friction row asks for without a limit.
-btScalar wantedImpulse(Row& row, const btMultiBodyJacobianData& data, const SolverBodies& bodies) {
-  btScalar changes[2] = {0, 0};
-  const auto sides = sidesOf(row);
-  for (std::size_t i = 0; i < 2; ++i) {
-    const RowSide& side = sides[i];
-    if (side.multibody) {
-      changes[i] = side.along(data, [&](int k) { return data.m_deltaVelocities[side.change + k]; });
-    } else if (side.solver_body >= 0) {
-      const btSolverBody& body = bodies[side.solver_body];
-      changes[i] = side.rigid.along(body.m_deltaLinearVelocity, body.m_deltaAngularVelocity);
-    }
-  }
+btScalar wantedImpulse(const Row& row, const Sides& sides, const btMultiBodyJacobianData& data,
+                       const SolverBodies& bodies) {
+  const auto changeAlong = [&](const RowSide& side) -> btScalar {
+    if (side.multibody)
+      return side.along(data, [&](int k) { return data.m_deltaVelocities[side.change + k]; });
+    if (side.solver_body < 0) return 0;
+    const btSolverBody& body = bodies[side.solver_body];
+    return side.rigid.along(body.m_deltaLinearVelocity, body.m_deltaAngularVelocity);
+  };
   return row.m_appliedImpulse + row.m_rhs - row.m_appliedImpulse * row.m_cfm -
-         (changes[0] + changes[1]) * row.m_jacDiagABInv;
+         (changeAlong(sides[0]) + changeAlong(sides[1])) * row.m_jacDiagABInv;
 }
 
 // Applies the impulse of a friction row, at most `limit` either way. Returns the velocity along the
 // row that it changes.
-btScalar applyFriction(Row& row, btScalar wanted, btScalar limit, btMultiBodyJacobianData& data,
-                       SolverBodies& bodies) {
+btScalar applyFriction(const Row& row, const Sides& sides, btScalar wanted, btScalar limit,
+                       btMultiBodyJacobianData& data, SolverBodies& bodies) {
   const btScalar impulse = std::clamp(wanted, -limit, limit);
   const btScalar change = impulse - row.m_appliedImpulse;
   row.m_appliedImpulse = impulse;
-  for (const RowSide& side : sidesOf(row)) {
+  for (const RowSide& side : sides) {
     if (side.multibody) {
       const btScalar* response = &data.m_deltaVelocitiesUnitImpulse[side.jacobian];
       for (int i = 0; i < side.multibody->getNumDofs() + 6; ++i)
@@ -182,8 +180,9 @@ btScalar applyFriction(Row& row, btScalar wanted, btScalar limit, btMultiBodyJac
 
 btScalar solveFrictionPair(Row& first, Row& second, btMultiBodyJacobianData& data,
                            SolverBodies& solver_bodies) noexcept {
-  const btScalar a = wantedImpulse(first, data, solver_bodies);
-  const btScalar b = wantedImpulse(second, data, solver_bodies);
+  const Sides of_first = sidesOf(first), of_second = sidesOf(second);
+  const btScalar a = wantedImpulse(first, of_first, data, solver_bodies);
+  const btScalar b = wantedImpulse(second, of_second, data, solver_bodies);
   btScalar most_a = SIMD_INFINITY, most_b = SIMD_INFINITY;
   const btScalar limit_a = std::abs(first.m_upperLimit);
   const btScalar limit_b = std::abs(second.m_upperLimit);
@@ -196,8 +195,8 @@ btScalar solveFrictionPair(Row& first, Row& second, btMultiBodyJacobianData& dat
     most_a = limit_a * x / length;
     most_b = limit_b * y / length;
   }
-  const btScalar changed = applyFriction(first, a, most_a, data, solver_bodies);
-  return changed + applyFriction(second, b, most_b, data, solver_bodies);
+  const btScalar changed = applyFriction(first, of_first, a, most_a, data, solver_bodies);
+  return changed + applyFriction(second, of_second, b, most_b, data, solver_bodies);
 }
 
 AMBIENT_END

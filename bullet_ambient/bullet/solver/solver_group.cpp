@@ -292,10 +292,12 @@ bool SolverGroup::hasMembers() const noexcept {
 }
 
 bool SolverGroup::touchesMember(btMultiBodySolverConstraint& row) noexcept {
-  const auto sides = sidesOf(row);
-  return std::any_of(sides.begin(), sides.end(), [this](const RowSide& side) {
-    return row_bodies_.find(side.solver_body) || bodies_.trees.findSolved(side.multibody);
-  });
+  const auto isMember = [this](const RowSide& side) {
+    return side.multibody ? bodies_.trees.findSolved(side.multibody) != nullptr
+                          : row_bodies_.find(side.solver_body) != nullptr;
+  };
+  const auto [a, b] = sidesOf(row);
+  return isMember(a) || isMember(b);
 }
 
 int SolverGroup::solveJoints() noexcept { return joint_chains_->solve(pools_, row_bodies_); }
