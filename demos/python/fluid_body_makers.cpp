@@ -92,9 +92,8 @@ FluidBody buildFromMesh(const TriangleMesh& mesh, bool sheet, const SourceSettin
   build.provenance = provenanceOf(mesh, sheet, settings);
   return buildOnce(settings, build.provenance, [&](const auto& begin) {
     build.begin = begin;
-    CheckedMesh checked = sheet
-                              ? requireSound(checkMesh(mesh, settings.name, {true}), settings.name)
-                              : makeBodyMesh(mesh, settings.name, settings.strict);
+    CheckedMesh checked = sheet ? requireSound(checkMesh(mesh, settings.name, true), settings.name)
+                                : makeBodyMesh(mesh, settings.name, settings.strict);
     build.cavities = checked.cavities;
     if (sheet && !(settings.holds.tanks.empty() && settings.holds.openings.empty()))
       throw std::runtime_error(settings.name + ": a tank or an opening needs a closed mesh");

@@ -73,18 +73,13 @@ Hold tankOf(const TriangleMesh& mesh, std::string name) {
   return tank;
 }
 
-/// Holds of a body, to which given ones are added, and the meshes that change with them.
-struct HoldsOfBody {
+/// A vessel that holds are added to, and the meshes that change with them.
+struct GivenTo {
+  const TriangleMesh& closed;  ///< of the vessel, or of the body without holds
+  const std::string& source;   ///< begins lines and messages
   std::vector<Hold>& holds;
   TriangleMesh& walls;     ///< with holds: the faces of walls alone
   TriangleMesh& cavities;  ///< closed surfaces inside that nothing fills
-};
-
-/// A vessel that holds are added to.
-struct GivenTo {
-  const TriangleMesh& closed;
-  const std::string& source;
-  const HoldsOfBody& body;
 };
 
 void addTank(const std::filesystem::path& file, double scale, const GivenTo& to) {
@@ -92,15 +87,15 @@ void addTank(const std::filesystem::path& file, double scale, const GivenTo& to)
   const CheckedMesh tank = requireSound(checkMesh(importMesh(file, scale).mesh, name), name);
   if (hasPoint(tank.mesh, false, to.closed))
     raiseInputError(name, "the tank is not wholly inside ", to.source);
-  for (const Hold& hold : to.body.holds) {
+  for (const Hold& hold : to.holds) {
     const TriangleMesh room = meshOf(hold.surface);
     if (hasPoint(tank.mesh, true, room) || hasPoint(room, true, tank.mesh))
       raiseInputError(name, "the tank reaches into the ", hold.name, " of ", to.source);
   }
-  to.body.holds.push_back(tankOf(tank.mesh, file.stem().string()));
+  to.holds.push_back(tankOf(tank.mesh, file.stem().string()));
   // A tank in a cavity is empty as a part of it: its surface, outward, keeps its room from being
   // taken off the uniform mass twice.
-  TriangleMesh& cavities = to.body.cavities;
+  TriangleMesh& cavities = to.cavities;
   if (cavities.triangleCount() > 0 && !hasPoint(tank.mesh, false, cavities))
     cavities = joinMeshes({cavities, tank.mesh});
 }
@@ -130,9 +125,9 @@ void addOpening(const GivenOpening& opening, std::size_t number, const GivenTo& 
   if (!opening.normal.allFinite() || opening.normal.isZero(0))
     raiseInputError(name, "its normal (", opening.normal.transpose(), ") is no direction");
   if (!opening.place.allFinite()) raiseInputError(name, "its place is not finite");
-  if (to.body.holds.empty()) raiseInputError(name, "there is no hold that it could open");
-  const NearestWall nearest = nearestWall(to.body.holds, opening.place);
-  Hold& hold = to.body.holds[nearest.hold];
+  if (to.holds.empty()) raiseInputError(name, "there is no hold that it could open");
+  const NearestWall nearest = nearestWall(to.holds, opening.place);
+  Hold& hold = to.holds[nearest.hold];
   const TriangleMesh walls = meshOf(hold.surface);
   const double most = kFarthest * walls.extents().norm();
   if (!(nearest.distance <= most))
@@ -148,25 +143,19 @@ void addOpening(const GivenOpening& opening, std::size_t number, const GivenTo& 
 /// Adds the tanks and openings that a user has given to the holds of a vessel. A tank is a hold
 /// without openings, in the walls or in a cavity of the body; an opening belongs to the hold whose
 /// wall is nearest. Returns a line for each tank.
-/// @param closed mesh of the vessel, or of the body without holds
-/// @param given tanks and openings
-/// @param source begins lines and messages
-/// @param body takes what is new
 /// @throws std::runtime_error in one line that names the file of the tank, if it is no closed body,
 /// is not inside the vessel or reaches into another hold; or the number of the opening, if it has
 /// no area or direction, or no hold is near
-std::vector<std::string> addGivenHolds(const TriangleMesh& closed, const HoldSearch& given,
-                                       const std::string& source, const HoldsOfBody& body) {
-  const GivenTo to{closed, source, body};
-  const auto found = static_cast<std::ptrdiff_t>(body.holds.size());
+std::vector<std::string> addGivenHolds(const HoldSearch& given, const GivenTo& to) {
+  const auto found = static_cast<std::ptrdiff_t>(to.holds.size());
   for (const std::filesystem::path& file : given.tanks) addTank(file, given.tank_scale, to);
   if (!given.tanks.empty())
-    body.walls = joinMeshes({found == 0 ? closed : body.walls,
-                             emptied({body.holds.begin() + found, body.holds.end()})});
+    to.walls = joinMeshes(
+        {found == 0 ? to.closed : to.walls, emptied({to.holds.begin() + found, to.holds.end()})});
   for (std::size_t i = 0; i < given.openings.size(); ++i) addOpening(given.openings[i], i + 1, to);
   std::vector<std::string> lines;
-  for (auto hold = body.holds.begin() + found; hold != body.holds.end(); ++hold)
-    lines.push_back(inputMessage(source, holdText(*hold), "; a tank"));
+  for (auto hold = to.holds.begin() + found; hold != to.holds.end(); ++hold)
+    lines.push_back(inputMessage(to.source, holdText(*hold), "; a tank"));
   return lines;
 }
 
@@ -352,9 +341,9 @@ std::vector<std::string> takeHolds(TriangleMesh& mesh, BuildSettings& settings) 
   for (const Hold& hold : settings.found_holds)
     vessel.lines.push_back(
         inputMessage(sourceOf(settings), holdText(hold, settings.holds.unit), "; it stays dry"));
-  const std::vector<std::string> given =
-      addGivenHolds(mesh, settings.holds, sourceOf(settings),
-                    {settings.found_holds, settings.walls, settings.cavities});
+  const std::vector<std::string> given = addGivenHolds(
+      settings.holds,
+      {mesh, sourceOf(settings), settings.found_holds, settings.walls, settings.cavities});
   vessel.lines.insert(vessel.lines.end(), given.begin(), given.end());
   return vessel.lines;
 }

@@ -168,19 +168,15 @@ Matrix6 restoringStiffness(const WetVolume& wet, const SurfacePlane& plane, cons
 
 namespace {
 
-// Heave along the normal and turns about two axes of the plane, about the centre of mass.
-struct Floaters {
-  Vector3 up;
-  PlaneAxes axes;
-};
-
+// Twists about the centre of mass, in columns.
 using Motions = Eigen::Matrix<double, 6, 3>;
 
-// Twists about the centre of mass, in columns.
-Motions motionsOf(const Floaters& of) {
+// Heave along the normal and turns about two axes of the plane.
+Motions motionsOf(const Vector3& up) {
+  const PlaneAxes axes(up);
   Motions motions;
-  motions << stack(Vector3::Zero(), of.up), stack(of.axes.first, Vector3::Zero()),
-      stack(of.axes.second, Vector3::Zero());
+  motions << stack(Vector3::Zero(), up), stack(axes.first, Vector3::Zero()),
+      stack(axes.second, Vector3::Zero());
   return motions;
 }
 
@@ -213,10 +209,10 @@ Eigen::Matrix3d inertiaOf(const FloatingBody& body, const PackedHull& hull,
 }
 
 SmallOscillation modeOf(const Eigen::Vector3d& q, double square, const Eigen::Matrix3d& stiffness,
-                        const Floaters& of) {
+                        const Motions& motions) {
   SmallOscillation mode;
   mode.period = square > 0 ? 2 * kPi / std::sqrt(square) : HUGE_VAL;
-  const Vector3 turn = q[1] * of.axes.first + q[2] * of.axes.second;
+  const Vector3 turn = motions.topRows<3>() * q;
   if (turn.norm() > 0) mode.turn = turn.normalized();
   mode.is_heave = 2 * q[0] * q[0] * stiffness(0, 0) > q.dot(stiffness * q);
   if (mode.is_heave) mode.turn.setZero();
@@ -225,8 +221,7 @@ SmallOscillation modeOf(const Eigen::Vector3d& q, double square, const Eigen::Ma
 
 std::array<SmallOscillation, 3> modesOf(const FloatingBody& body, const PackedHull& hull,
                                         const FloatingPose& pose) {
-  const Floaters of{pose.plane.normal, PlaneAxes(pose.plane.normal)};
-  const Motions motions = motionsOf(of);
+  const Motions motions = motionsOf(pose.plane.normal);
   const Eigen::Matrix3d K = stiffnessOf(body, pose, motions);
   const Eigen::Matrix3d M = inertiaOf(body, hull, pose, motions);
   AMBIENT_ASSERT(isSymmetric(K, 1e-6) && isSymmetric(M, 1e-6));
@@ -238,7 +233,7 @@ std::array<SmallOscillation, 3> modesOf(const FloatingBody& body, const PackedHu
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d q = root * eigen.vectors.col(i);
     const double square = eigen.values[i] > kNeutral * eigen.values[2] ? eigen.values[i] : 0;
-    modes[static_cast<std::size_t>(i)] = modeOf(q, square, K, of);
+    modes[static_cast<std::size_t>(i)] = modeOf(q, square, K, motions);
   }
   return modes;
 }

@@ -196,9 +196,6 @@ std::vector<Eigen::Vector3i> dividePolygon(const std::vector<Eigen::Vector3d>& c
 
 namespace {
 
-using Eigen::Index;
-using Eigen::Vector3d;
-
 TriangleQuality qualityOf(const TriangleMesh& mesh, Index t) {
   std::array<double, 3> edges{};
   for (int k = 0; k < 3; ++k) edges[k] = (mesh.corner(t, (k + 1) % 3) - mesh.corner(t, k)).norm();

@@ -133,13 +133,13 @@ TriangleMesh makeTriangleMesh(const std::vector<Eigen::Vector3d>& vertices,
                               const std::vector<Eigen::Vector3i>& triangles) {
   Eigen::Matrix3Xd columns(3, static_cast<Eigen::Index>(vertices.size()));
   for (std::size_t i = 0; i < vertices.size(); ++i) columns.col(i) = vertices[i];
-  return makeTriangleMesh(std::move(columns), triangles);
+  return makeTriangleMesh(columns, triangles);
 }
 
-TriangleMesh makeTriangleMesh(Eigen::Matrix3Xd vertices,
+TriangleMesh makeTriangleMesh(const Eigen::Ref<const Eigen::Matrix3Xd>& vertices,
                               const std::vector<Eigen::Vector3i>& triangles) {
   TriangleMesh mesh;
-  mesh.vertices = std::move(vertices);
+  mesh.vertices = vertices;
   mesh.triangles.resize(3, static_cast<Eigen::Index>(triangles.size()));
   for (std::size_t i = 0; i < triangles.size(); ++i) mesh.triangles.col(i) = triangles[i];
   return mesh;

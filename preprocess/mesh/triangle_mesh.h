@@ -136,7 +136,7 @@ void appendGridTriangles(int rows, int columns, VertexAt vertex,
 /// Makes a mesh of vertices and triangles.
 TriangleMesh makeTriangleMesh(const std::vector<Eigen::Vector3d>& vertices,
                               const std::vector<Eigen::Vector3i>& triangles);
-TriangleMesh makeTriangleMesh(Eigen::Matrix3Xd vertices,
+TriangleMesh makeTriangleMesh(const Eigen::Ref<const Eigen::Matrix3Xd>& vertices,
                               const std::vector<Eigen::Vector3i>& triangles);
 
 /// The columns of a matrix, as a list: vertices or triangles of a mesh.

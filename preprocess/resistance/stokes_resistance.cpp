@@ -183,8 +183,6 @@ Eigen::MatrixXd assembleStokesMatrix(const std::vector<Panel>& panels,
 
 namespace {
 
-using Eigen::Index;
-using Eigen::Vector3d;
 using MatrixX6 = Eigen::Matrix<double, Eigen::Dynamic, 6>;
 
 constexpr double kMostTriangles =

@@ -63,7 +63,6 @@ json parseJson(const std::string& text, const std::string& source) {
 
 namespace {
 
-using nlohmann::json;
 using Path = std::vector<std::string>;
 
 /// A part of a schema, and the document that its "#/..." references are relative to.

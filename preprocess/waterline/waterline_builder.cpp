@@ -132,7 +132,6 @@ MirroredMesh withImage(const TriangleMesh& wet) {
 
 namespace {
 
-using Eigen::Index;
 using MatrixX6 = Eigen::Matrix<double, Eigen::Dynamic, 6>;
 constexpr int kThreads = 1;
 

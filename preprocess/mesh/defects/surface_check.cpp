@@ -1,4 +1,3 @@
-
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -264,11 +263,20 @@ CheckedMesh orientShells(const TriangleMesh& mesh, const MeshEdges& edges,
 }
 
 CheckedMesh withoutUnusedVertices(const TriangleMesh& mesh, const std::string& name) {
-  TriangleMesh used = withUsedVertices(mesh.vertices, columnsOf(mesh.triangles));
-  const Eigen::Index unused = mesh.vertexCount() - used.vertexCount();
+  std::vector<int> number(mesh.vertexCount(), -1);  // of vertices that are used, in their order
+  for (const int corner : mesh.triangles.reshaped()) number[corner] = 0;
+  std::vector<Eigen::Vector3d> vertices;
+  for (Eigen::Index v = 0; v < mesh.vertexCount(); ++v) {
+    if (number[v] < 0) continue;
+    number[v] = static_cast<int>(vertices.size());
+    vertices.emplace_back(mesh.vertices.col(v));
+  }
+  const std::size_t unused = number.size() - vertices.size();
   if (unused == 0) return {mesh, {}};
+  std::vector<Eigen::Vector3i> triangles = columnsOf(mesh.triangles);
+  for (Eigen::Vector3i& t : triangles) t = {number[t[0]], number[t[1]], number[t[2]]};
   return {
-      std::move(used),
+      makeTriangleMesh(vertices, triangles),
       {name + ": " + std::to_string(unused) + " vertices belong to no triangle and were left out"}};
 }
 

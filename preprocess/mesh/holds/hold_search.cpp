@@ -193,26 +193,20 @@ struct Draft {
   const char* fault = nullptr;
 };
 
-/// The walls and lids of all holds, and what the outside sees.
-struct Drafts {
-  Triangles outside;
-  std::vector<Draft> holds;  // by label, the first one empty
-};
-
-Drafts draftsOf(const TriangleMesh& mesh, const TriangleNeighbours& neighbours,
-                const std::vector<int>& labels) {
+/// The walls and lids of all holds, by label. The first draft is what the outside sees.
+std::vector<Draft> draftsOf(const TriangleMesh& mesh, const TriangleNeighbours& neighbours,
+                            const std::vector<int>& labels) {
   const int count = *std::max_element(labels.begin(), labels.end());
-  Drafts drafts;
-  drafts.holds.resize(static_cast<std::size_t>(count) + 1);
+  std::vector<Draft> drafts(static_cast<std::size_t>(count) + 1);
   for (std::size_t t = 0; t < labels.size(); ++t) {
     const Eigen::Vector3i corners = mesh.triangles.col(static_cast<Eigen::Index>(t));
-    if (labels[t] == 0) drafts.outside.push_back(corners);
-    if (labels[t] > 0) drafts.holds[labels[t]].triangles.push_back(turned(corners));
+    if (labels[t] == 0) drafts[0].triangles.push_back(corners);
+    if (labels[t] > 0) drafts[labels[t]].triangles.push_back(turned(corners));
   }
-  for (Draft& draft : drafts.holds) draft.walls = draft.triangles.size();
+  for (Draft& draft : drafts) draft.walls = draft.triangles.size();
   const LidSpanner spanner(mesh, neighbours, labels);
   for (int k = 1; k <= count; ++k) {
-    Draft& draft = drafts.holds[k];
+    Draft& draft = drafts[k];
     for (const Loop& loop : spanner.loopsOf(k)) {
       if (loop.lid.empty() || (loop.beyond > 0 && loop.beyond < k)) continue;  // that hold's door
       if (spanner.isCrossed(loop)) draft.fault = "the mesh passes through its lid";
@@ -220,12 +214,8 @@ Drafts draftsOf(const TriangleMesh& mesh, const TriangleNeighbours& neighbours,
       draft.triangles.insert(draft.triangles.end(), loop.lid.begin(), loop.lid.end());
       draft.openings.push_back(openingOf(mesh, loop));
       draft.openings.back().to = loop.beyond - 1;
-      for (const Eigen::Vector3i& t : loop.lid) {
-        if (loop.beyond == 0)
-          drafts.outside.push_back(t);
-        else
-          drafts.holds[loop.beyond].triangles.push_back(turned(t));
-      }
+      for (const Eigen::Vector3i& t : loop.lid)
+        drafts[loop.beyond].triangles.push_back(loop.beyond == 0 ? t : turned(t));
     }
   }
   return drafts;
@@ -267,11 +257,11 @@ Vessel spanLids(const TriangleMesh& mesh, const TriangleNeighbours& neighbours,
                 std::vector<int> labels, double unit, const std::string& name) {
   Vessel vessel;
   for (;;) {
-    Drafts drafts = draftsOf(mesh, neighbours, labels);
+    std::vector<Draft> drafts = draftsOf(mesh, neighbours, labels);
     std::vector<Hold> holds;
     int faulty = 0;
-    for (int k = 1; k < static_cast<int>(drafts.holds.size()) && faulty == 0; ++k) {
-      Draft& draft = drafts.holds[k];
+    for (int k = 1; k < static_cast<int>(drafts.size()) && faulty == 0; ++k) {
+      Draft& draft = drafts[k];
       if (!draft.triangles.empty()) holds.push_back(holdOf(mesh, draft));
       if (draft.fault == nullptr) continue;
       faulty = k;
@@ -288,7 +278,7 @@ Vessel spanLids(const TriangleMesh& mesh, const TriangleNeighbours& neighbours,
       continue;
     }
     if (holds.empty()) return vessel;
-    vessel.closed = withUsedVertices(mesh.vertices, drafts.outside);
+    vessel.closed = withUsedVertices(mesh.vertices, drafts[0].triangles);
     if (!isClosed(computeMeshEdges(vessel.closed))) {
       vessel.lines.push_back(
           inputMessage(name, "its holds are left out: lids and walls share edges"));

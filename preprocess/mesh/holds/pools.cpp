@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <list>
 #include <numeric>
 #include <utility>
 
@@ -13,58 +14,12 @@ constexpr double kLeastPool = 0.01;   // of a pool, over its bounding box
 constexpr double kBulkhead = 0.8;     // depth of a pool apart, over that to the spill
 constexpr double kLeastShare = 0.05;  // of a pool apart, of the whole
 
-/// Things numbered 0 to N - 1 in lists that can be joined; each list keeps its order.
-class Chains {
- public:
-  struct Chain {
-    int head = -1, tail = -1;
-  };
-
-  explicit Chains(std::size_t count) : next_(count, -1) {}
-
-  void append(Chain& to, Chain from) {
-    if (from.head < 0) return;
-    if (to.head < 0) {
-      to = from;
-      return;
-    }
-    next_[to.tail] = from.head;
-    to.tail = from.tail;
-  }
-  /// Removes those for which the function is true.
-  template <class Remove>
-  void filter(Chain& chain, const Remove& remove) {
-    Chain kept;
-    for (int i = chain.head; i >= 0;) {
-      const int following = i == chain.tail ? -1 : next_[i];
-      if (!remove(i)) append(kept, {i, i});
-      i = following;
-    }
-    chain = kept;
-  }
-  std::vector<int> itemsOf(const Chain& chain) const {
-    std::vector<int> items;
-    for (int i = chain.head; i >= 0; i = i == chain.tail ? -1 : next_[i]) items.push_back(i);
-    return items;
-  }
-
- private:
-  std::vector<int> next_;
-};
-
-/// A pool while the level rises: what it was when it met another one.
-struct Stage {
-  Chains::Chain vertices;
-  int lowest = 0;
-  double depth = 0, volume = 0;
-};
-
 /// A part of the surface below the level.
 struct Part {
-  Chains::Chain vertices, cut;  ///< all; the triangles that the level may cut
+  std::list<int> vertices, cut;  ///< all; the triangles that the level may cut
   int lowest = -1;
   double area = 0, moment = 0;  ///< sums over the triangles below: A u.n, and that times the height
-  std::vector<Stage> stages;    ///< pools that have met in it; empty: none have
+  std::vector<Pool> stages;     ///< pools that have met in it, as they were; empty: none have
 };
 
 class JoinTree {
@@ -73,8 +28,6 @@ class JoinTree {
       : mesh_(mesh),
         heights_(mesh.vertices.transpose() * up),
         sets_(static_cast<std::size_t>(mesh.vertexCount())),
-        vertex_chains_(static_cast<std::size_t>(mesh.vertexCount())),
-        triangle_chains_(static_cast<std::size_t>(mesh.triangleCount())),
         parts_(static_cast<std::size_t>(mesh.vertexCount())) {
     heights_.array() -= heights_.minCoeff();
     least_depth_ = kLeastDepth * mesh.extents().maxCoeff();
@@ -116,7 +69,7 @@ class JoinTree {
       int low = 0;
       for (int k = 1; k < 3; ++k)
         if (rank_[corners[k]] < rank_[corners[low]]) low = k;
-      triangle_chains_.append(begun_[corners[low]], {t, t});
+      begun_[corners[low]].push_back(t);
     }
   }
 
@@ -130,7 +83,7 @@ class JoinTree {
 
   /// Takes the triangles that lie below the level out of those that it may cut.
   void settle(Part& part, int level_rank) {
-    triangle_chains_.filter(part.cut, [&](int t) {
+    part.cut.remove_if([&](int t) {
       double sum = 0;
       for (const int corner : mesh_.triangles.col(t)) {
         if (rank_[corner] >= level_rank) return false;
@@ -146,7 +99,7 @@ class JoinTree {
   /// cap; negative: a pool.
   double volumeBelow(const Part& part, double level) const {
     double volume = part.moment - part.area * level;
-    for (const int t : triangle_chains_.itemsOf(part.cut)) {
+    for (const int t : part.cut) {
       std::array<double, 3> depth;
       for (int k = 0; k < 3; ++k) depth[k] = level - heights_[mesh_.triangles(k, t)];
       std::sort(depth.begin(), depth.end());
@@ -169,13 +122,13 @@ class JoinTree {
     const std::vector<int> roots = partsBelow(v);
     meet(v, roots);
     Part all;
-    vertex_chains_.append(all.vertices, {v, v});
-    all.cut = begun_[v];
+    all.vertices.push_back(v);
+    all.cut = std::move(begun_[v]);
     all.lowest = v;
     for (const int root : roots) {
       Part& part = parts_[root];
-      vertex_chains_.append(all.vertices, part.vertices);
-      triangle_chains_.append(all.cut, part.cut);
+      all.vertices.splice(all.vertices.end(), part.vertices);
+      all.cut.splice(all.cut.end(), part.cut);
       if (rank_[part.lowest] < rank_[all.lowest]) all.lowest = part.lowest;
       all.area += part.area;
       all.moment += part.moment;
@@ -202,25 +155,29 @@ class JoinTree {
     }
     for (const auto& [root, volume] : pools) {
       Part& part = parts_[root];
-      const Stage whole{part.vertices, part.lowest, heights_[v] - heights_[part.lowest], volume};
-      const bool spills = outside > volume;
-      if (!spills && pools.size() > 1 && part.stages.empty()) part.stages.push_back(whole);
-      if (!spills) continue;
-      if (volume > least_volume_) spill(part, whole);
+      const auto now = [&, volume = volume] {
+        return Pool{{part.vertices.begin(), part.vertices.end()},
+                    part.lowest,
+                    heights_[v] - heights_[part.lowest],
+                    volume};
+      };
+      if (!(outside > volume)) {
+        if (pools.size() > 1 && part.stages.empty()) part.stages.push_back(now());
+        continue;
+      }
+      if (volume > least_volume_) spill(part, now());
       part.stages.clear();
     }
   }
 
-  void spill(const Part& part, const Stage& whole) {
-    std::vector<Stage> apart;
-    for (const Stage& stage : part.stages) {
+  void spill(const Part& part, const Pool& whole) {
+    std::vector<Pool> apart;
+    for (const Pool& stage : part.stages) {
       if (stage.depth > kBulkhead * whole.depth && stage.volume > kLeastShare * whole.volume)
         apart.push_back(stage);
     }
     if (apart.size() < 2) apart = {whole};
-    for (const Stage& stage : apart)
-      pools_.push_back(
-          {vertex_chains_.itemsOf(stage.vertices), stage.lowest, stage.depth, stage.volume});
+    std::move(apart.begin(), apart.end(), std::back_inserter(pools_));
   }
 
   const TriangleMesh& mesh_;
@@ -228,9 +185,8 @@ class JoinTree {
   double least_depth_ = 0, least_volume_ = 0;
   std::vector<int> order_, rank_;        // by height
   std::vector<std::vector<int>> lower_;  // neighbours of a vertex
-  std::vector<Chains::Chain> begun_;     // triangles whose lowest corner a vertex is
+  std::vector<std::list<int>> begun_;    // triangles whose lowest corner a vertex is
   DisjointSets sets_;
-  Chains vertex_chains_, triangle_chains_;
   std::vector<Part> parts_;  // of a root
   std::vector<Pool> pools_;
 };

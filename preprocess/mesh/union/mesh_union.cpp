@@ -59,8 +59,6 @@ namespace {
 
 using Meshes = std::vector<TriangleMesh>;
 
-using Eigen::Vector3d;
-
 /// The side of a body at an edge: its angle around the edge from low to high, and whether the body
 /// lies at larger angles (a half edge from high to low) or at smaller ones.
 struct WedgeSide {

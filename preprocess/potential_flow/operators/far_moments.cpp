@@ -150,11 +150,8 @@ PanelMoments computeExteriorMoments(const PanelSurface& surface, const NearPanel
 
 namespace {
 
-using Eigen::Index;
 using Eigen::MatrixXf;
 using Eigen::VectorXd;
-using Matrix36 = Eigen::Matrix<double, 3, 6>;
-using RowVector6 = Eigen::Matrix<double, 1, 6>;
 
 constexpr Index kFields = 7;  // the six jumps and a jump of 1, which makes the solid angle
 

@@ -112,8 +112,6 @@ NearPanels findNearPanels(const PanelSurface& surface, int threads) {
 namespace {
 
 using Eigen::ArrayXd;
-using Eigen::Index;
-using Eigen::Vector3d;
 
 constexpr Index kPanelsAtOnce = 128;  // held in memory between the two passes
 constexpr Index kRowBlock = 64;

@@ -186,8 +186,6 @@ void raiseOutOfMemory(Eigen::Index panels, double bytes) {
 
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXf;
 using Eigen::Vector3d;
 using MatrixX6 = Eigen::Matrix<double, Eigen::Dynamic, 6>;
 using RowVector6 = Eigen::Matrix<double, 1, 6>;

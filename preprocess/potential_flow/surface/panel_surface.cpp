@@ -102,9 +102,6 @@ bool areSmooth(const std::vector<FaceBulge>& bulges) {
 
 namespace {
 
-using Eigen::Index;
-using Eigen::Vector3d;
-
 struct Centroids {
   Vector3d of_area = Vector3d::Zero(), of_volume = Vector3d::Zero();
   double volume = 0;

@@ -116,9 +116,6 @@ DividedSurface cutEdges(const DividedSurface& surface, const MeshEdges& edges,
 
 namespace {
 
-using Eigen::Index;
-using Eigen::Vector3d;
-
 // No simple ratio of lengths is the inverse golden ratio, so that rounding does not decide.
 constexpr double kLongEdge = 0.61803398874989485;
 constexpr int kEdgeLevels = 4;

@@ -16,9 +16,7 @@ void importAndCheck(std::uint8_t choice, std::string_view bytes) {
   std::unique_ptr<FuzzFile>& file = files[choice % kExtensions.size()];
   if (!file) file = std::make_unique<FuzzFile>(kExtensions[choice % kExtensions.size()]);
   const std::filesystem::path& path = file->write(bytes);
-  MeshCheckSettings settings;
-  settings.sheet = choice >= 128;
-  mayRefuse([&] { checkMesh(importMesh(path).mesh, "fuzz", settings); });
+  mayRefuse([&] { checkMesh(importMesh(path).mesh, "fuzz", choice >= 128); });
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/shapes/primitives.h"
 #include "preprocess/mesh/triangle_mesh.h"
+#include "preprocess/mesh/wings/triangle_tree.h"
 #include "preprocess/mesh/wrap/surface_wrap.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 

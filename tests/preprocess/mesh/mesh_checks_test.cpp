@@ -19,12 +19,12 @@ namespace ambient {
 namespace {
 
 /// The mesh that comes of the check. @throws std::runtime_error with the first defect
-CheckedMesh sound(const TriangleMesh& mesh, const MeshCheckSettings& settings = {}) {
-  return requireSound(checkMesh(mesh, "thing.obj", settings), "thing.obj");
+CheckedMesh sound(const TriangleMesh& mesh, bool sheet = false) {
+  return requireSound(checkMesh(mesh, "thing.obj", sheet), "thing.obj");
 }
 
-std::string refusal(const TriangleMesh& mesh, const MeshCheckSettings& settings = {}) {
-  return messageOf([&] { sound(mesh, settings); });
+std::string refusal(const TriangleMesh& mesh, bool sheet = false) {
+  return messageOf([&] { sound(mesh, sheet); });
 }
 
 std::vector<std::string> kindsOf(const TriangleMesh& mesh) {
@@ -51,7 +51,7 @@ TEST(MeshChecks, SoundMeshesPassUnchanged) {
     EXPECT_TRUE(checked.warnings.empty());
   }
   const TriangleMesh sheet = makeEllipticSheetMesh(1, 2, 100);
-  EXPECT_TRUE(areEqual(sound(sheet, {true}).mesh, sheet));
+  EXPECT_TRUE(areEqual(sound(sheet, true).mesh, sheet));
 }
 
 // Limits are relative: equal verdicts from nanometres to gigametres.
@@ -342,24 +342,24 @@ TEST(MeshChecks, OneSidedSurfacesAreRefused) {
       triangles.push_back({a, c, b});
     }
   }
-  EXPECT_NE(refusal(meshOf(vertices, triangles), {true}).find("one-sided"), std::string::npos);
+  EXPECT_NE(refusal(meshOf(vertices, triangles), true).find("one-sided"), std::string::npos);
 }
 
 TEST(MeshChecks, SheetsMustBeOpenInEveryPart) {
   const std::string ending = "is closed: a sheet needs a boundary (a closed surface is a body)";
-  const std::string message = refusal(cube(1), {true});
+  const std::string message = refusal(cube(1), true);
   EXPECT_NE(message.find("thing.obj: the surface around triangle 0 at vertex 0 (-1, "),
             std::string::npos)
       << message;
   EXPECT_NE(message.find(ending), std::string::npos);
   const TriangleMesh mixed = joined(makeRectangularSheetMesh(1, 1, 100), moved(cube(1), {5, 0, 0}));
-  EXPECT_NE(refusal(mixed, {true}).find(ending), std::string::npos);
+  EXPECT_NE(refusal(mixed, true).find(ending), std::string::npos);
 }
 
 TEST(MeshChecks, VerticesInsideEveryPartOfASheetAreSeen) {
   const TriangleMesh square =
       meshOf({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}});
-  EXPECT_EQ(sound(square, {true}).mesh.triangleCount(), 2);
+  EXPECT_EQ(sound(square, true).mesh.triangleCount(), 2);
   EXPECT_FALSE(hasVerticesInside(square));
   const TriangleMesh fine = makeRectangularSheetMesh(1, 1, 100);
   EXPECT_TRUE(hasVerticesInside(fine));
@@ -370,7 +370,7 @@ TEST(MeshChecks, SheetsKeepTheSideOfMostTriangles) {
   TriangleMesh mesh = makeRectangularSheetMesh(1, 2, 200);
   const TriangleMesh turned = insideOut(mesh);
   mesh.triangles.col(0) = turned.triangles.col(0);
-  const CheckedMesh checked = sound(mesh, {true});
+  const CheckedMesh checked = sound(mesh, true);
   for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) {
     const Eigen::Vector3d a = checked.mesh.corner(t, 0), b = checked.mesh.corner(t, 1),
                           c = checked.mesh.corner(t, 2);

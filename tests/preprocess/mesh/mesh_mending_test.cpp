@@ -35,7 +35,7 @@ TEST(MeshMending, OneCopyIsKeptWhereEveryTriangleStandsTwice) {
   }
   const TriangleMesh sheet = makeRectangularSheetMesh(1, 1, 100);
   const CheckedMesh checked =
-      checkMesh(weldVertices(joined(sheet, insideOut(sheet)), 0), "sheet.obj", {true});
+      checkMesh(weldVertices(joined(sheet, insideOut(sheet)), 0), "sheet.obj", true);
   EXPECT_TRUE(checked.defects.empty());
   EXPECT_EQ(checked.mesh.vertices, sheet.vertices);
   EXPECT_EQ(checked.mesh.triangles, sheet.triangles);

@@ -61,7 +61,7 @@ TEST(Shape, SheetsHaveTheAreaOfTheSmoothSurface) {
     EXPECT_TRUE(isSheet(shape)) << text;
     const TriangleMesh mesh = makeShapeMesh(shape).mesh;
     EXPECT_NEAR(computeSheetMassProperties(mesh).area / area, 1, 1e-13) << text;
-    EXPECT_TRUE(requireSound(checkMesh(mesh, text, {true}), text).warnings.empty());
+    EXPECT_TRUE(requireSound(checkMesh(mesh, text, true), text).warnings.empty());
   }
 }
 
