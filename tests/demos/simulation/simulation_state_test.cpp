@@ -1,8 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <fstream>
-
-#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "demos/simulation/scene_body_cache.h"
 #include "demos/simulation/simulation.h"
 #include "preprocess/base/fluid_body_writer.h"
@@ -121,13 +118,6 @@ ShapeDescription ball(double radius) {
   return readShape({{"type", "sphere"}, {"radius", radius}, {"faces", 80}}, "", "ball");
 }
 
-std::vector<std::filesystem::path> filesIn(const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    files.push_back(entry.path());
-  return files;
-}
-
 TEST(SceneBodyCache, SolvesAShapeOnce) {
   SceneBodyCache cache;
   const auto first = cache.get(ball(1), "a");
@@ -179,35 +169,6 @@ TEST(SceneBodyCache, SaysOfABodyThatItReadsWhatWasSaidOfIt) {
     EXPECT_EQ(lines[0].rfind("scene.json: 80 triangles are few", 0), 0u) << lines[0];
     cache.save();
   }
-}
-
-TEST(SceneBodyCache, ReplacesADamagedFile) {
-  const TemporaryFolder folder;
-  SceneBodyCache cache(folder.path());
-  const auto solved = cache.get(ball(1), "a");
-  cache.save();
-  ASSERT_EQ(filesIn(folder.path()).size(), 1u);
-  const auto file = filesIn(folder.path())[0];
-  std::filesystem::resize_file(file, 100);
-  SceneBodyCache next(folder.path());
-  EXPECT_EQ(encodeFluidBody(*next.get(ball(1), "a"), ""), encodeFluidBody(*solved, ""));
-  next.save();
-  EXPECT_NO_THROW(readFluidBody(file));
-}
-
-TEST(SceneBodyCache, AnEditedMeshIsAnotherBody) {
-  const TemporaryFolder folder;
-  const auto mesh = folder / "tetrahedron.obj";
-  const char* const triangles = "v 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
-  const ShapeDescription shape =
-      readShape({{"type", "mesh"}, {"file", mesh.string()}}, "", "tetrahedron");
-  std::ofstream(mesh) << "v 0 0 0\nv 1 0 0\n" << triangles;
-  SceneBodyCache cache(folder / "cache");
-  const double volume = cache.get(shape, "a")->volume;
-  cache.save();
-  std::ofstream(mesh) << "v 0 0 0\nv 3 0 0\n" << triangles;
-  SceneBodyCache next(folder / "cache");
-  EXPECT_NEAR(next.get(shape, "a")->volume, 3 * volume, 1e-9);
 }
 
 }  // namespace

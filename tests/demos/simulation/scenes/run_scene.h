@@ -145,7 +145,7 @@ inline std::vector<std::pair<int, int>> pairsOf(const Simulation& simulation) {
 /// `share` of all steps are compared.
 inline void expectSavedStatesGoOn(const Scene& scene, int rounds = 1, double share = 1) {
   constexpr int kSteps = 30;
-  const std::vector<PreparedBody> bodies = prepare(scene);
+  const std::vector<PreparedBody> bodies = prepareSharing(scene);
   Simulation simulation(scene, bodies), other(scene, bodies);
   int compared = 0;
   for (int round = 0; round < rounds; ++round) {
