@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <sstream>
 #include <vector>
 
 #include "bullet_ambient/base/pi.h"
@@ -15,9 +14,9 @@
 #include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/builder/shape_builder.h"
 #include "preprocess/mesh/wings/wing_numbers.h"
+#include "tests/preprocess/mesh/mesh_files.h"
 #include "tests/support/bodies/random_bodies.h"
 #include "tests/support/refusal_of.h"
-#include "tests/support/temporary_folder.h"
 
 namespace ambient {
 namespace {
@@ -84,13 +83,7 @@ TriangleMesh wingOf(const Naca& naca, double span, int half = 12, int along = 10
 
 FluidBody built(const TriangleMesh& mesh) {
   const TemporaryFolder folder;
-  std::ostringstream text;
-  text.precision(17);
-  for (Eigen::Index v = 0; v < mesh.vertexCount(); ++v)
-    text << "v " << mesh.vertices.col(v).transpose() << "\n";
-  for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t)
-    text << "f " << (mesh.triangles.col(t).array() + 1).transpose() << "\n";
-  writeText(folder / "wing.obj", text.str());
+  writeText(folder / "wing.obj", objText(mesh));
   ShapeDescription shape;
   shape.geometry = MeshFile{folder / "wing.obj"};
   shape.source = "wing";

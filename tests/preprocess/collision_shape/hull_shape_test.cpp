@@ -38,6 +38,14 @@ void addOctahedron(btConvexHullShape& hull, btScalar size) {
     }
 }
 
+/// Flow about a polyhedron, on so many panels at most.
+PotentialFlowSettings ofSides(int max_panels) {
+  PotentialFlowSettings settings;
+  settings.polyhedron = true;
+  settings.max_panels = max_panels;
+  return settings;
+}
+
 // Bullet's default margin of 4 cm is as large as these hulls.
 TEST(HullShape, AMarginDisplacesNothing) {
   const auto size = btScalar(0.05);
@@ -142,9 +150,7 @@ TEST(HullShape, FewPanelsDoForAPolyhedron) {
   hull.recalcLocalAabb();
   const FluidBody body = makeFluidBody(hull);
   const TriangleMesh mesh = surfaceMeshOf(body);
-  PotentialFlowSettings settings;
-  settings.polyhedron = true;
-  settings.max_panels = 1500;
+  PotentialFlowSettings settings = ofSides(1500);
   const RefinedFlow few = solveRefinedFlow(mesh, settings);
   EXPECT_LE(few.panels, 1500);
   EXPECT_LT(test::rotationError(body.added_mass, few.added_mass), 1e-9) << "these are the body's";
@@ -179,9 +185,8 @@ TriangleMesh meshOf(const btConvexHullShape& hull) {
 TEST(HullShape, AHullOfManySidesIsSolvedOnFewCompactPanels) {
   const btConvexHullShape hull = drum(60, 0.2);
   const TriangleMesh mesh = meshOf(hull);
-  PotentialFlowSettings settings;
-  settings.polyhedron = settings.convex = true;
-  settings.max_panels = 1500;
+  PotentialFlowSettings settings = ofSides(1500);
+  settings.convex = true;
   EXPECT_LE(solveRefinedFlow(evenlyDivided(mesh, 1300), settings).panels, 600);
   settings.convex = false;
   settings.max_panels = static_cast<int>(kMostDensePanels);
@@ -204,9 +209,7 @@ TEST(HullShape, UnionsOfDrumsAreSolvedOnCompactPanels) {
   joined.addChildShape(pose, &across);
   const FluidBody body = makeFluidBody(joined);
   const TriangleMesh mesh = surfaceMeshOf(body);
-  PotentialFlowSettings settings;
-  settings.polyhedron = true;
-  settings.max_panels = 1500;
+  PotentialFlowSettings settings = ofSides(1500);
   EXPECT_LE(solveRefinedFlow(mesh, settings).panels, 1000);
   settings.max_panels = static_cast<int>(kMostDensePanels);
   const RefinedFlow many = solveRefinedFlow(mesh, settings);
@@ -227,9 +230,7 @@ TEST(HullShape, UnionsOfManySidesAreSolvedOnFewerTriangles) {
   }
   const FluidBody body = makeFluidBody(star);
   const TriangleMesh mesh = surfaceMeshOf(body), sides = mergePolyhedronSides(mesh);
-  PotentialFlowSettings settings;
-  settings.polyhedron = true;
-  settings.max_panels = 1500;
+  PotentialFlowSettings settings = ofSides(1500);
   const int most = 2000;
   ASSERT_GT(sides.triangleCount(), most + 500);
   const RefinedFlow few = solveRefinedFlow(mesh, settings);
@@ -274,10 +275,7 @@ TEST(HullShape, DrumsOfManyCornersAreCylindersOfTheirVolume) {
   const double volume = computeMassProperties(meshOf(hull)).volume;
   EXPECT_NEAR(body.volume / volume, 1, 3e-4);
   EXPECT_NEAR(body.centre_of_volume.x(), 0.35, 1e-4);
-  PotentialFlowSettings settings;
-  settings.polyhedron = true;
-  settings.max_panels = 3000;
-  const RefinedFlow flow = solveRefinedFlow(meshOf(hull), settings);
+  const RefinedFlow flow = solveRefinedFlow(meshOf(hull), ofSides(3000));
   EXPECT_LT(test::rotationError(body.added_mass, flow.added_mass), 1e-2);
   EXPECT_LT(test::translationError(body.added_mass, flow.added_mass), 5e-3);  // measured 3.0e-3
 }
