@@ -51,8 +51,7 @@ struct Place : btMotionState {
 btTransform motionStateAfter(double call_step, int calls) {
   FluidWorld scene;
   Place place;
-  BodyDef def;
-  def.start.twist = {Vector3(0, 0, 3), Vector3(1, 0, 0)};
+  BodyDef def{1, Vector3::Ones(), startWith({Vector3(0, 0, 3), Vector3(1, 0, 0)})};
   // Makes a curved path: the added mass across is twice the one along.
   Matrix6 added = Matrix6::Identity();
   added(4, 4) = 3;
@@ -95,8 +94,7 @@ TEST(Features, ADetachedBodyFliesOnAsInAVacuum) {
 TEST(Features, ABodyDetachedBetweenSolverAndActionKeepsTheMeanVelocityOfItsFlight) {
   const double dt = 1.0 / 64;
   FluidWorld scene, attached;
-  BodyDef def;
-  def.start.twist.linear = {1, 2, 3};
+  BodyDef def{1, Vector3::Ones(), startWith({Vector3::Zero(), {1, 2, 3}})};
   btRigidBody& body = scene.add(def, facelessEllipsoid(kUnequalAxes), idealFluid(1000));
   const btRigidBody& twin = attached.add(def, facelessEllipsoid(kUnequalAxes), idealFluid(1000));
   const OtherAction detach(scene, [&] {
@@ -116,9 +114,8 @@ TEST(Features, ABodyDetachedBetweenSolverAndActionKeepsTheMeanVelocityOfItsFligh
 
 TEST(Features, ABodyMadeKinematicIsLeftToBullet) {
   FluidWorld scene;
-  BodyDef def;
-  def.start.twist.linear = {1, 0, 0};
-  btRigidBody& body = scene.add(def, meshedEllipsoid(kUnequalAxes, 1), water());
+  btRigidBody& body = scene.add({1, Vector3::Ones(), startWith({Vector3::Zero(), {1, 0, 0}})},
+                                meshedEllipsoid(kUnequalAxes, 1), water());
   scene.step(1.0 / 64);
   scene.world.removeRigidBody(&body);
   body.setCollisionFlags(body.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
@@ -165,9 +162,8 @@ TEST(Features, TheMediumMayChangeInEveryStep) {
 }
 
 BodyDef spinning(double rate) {
-  BodyDef def{1, Vector3(0.02, 0.03, 0.04), {}, nullptr};
-  def.start.twist = {Vector3(0.1, 0.2, 1).normalized() * rate, Vector3(1, 2, 3)};
-  return def;
+  return {1, Vector3(0.02, 0.03, 0.04),
+          startWith({Vector3(0.1, 0.2, 1).normalized() * rate, Vector3(1, 2, 3)})};
 }
 
 TEST(Features, AnotherActionsImpulseSurvives) {

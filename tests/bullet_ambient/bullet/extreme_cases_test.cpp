@@ -65,8 +65,8 @@ TEST(ExtremeCase, AFeatherAt300MetresPerSecondIsSlowedAsItsDragSays) {
 
 TEST(ExtremeCase, ATumblingFeatherAt300MetresPerSecondOnlyLosesEnergy) {
   const Vector3 semi_axes(0.05, 0.05, 0.01);
-  BodyDef def{2e-4, ellipsoidMoments(semi_axes, 2e-4), {}, nullptr};
-  def.start.twist = {Vector3(100, 50, 20), Vector3(300, 0, 200)};
+  BodyDef def{2e-4, ellipsoidMoments(semi_axes, 2e-4),
+              startWith({Vector3(100, 50, 20), Vector3(300, 0, 200)})};
   FluidWorld scene;
   const btRigidBody& feather = scene.add(def, meshedEllipsoid(semi_axes, 2), air());
   double energy = kineticEnergy(scene, feather);
@@ -88,9 +88,8 @@ TEST(ExtremeCase, AFastModeThatWasAskedForIsNotComplainedAbout) {
   AttachDef attach{std::make_shared<FluidBody>(meshedEllipsoid(Vector3(0.05, 0.05, 0.01), 1)),
                    air()};
   attach.flight.max_substeps = 1;
-  BodyDef def{2e-4, ellipsoidMoments(Vector3(0.05, 0.05, 0.01), 2e-4), {}, nullptr};
-  def.start.twist = {Vector3(100, 50, 20), Vector3(300, 0, 200)};
-  btRigidBody& feather = scene.add(def);
+  btRigidBody& feather = scene.add({2e-4, ellipsoidMoments(Vector3(0.05, 0.05, 0.01), 2e-4),
+                                    startWith({Vector3(100, 50, 20), Vector3(300, 0, 200)})});
   scene.fluid.add(feather, attach);
   scene.step(1.0 / 60, 60);
   const AmbientCounters counters = scene.of(feather).counters();
@@ -146,9 +145,7 @@ TEST(ExtremeCase, ABodyFiredOutOfContactFliesByItsClosedForm) {
   btSphereShape ball_shape(static_cast<btScalar>(kRadius));
   FluidWorld scene;
   setGravity(scene, kEarthGravity);
-  BodyDef floor_def{0, Vector3::Zero(), {}, &floor_shape};
-  floor_def.start.position = {0, 0, -1};
-  scene.add(floor_def);
+  scene.add({0, Vector3::Zero(), startAt({0, 0, -1}), &floor_shape});
   BodyDef def = sphere(0.5, kRadius);
   def.start.position = {0, 0, kRadius};
   def.shape = &ball_shape;
@@ -181,8 +178,7 @@ TEST(ExtremeCase, AStepOfAQuarterOfASecondAfterAStallChangesLittle) {
 
 TEST(ExtremeCase, AMediumThatJumpsBetweenAirAndWaterNeverSpeedsABodyUp) {
   const Vector3 semi_axes(0.2, 0.15, 0.05);
-  BodyDef def{1, ellipsoidMoments(semi_axes, 1), {}, nullptr};
-  def.start.twist = {Vector3(3, 9, 4), Vector3(10, 3, 5)};
+  BodyDef def{1, ellipsoidMoments(semi_axes, 1), startWith({Vector3(3, 9, 4), Vector3(10, 3, 5)})};
   FluidWorld scene;
   const btRigidBody& body = scene.add(def, meshedEllipsoid(semi_axes, 2), air());
   for (int i = 0; i < 240; ++i) {

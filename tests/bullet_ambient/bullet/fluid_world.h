@@ -62,6 +62,16 @@ struct BodyDef {
   btCollisionShape* shape = nullptr;
 };
 
+/// State of a BodyDef at a place, at rest or moving.
+inline RigidState startAt(const Vector3& position, const Twist& twist = {},
+                          const Quaternion& orientation = Quaternion::Identity()) {
+  return {orientation, position, twist};
+}
+inline RigidState startWith(const Twist& twist,
+                            const Quaternion& orientation = Quaternion::Identity()) {
+  return {orientation, Vector3::Zero(), twist};
+}
+
 /// Height of the centre of mass [m].
 inline double heightOf(const btRigidBody& body) {
   return static_cast<double>(body.getWorldTransform().getOrigin().z());

@@ -32,9 +32,7 @@ std::vector<Foil> gliderFoils() {
 
 btRigidBody& addGlider(FluidWorld& world, const std::shared_ptr<const Foils>& foils,
                        double mass = 4, const Twist& start = {}) {
-  BodyDef def{mass, ellipsoidMoments(kUnequalAxes, mass)};
-  def.start.twist = start;
-  btRigidBody& body = world.add(def);
+  btRigidBody& body = world.add({mass, ellipsoidMoments(kUnequalAxes, mass), startWith(start)});
   static const auto shape = std::make_shared<const FluidBody>(facelessEllipsoid(kUnequalAxes));
   AttachDef attach{shape, idealFluid(100)};
   attach.flow.foils = foils;

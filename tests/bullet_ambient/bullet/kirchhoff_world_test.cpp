@@ -121,9 +121,9 @@ TEST(FreeFlight, TurnsByAnyAngleInOneStep) {
   // Balls with 1, 5 and 50 rad per step.
   for (const double spin : {60.0, 300.0, 3000.0}) {
     FluidWorld world;
-    BodyDef def;
-    def.start.twist = {{0, 0, spin}, {1, 0, 0}};
-    const btRigidBody& body = addTo(world, def, shapeWithoutFaces(Matrix6::Identity(), 0), 1);
+    const btRigidBody& body =
+        addTo(world, {1, Vector3::Ones(), startWith({{0, 0, spin}, {1, 0, 0}})},
+              shapeWithoutFaces(Matrix6::Identity(), 0), 1);
     constexpr double kStep = 1.0 / 64;
     constexpr int kSteps = 32;
     world.step(kStep, kSteps);

@@ -19,10 +19,8 @@ namespace {
 constexpr double kStep = 1.0 / 60;
 
 BodyDef bodyAt(double height) {
-  BodyDef def{1, ellipsoidMoments(kUnequalAxes, 1), {}, nullptr};
-  def.start.position = {0, 0, height};
-  def.start.twist = {Vector3(1, 2, 3), Vector3(4, 0, 1)};
-  return def;
+  return {1, ellipsoidMoments(kUnequalAxes, 1),
+          startAt({0, 0, height}, {Vector3(1, 2, 3), Vector3(4, 0, 1)})};
 }
 
 // The counts of the next step alone.
@@ -153,9 +151,9 @@ TEST(SparedWork, TheSolverDoesNotKnowABodyThatFloatsAlone) {
 TEST(SparedWork, ALargeSlowBodyNeedsOneEvaluationPerStep) {
   const Vector3 semi_axes(5, 3, 2);
   FluidWorld scene;
-  BodyDef def{1e5, ellipsoidMoments(semi_axes, 1e5), {}, nullptr};
-  def.start.twist = {Vector3(0, 0.01, 0), Vector3(0.3, 0, 0.1)};
-  scene.add(def, meshedEllipsoid(semi_axes, 1), water());
+  scene.add({1e5, ellipsoidMoments(semi_axes, 1e5),
+             startWith({Vector3(0, 0.01, 0), Vector3(0.3, 0, 0.1)})},
+            meshedEllipsoid(semi_axes, 1), water());
   scene.step(kStep, 2);
   for (int i = 0; i < 20; ++i) {
     const AmbientCounters step = countStep(scene);
@@ -332,8 +330,7 @@ struct Floor {
 
   explicit Floor(bool in_water) {
     scene.world.setGravity({0, 0, static_cast<btScalar>(-9.81)});
-    BodyDef def{0, Vector3::Zero(), {}, &ground};
-    def.start.position = {0, 0, -1};
+    BodyDef def{0, Vector3::Zero(), startAt({0, 0, -1}), &ground};
     scene.add(def);
     def = {400, Vector3::Constant(400 * 0.06), {}, &cube};
     def.start.position = {0, 0, 0.3};

@@ -102,9 +102,8 @@ TEST(Step, AllocatesOnceForABodyWhoseMassChanges) {
   scene.fluid.addRegion(waterBelow(0));
   AttachDef def{std::make_shared<const FluidBody>(floatingEllipsoid(Vector3(0.3, 0.25, 0.1), 2))};
   const auto add = [&](double mass) -> AmbientBody& {
-    BodyDef body_def{mass, mass * Vector3(0.02, 0.03, 0.04), {}, nullptr};
-    body_def.start.position = Vector3(10 * mass, 0, 0);
-    btRigidBody& body = scene.add(body_def);
+    btRigidBody& body =
+        scene.add({mass, mass * Vector3(0.02, 0.03, 0.04), startAt(Vector3(10 * mass, 0, 0))});
     scene.fluid.add(body, def);
     return *ambientBodiesOf(scene.fluid).find(&body);
   };

@@ -48,8 +48,8 @@ TEST(StepErrors, AreToldOnce) {
 TEST(StepErrors, AreReportedOfOneBodyAndCountedOfAll) {
   FluidWorld scene;
   const Vector3 semi_axes(0.05, 0.05, 0.01);
-  BodyDef def{2e-4, ellipsoidMoments(semi_axes, 2e-4), {}, nullptr};
-  def.start.twist = {Vector3(100, 50, 20), Vector3(300, 0, 200)};
+  BodyDef def{2e-4, ellipsoidMoments(semi_axes, 2e-4),
+              startWith({Vector3(100, 50, 20), Vector3(300, 0, 200)})};
   FluidBody shape = meshedEllipsoid(semi_axes, 2);
   for (const char* name : {"feather", "flake"}) {
     shape.name = name;
@@ -142,10 +142,8 @@ TEST(BrokenNumbers, OfRowsAreDroppedAndReported) {
     btRigidBody floor(0, nullptr, &plane);
     scene.world.addRigidBody(&floor);
     btBoxShape box({bt(0.5), bt(0.5), bt(0.5)});
-    BodyDef def;
-    def.shape = &box;
-    def.start.position = {0, 0, 0.5};
-    btRigidBody& body = scene.add(def, meshedEllipsoid(kUnequalAxes, 1), water());
+    btRigidBody& body = scene.add({1, Vector3::Ones(), startAt({0, 0, 0.5}), &box},
+                                  meshedEllipsoid(kUnequalAxes, 1), water());
     body.applyCentralForce({0, 0, bt(-force)});
     for (int i = 0; i < 10; ++i) {
       scene.step(1.0 / 60);

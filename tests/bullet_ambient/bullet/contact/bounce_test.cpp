@@ -25,9 +25,7 @@ double massOf(double density) { return std::max(3 * density, 100.0) * volume(); 
 BodyDef bodyOf(double mass, double z, btCollisionShape& shape) {
   btVector3 moments(0, 0, 0);
   if (mass > 0) shape.calculateLocalInertia(bt(mass), moments);
-  BodyDef def{mass, toVector3(moments), {}, &shape};
-  def.start.position = {0, 0, z};
-  return def;
+  return {mass, toVector3(moments), startAt({0, 0, z}), &shape};
 }
 
 FluidBody ballOf(double radius) {

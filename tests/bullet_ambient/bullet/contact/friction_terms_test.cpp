@@ -228,9 +228,8 @@ btRigidBody& addHull(Slope& slope, Arbitrary& arbitrary, double density_ratio, b
   for (int i = 0; i < 20; ++i)
     slope.hull.addPoint(toBullet(Vector3(arbitrary.vector().normalized().cwiseProduct(axes))));
   const double mass = density_ratio * water().density * ellipsoidVolume(axes);
-  BodyDef def{mass, ellipsoidMoments(axes, mass), {}, &slope.hull};
-  def.start.position = {0, 0, 0.2};
-  btRigidBody& body = slope.add(def);
+  btRigidBody& body =
+      slope.add({mass, ellipsoidMoments(axes, mass), startAt({0, 0, 0.2}), &slope.hull});
   if (!in_fluid) return body;
   AttachDef attach{std::make_shared<FluidBody>(meshedEllipsoid(axes, 1)), water()};
   attach.fluid_frame.rotation =
@@ -261,9 +260,8 @@ int contactsOf(btDispatcher& dispatcher) {
 double rowsPerContact(double angle, const FluidBody& shape) {
   Slope slope(angle);
   btBoxShape box({bt(0.5), bt(0.4), bt(0.3)});
-  BodyDef def{1, Vector3(0.25, 0.34, 0.41) / 3, {}, &box};
-  def.start.position = {0, 0, 0.3};
-  btRigidBody& body = slope.add(def, shape, idealFluid(1));
+  btRigidBody& body = slope.add({1, Vector3(0.25, 0.34, 0.41) / 3, startAt({0, 0, 0.3}), &box},
+                                shape, idealFluid(1));
   slope.place(body);
   slope.step(kSlopeStep);
   const double rows = static_cast<double>(slope.of(body).counters().rows);
@@ -293,9 +291,10 @@ struct Block : FluidWorld {
     const double volume = ellipsoidVolume(kSemiAxes), mass = 1500 * volume;
     world.setGravity({0, 0, bt(in_fluid ? -9.81 : -9.81 * (1 - 998.2 / 1500))});
     world.addRigidBody(&floor);
-    BodyDef def{mass, ellipsoidMoments(kSemiAxes, mass), {}, &shape};
-    def.start.position = {0, 0, kSemiAxes.z()};
-    def.start.orientation = Eigen::AngleAxisd(askew, Vector3::UnitZ());
+    BodyDef def{
+        mass, ellipsoidMoments(kSemiAxes, mass),
+        startAt({0, 0, kSemiAxes.z()}, {}, Quaternion(Eigen::AngleAxisd(askew, Vector3::UnitZ()))),
+        &shape};
     Medium stream = water();
     stream.velocity = {current, 0, 0};
     body = in_fluid ? &add(def, meshedEllipsoid(kSemiAxes, 2), stream) : &add(def);

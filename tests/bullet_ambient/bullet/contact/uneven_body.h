@@ -8,11 +8,7 @@
 namespace ambient::test {
 
 /// Body of 1 kg with unequal principal moments.
-inline BodyDef unevenBody() {
-  BodyDef def;
-  def.moments = {0.4, 0.5, 0.6};
-  return def;
-}
+inline BodyDef unevenBody() { return {1, {0.4, 0.5, 0.6}}; }
 
 /// Fluid body of an added mass alone: no volume, no faces.
 inline FluidBody inertiaAlone(const Matrix6& added_mass) {

@@ -99,11 +99,9 @@ class RandomScene {
   void addGround(Arbitrary& arbitrary) {
     btVector3 lowest, highest;
     body->getAabb(lowest, highest);
-    BodyDef def;
-    def.mass = 0;
-    def.shape = &ground;
-    def.start.position = {0, 0, static_cast<double>(lowest.z()) - 9.96};
-    scene.add(def).setFriction(bt(arbitrary.between(0, 2)));
+    const Vector3 below(0, 0, static_cast<double>(lowest.z()) - 9.96);
+    scene.add({0, Vector3::Ones(), startAt(below), &ground})
+        .setFriction(bt(arbitrary.between(0, 2)));
     body->setFriction(1);
     body->setLinearVelocity(body->getLinearVelocity() - btVector3(0, 0, bt(1.5)));
   }

@@ -19,11 +19,7 @@ int main(int argc, char** argv) {
   const auto shape = std::make_shared<const FluidBody>(floatingEllipsoid(kUnequalAxes, 2));
   btBoxShape box(btVector3(bt(0.2), bt(0.2), bt(0.1)));
   btBoxShape ground(btVector3(9, 9, 1));
-  BodyDef floor;
-  floor.mass = 0;
-  floor.shape = &ground;
-  floor.start.position = {0, 0, -3};
-  scene.add(floor);
+  scene.add({0, Vector3::Ones(), startAt({0, 0, -3}), &ground});
   std::vector<Immersed> bodies;
   for (int i = 0; i < 9; ++i) {
     BodyDef def;

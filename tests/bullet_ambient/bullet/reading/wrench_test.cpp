@@ -182,11 +182,7 @@ TEST(WrenchReading, ChangesNoMotion) {
     btBoxShape ground(btVector3(9, 9, 1));
     swimmer.def.shape = &shape;
     swimmer.def.start.twist = {Vector3(1, 2, 3), Vector3(2, 0, 1)};
-    BodyDef floor;
-    floor.mass = 0;
-    floor.shape = &ground;
-    floor.start.position = {0, 0, -1.15};
-    swimmer.scene.add(floor);
+    swimmer.scene.add({0, Vector3::Ones(), startAt({0, 0, -1.15}), &ground});
     for (const double x : {0.0, 0.25}) {
       swimmer.def.start.position = {x, 0, x};
       swimmer.add().readWrench(is_read);
@@ -229,9 +225,7 @@ struct Sea {
   }
   WetState wetAt(const FluidBody& shape, const Vector3& position,
                  const Quaternion& orientation = Quaternion::Identity()) {
-    BodyDef def;
-    def.start.position = position;
-    def.start.orientation = orientation;
+    const BodyDef def{1, Vector3::Ones(), startAt(position, {}, orientation)};
     return scene.fluid.add(scene.add(def), {std::make_shared<FluidBody>(shape)}).wet();
   }
   FluidWorld scene;
@@ -293,8 +287,7 @@ TEST(WetState, OnLandIsNothing) {
   lake.bounds = RegionBounds{{-5, -5, -5}, {5, 5, 5}};
   scene.fluid.addRegion(lake);
   AttachDef attach{std::make_shared<FluidBody>(floatingBox(kBoxSize)), air()};
-  BodyDef on_land;
-  on_land.start.position = {20, 0, 0};
+  const BodyDef on_land{1, Vector3::Ones(), startAt({20, 0, 0})};
   EXPECT_EQ(scene.fluid.add(scene.add(on_land), attach).wet().volume, 0);
   EXPECT_EQ(scene.fluid.add(scene.add(BodyDef{}), attach).wet().draught, 0.2);
 }

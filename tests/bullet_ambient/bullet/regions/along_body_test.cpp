@@ -66,8 +66,8 @@ Twist twistIn(const FluidRegion& region, bool has_stations) {
   FluidWorld scene;
   scene.fluid.addRegion(region);
   const Vector3 size(1.5, 0.3, 0.4);
-  BodyDef def{90, boxMoments(size, 90), {}, nullptr};
-  def.start.twist = {Vector3(0.3, 0.7, -0.4), Vector3(0.2, -0.1, 0.3)};
+  BodyDef def{90, boxMoments(size, 90),
+              startWith({Vector3(0.3, 0.7, -0.4), Vector3(0.2, -0.1, 0.3)})};
   AttachDef attach;
   auto shape = longBox(size, 4);
   if (!has_stations) shape->uniform_mass = {};

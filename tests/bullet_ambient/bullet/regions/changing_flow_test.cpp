@@ -31,9 +31,8 @@ Medium flowingWater(const Vector3& velocity) {
 btRigidBody& addNeutralBall(FluidWorld& scene, const Medium& medium, double height = 0) {
   const FluidBody shape = facelessEllipsoid(Vector3::Constant(0.2));
   const double mass = 1000 * shape.volume;
-  BodyDef def{mass, ellipsoidMoments(Vector3::Constant(0.2), mass), {}, nullptr};
-  def.start.position = {0, 0, height};
-  return scene.add(def, shape, medium);
+  return scene.add({mass, ellipsoidMoments(Vector3::Constant(0.2), mass), startAt({0, 0, height})},
+                   shape, medium);
 }
 
 // Speeds that are the rounding of those of the fluid, some m/s [m/s].

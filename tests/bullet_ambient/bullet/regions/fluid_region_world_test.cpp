@@ -26,9 +26,7 @@ TEST(FluidRegions, ABodyInOneMovesAsIfTheFluidWereItsOwn) {
   regions.fluid.addRegion(filledWith(medium));
   for (FluidWorld* scene : {&own, &regions}) {
     scene->world.setGravity({0, 0, bt(-9.81)});
-    BodyDef floor{0, Vector3::Zero(), {}, &floor_shape};
-    floor.start.position = {0, 0, -1};
-    scene->add(floor);
+    scene->add({0, Vector3::Zero(), startAt({0, 0, -1}), &floor_shape});
     for (const double height : {0.25, 40.0}) {
       BodyDef def = tumblingBody({0, 0, height});
       def.mass = 20;
@@ -136,10 +134,9 @@ double driftOnCircle(double step) {
   };
   scene.fluid.addRegion(whirl);
   const FluidBody shape = facelessEllipsoid(Vector3::Constant(0.1));
-  BodyDef def{1000 * shape.volume, Vector3::Constant(0.02), {}, nullptr};
-  def.start.position = {2, 0, 0};
-  def.start.twist.linear = {0, 2 * kRate, 0};
-  const btRigidBody& body = scene.add(def, shape, Medium{});
+  const btRigidBody& body = scene.add({1000 * shape.volume, Vector3::Constant(0.02),
+                                       startAt({2, 0, 0}, {Vector3::Zero(), {0, 2 * kRate, 0}})},
+                                      shape, Medium{});
   const int steps = static_cast<int>(std::lround(4 / step));
   scene.step(step, steps);
   const Vector3 exact(2 * std::cos(4 * kRate), 2 * std::sin(4 * kRate), 0);

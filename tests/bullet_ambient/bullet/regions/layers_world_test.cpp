@@ -31,9 +31,8 @@ btRigidBody& addFloat(FluidWorld& scene, const Vector3& start) {
   constexpr double kRadius = 0.2;
   const FluidBody shape = facelessEllipsoid(Vector3::Constant(kRadius));
   const double mass = kLayerDensity * shape.volume;
-  BodyDef def{mass, ellipsoidMoments(Vector3::Constant(kRadius), mass), {}, nullptr};
-  def.start.position = start;
-  btRigidBody& body = scene.add(def, shape, Medium{});
+  btRigidBody& body = scene.add(
+      {mass, ellipsoidMoments(Vector3::Constant(kRadius), mass), startAt(start)}, shape, Medium{});
   body.setGravity({0, 0, bt(-kGravity)});
   return body;
 }
@@ -254,8 +253,7 @@ TEST(Gusts, ABoxInWindKeepsItsEnergyBalance) {
   SeaWorld scene(air_around);
   const double mass = 5;
   const Vector3 moments = boxMoments(kBoxSize, mass);
-  RigidState start;
-  start.twist = {Vector3(1, 2, 3), Vector3(0, 0, 5)};
+  const RigidState start = startWith({Vector3(1, 2, 3), Vector3(0, 0, 5)});
   const btRigidBody& body = scene.addBox(kBoxSize, mass, start, 4);
   scene.of(body).readWrench(true);
   const auto energy = [&] {

@@ -79,10 +79,8 @@ struct Rim : RobotWorld {
 };
 
 RigidState afloatAt(double x, double yaw = 0) {
-  RigidState at;
-  at.position = {x, 0.2, kPlank.z() / 2 - kDraught};
-  at.orientation = Eigen::AngleAxisd(yaw, Vector3::UnitZ());
-  return at;
+  return startAt({x, 0.2, kPlank.z() / 2 - kDraught}, {},
+                 Quaternion(Eigen::AngleAxisd(yaw, Vector3::UnitZ())));
 }
 
 /// Wrench of the water on a plank whose long sides are cut by the rim, about its centre of mass.
@@ -160,11 +158,10 @@ struct RimDrift {
 RimDrift driftIn(const std::vector<FluidRegion>& regions, const Vector3& from) {
   Rim rim;
   for (const FluidRegion& region : regions) rim.fluid.addRegion(region);
-  RigidState at;
-  at.position = from;
-  at.orientation = Quaternion(1, 0.2, 0.1, -0.3).normalized();
-  at.twist = {Vector3(0.3, 0.7, -0.4), Vector3(0.05, -0.1, 0.3)};
-  const btRigidBody& body = rim.drop(at, 500, nullptr, {0.8, 0.4, 0.3});
+  const btRigidBody& body =
+      rim.drop(startAt(from, {Vector3(0.3, 0.7, -0.4), Vector3(0.05, -0.1, 0.3)},
+                       Quaternion(1, 0.2, 0.1, -0.3).normalized()),
+               500, nullptr, {0.8, 0.4, 0.3});
   rim.step(1.0 / 60, 60);
   return {ambient::velocityOf(body), rim.fluid.counters()};
 }

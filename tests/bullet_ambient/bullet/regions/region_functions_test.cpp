@@ -130,12 +130,10 @@ TEST(StepsOfNoDuration, LeaveBodiesAndTimeAsTheyWere) {
   for (const double duration : {kNotANumber, kFar}) {
     AskedWorld world;
     world.world.setGravity({0, 0, bt(-9.81)});
-    BodyDef floor{0, Vector3::Zero(), {}, &floor_shape};
-    floor.start.position = {50, 0, -1};
-    world.FluidWorld::add(floor);
-    BodyDef resting{900 * 9, Vector3::Constant(5000), {}, &box};
-    resting.start.position = {50, 0, 1};
-    const btRigidBody& stone = world.FluidWorld::add(resting, *world.def.fluid_body, Medium{});
+    world.FluidWorld::add({0, Vector3::Zero(), startAt({50, 0, -1}), &floor_shape});
+    const btRigidBody& stone =
+        world.FluidWorld::add({900 * 9, Vector3::Constant(5000), startAt({50, 0, 1}), &box},
+                              *world.def.fluid_body, Medium{});
     world.step(kWorldStep, 60);
     const btRigidBody before(world.body), stone_before(stone);
     const long long rejected = world.fluid.counters().rejected;
@@ -176,9 +174,8 @@ FluidRegion bareSea(const Vector3& up) {
 struct FallingBall {
   explicit FallingBall(const Medium& own) {
     world.world.setGravity({0, 0, bt(-9.81)});
-    BodyDef def{20, Vector3::Constant(0.3), {}, nullptr};
-    def.start.position = {0, 0, 30};
-    body = &world.add(def, floatingEllipsoid(Vector3(0.2, 0.2, 0.2), 2), own);
+    body = &world.add({20, Vector3::Constant(0.3), startAt({0, 0, 30})},
+                      floatingEllipsoid(Vector3(0.2, 0.2, 0.2), 2), own);
   }
   double height() const { return static_cast<double>(body->getWorldTransform().getOrigin().z()); }
 

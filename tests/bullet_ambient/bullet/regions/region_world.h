@@ -16,10 +16,8 @@ inline constexpr double kFar = std::numeric_limits<double>::infinity();
 inline constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
 inline BodyDef tumblingBody(const Vector3& position) {
-  BodyDef def{2, ellipsoidMoments(kUnequalAxes, 2), {}, nullptr};
-  def.start.position = position;
-  def.start.twist = {Vector3(1, 2, 3), Vector3(2, 0, 1)};
-  return def;
+  return {2, ellipsoidMoments(kUnequalAxes, 2),
+          startAt(position, {Vector3(1, 2, 3), Vector3(2, 0, 1)})};
 }
 
 inline FluidRegion filledWith(const Medium& medium) {

@@ -228,9 +228,8 @@ AttachDef plate() {
 }
 
 BodyDef plateBody(double s) {
-  BodyDef def{60 * s * s * s, s * s * s * s * s * Vector3(0.9, 1.2, 1.9)};
-  def.start.twist = {Vector3(1, 2, -0.5), s * Vector3(0.4, -0.3, 0.2)};
-  return def;
+  return {60 * s * s * s, s * s * s * s * s * Vector3(0.9, 1.2, 1.9),
+          startWith({Vector3(1, 2, -0.5), s * Vector3(0.4, -0.3, 0.2)})};
 }
 
 // Medium for lengths s and times 1: viscosity s^2 and gravity s keep Reynolds and Froude numbers.
@@ -419,9 +418,9 @@ TEST(Attitudes, AreSettledUnlessOthersHaveTurnedTheBody) {
 
 TEST(Attitudes, OfABodyThatWasStoppedAreThoseOfItsWay) {
   FluidWorld scene;
-  BodyDef def{1, ellipsoidMoments(Vector3::Constant(0.1), 1), {}, nullptr};
-  def.start.twist = {Vector3(6, 0, 0), Vector3(60, 0, 0)};
-  btRigidBody& body = scene.add(def, facelessEllipsoid(Vector3::Constant(0.1)), idealFluid(1));
+  btRigidBody& body = scene.add({1, ellipsoidMoments(Vector3::Constant(0.1), 1),
+                                 startWith({Vector3(6, 0, 0), Vector3(60, 0, 0)})},
+                                facelessEllipsoid(Vector3::Constant(0.1)), idealFluid(1));
   // Stops the body in the middle of its way, as continuous collision detection does.
   const btTransform start = body.getWorldTransform();
   const OtherAction stop(scene, [&] {

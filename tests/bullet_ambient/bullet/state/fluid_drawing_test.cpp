@@ -64,10 +64,9 @@ class Drawing : public testing::Test {
     attach.flow.law = PressureLaw::kPublished;
     attach.fluid_frame = {rotationFromVector(Vector3(0.4, 0.1, -0.3)).toRotationMatrix(),
                           Vector3(0.02, 0.01, 0.03)};
-    BodyDef def{200, Vector3(5, 8, 9)};
-    def.start.orientation = rotationFromVector(Vector3(0.1, 0.8, 0.2));
-    def.start.twist = {Vector3(1, -1, 2), Vector3(2, 1, -1)};
-    body = &scene.add(def);
+    body = &scene.add({200, Vector3(5, 8, 9),
+                       startWith({Vector3(1, -1, 2), Vector3(2, 1, -1)},
+                                 rotationFromVector(Vector3(0.1, 0.8, 0.2)))});
     body->setGravity(btVector3(0, 0, btScalar(-kGravity)));
     scene.fluid.add(*body, attach);
     scene.step(1e-3);

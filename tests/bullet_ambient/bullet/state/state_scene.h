@@ -94,9 +94,7 @@ class StateScene {
     addPile();
     addChain();
     addPlate();
-    BodyDef stone{0.7, Vector3::Constant(0.02), {}, &ball_shape};
-    stone.start.position = {0.1, 0.15, 2.5};
-    scene.add(stone);
+    scene.add({0.7, Vector3::Constant(0.02), startAt({0.1, 0.15, 2.5}), &ball_shape});
   }
 
   void step(int count) { scene.step(kSceneStep, count); }
@@ -148,22 +146,17 @@ class StateScene {
   }
   void addPile() {
     for (int i = 0; i < 8; ++i) {
-      BodyDef def;
-      def.mass = 3;
-      def.shape = i % 2 ? static_cast<btCollisionShape*>(&ball_shape) : &box_shape;
-      def.start.position = {0.08 * i, -0.05 * i, 0.2 + 0.4 * i};
-      def.start.twist.angular = {0.3 * i, 0, 1};
-      add(def, i % 2 ? ball_fluid : box_fluid, water());
+      add({3, Vector3::Ones(),
+           startAt({0.08 * i, -0.05 * i, 0.2 + 0.4 * i}, {{0.3 * i, 0, 1}, Vector3::Zero()}),
+           i % 2 ? static_cast<btCollisionShape*>(&ball_shape) : &box_shape},
+          i % 2 ? ball_fluid : box_fluid, water());
     }
   }
   void addChain() {
     btRigidBody* last = nullptr;
     for (int i = 0; i < 3; ++i) {
-      BodyDef def;
-      def.mass = 2;
-      def.shape = &ball_shape;
-      def.start.position = {2.5 - 0.5 * i, 0, 2};
-      btRigidBody& link = add(def, ball_fluid, water());
+      btRigidBody& link = add({2, Vector3::Ones(), startAt({2.5 - 0.5 * i, 0, 2}), &ball_shape},
+                              ball_fluid, water());
       const btVector3 axis(0, 1, 0), right(btScalar(0.25), 0, 0);
       // A joint with one body would lose its place in a .bullet file.
       btRigidBody& other = last ? *last : body(0);
@@ -174,12 +167,9 @@ class StateScene {
     }
   }
   void addPlate() {
-    BodyDef def;
-    def.mass = 1.5;
-    def.shape = &plate_shape;
-    def.start.position = {-3, 0, 40};
-    def.start.twist.angular = {0.2, 1, 0.1};
-    add(def, plate_fluid, water());
+    add({1.5, Vector3::Ones(), startAt({-3, 0, 40}, {{0.2, 1, 0.1}, Vector3::Zero()}),
+         &plate_shape},
+        plate_fluid, water());
   }
 };
 

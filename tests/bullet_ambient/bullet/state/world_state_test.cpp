@@ -149,8 +149,7 @@ struct Tables : FluidWorld {
     table.addChildShape(at(0, 0, 0), &top);
     for (const double x : {-0.25, 0.25})
       for (const double y : {-0.16, 0.16}) table.addChildShape(at(x, y, -0.17), &leg);
-    BodyDef def{0, Vector3::Zero(), {}, &floor};
-    def.start.position = {0, 0, -0.5};
+    BodyDef def{0, Vector3::Zero(), startAt({0, 0, -0.5}), &floor};
     add(def);
     def = {8, Vector3(0.15, 0.3, 0.4), {}, &table};
     for (int i = 0; i < 6; ++i) {

@@ -59,8 +59,8 @@ AttachDef feather() {
 // In each island: steps that are too long, a velocity that is not finite, masses that are not
 // physical, a flow that fails, a sea, and, as no action runs, flights that nobody ends.
 void fill(Island& island, Fluid& fluid, const AttachDef& attach, int number) {
-  BodyDef def{2e-4, ellipsoidMoments(Vector3(0.05, 0.05, 0.01), 2e-4), {}, nullptr};
-  def.start.twist = {Vector3(100, 50, 20), Vector3(300, 0, 200)};
+  BodyDef def{2e-4, ellipsoidMoments(Vector3(0.05, 0.05, 0.01), 2e-4),
+              startWith({Vector3(100, 50, 20), Vector3(300, 0, 200)})};
   for (int i = 0; i < 6; ++i) {
     def.start.position = {10.0 * i, 10.0 * number, i == 3 ? -500.0 : (i == 4 ? -1000.0 : 0.0)};
     island.add(fluid, def, attach);

@@ -63,10 +63,8 @@ struct Pool {
   btRigidBody& add(const Float& what, const Vector3& position,
                    const Quaternion& orientation = Quaternion::Identity(),
                    btCollisionShape* shape = nullptr) {
-    BodyDef def{what.mass, what.moments, {}, shape};
-    def.start.position = position;
-    def.start.orientation = orientation;
-    return scene.add(def, what.shape, Medium{});
+    return scene.add({what.mass, what.moments, startAt(position, {}, orientation), shape},
+                     what.shape, Medium{});
   }
   // Steps until a body sleeps. Returns the time, `most` [s] at most.
   double timeUntilSleep(btRigidBody& body, double most, double hertz = 60) {

@@ -121,9 +121,8 @@ TEST(Vessel, DragOfABodyInAHoldMovesTheVessel) {
     Start start;
     start.position.z() = 0.25 - (kBarge + kMass + 400) / 2000;
     btRigidBody& barge = sea.add({}, start, {true, {0.4}});
-    BodyDef def{kMass, kMass * Vector3(0.005, 0.005, 0.007), {}, nullptr};
-    def.start.position = {-0.6, 0, -0.18};
-    def.start.twist.linear = {0.5, 0, 0};
+    BodyDef def{kMass, kMass * Vector3(0.005, 0.005, 0.007),
+                startAt({-0.6, 0, -0.18}, {Vector3::Zero(), {0.5, 0, 0}})};
     btRigidBody& box = sea.scene.add(def, floatingBox({0.2, 0.2, 0.1}, 1), Medium{});
     const auto speed = [](const btRigidBody& body) {
       return static_cast<double>(body.getLinearVelocity().x());

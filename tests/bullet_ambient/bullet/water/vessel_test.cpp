@@ -235,9 +235,8 @@ TEST(Vessel, BoatThatTurnsOverFloatsOnItsAir) {
 // Bodies in the hold of a barge, without contacts.
 
 btRigidBody& addBox(Sea& sea, const Vector3& size, double mass, const Vector3& position) {
-  BodyDef def{mass, boxMoments(size, mass), {}, nullptr};
-  def.start.position = position;
-  return sea.scene.add(def, floatingBox(size, 1), Medium{});
+  return sea.scene.add({mass, boxMoments(size, mass), startAt(position)}, floatingBox(size, 1),
+                       Medium{});
 }
 
 /// The barge where it floats with a load [kg].

@@ -33,11 +33,9 @@ struct Sea {
       : scene(seaUnderVacuum(std::move(surface))) {}
   btRigidBody& add(const OpenBarge& barge, const Start& start, const HoldSettings& holds = {}) {
     const Vector3 centre(0, 0, start.above_keel - 0.25);
-    BodyDef def{start.mass, start.mass / kBarge * kBargeMoments, {}, nullptr};
-    def.start.position = start.position + start.orientation * centre;
-    def.start.orientation = start.orientation;
-    def.start.twist = start.twist;
-    btRigidBody& body = scene.add(def);
+    btRigidBody& body = scene.add(
+        {start.mass, start.mass / kBarge * kBargeMoments,
+         startAt(start.position + start.orientation * centre, start.twist, start.orientation)});
     AttachDef attach{std::make_shared<FluidBody>(openBarge(barge))};
     attach.fluid_frame.translation = -centre;
     attach.holds = holds;

@@ -43,11 +43,7 @@ struct WaterWorld {
   SeaWorld scene;
 };
 
-RigidState at(double z) {
-  RigidState state;
-  state.position = {0, 0, z};
-  return state;
-}
+RigidState at(double z) { return startAt({0, 0, z}); }
 
 RigidState tumbling(double z) {
   RigidState state = at(z);
@@ -281,9 +277,8 @@ struct Track {
 Track boxInWave(const LongWave& wave, double time_step) {
   SeaWorld scene(seaUnderVacuum(std::make_shared<AiryWaves>(
       CalmSea{}, std::vector<WaveComponent>{{wave.amplitude, wave.period(), {1, 0, 0}, 0}})));
-  RigidState start;
-  start.position = {0, 0, wave.amplitude};
-  start.twist.linear = {wave.amplitude * wave.frequency, 0, 0};
+  const RigidState start =
+      startAt({0, 0, wave.amplitude}, {Vector3::Zero(), {wave.amplitude * wave.frequency, 0, 0}});
   const double mass = 500 * kBoxSize.prod();
   const btRigidBody& body = scene.add({mass, boxMoments(kBoxSize, mass), start, nullptr},
                                       floatingBox(kBoxSize), Medium{});

@@ -101,8 +101,8 @@ double speedOfPush(double angle, bool in_fluid) {
   btStaticPlaneShape plane({bt(std::cos(angle)), bt(std::sin(angle)), 0}, 0);
   scene.contents.add(0, plane).setFriction(0);
   btSphereShape ball(bt(0.2));
-  BodyDef def{1, Vector3::Constant(0.016), {}, &ball};
-  def.start.position = (0.2 - kDepth) * Vector3(std::cos(angle), std::sin(angle), 0);
+  BodyDef def{1, Vector3::Constant(0.016),
+              startAt((0.2 - kDepth) * Vector3(std::cos(angle), std::sin(angle), 0)), &ball};
   Vector6 added;
   added << 0.01, 0.02, 0.03, 1, 2, 3;
   FluidBody shape;

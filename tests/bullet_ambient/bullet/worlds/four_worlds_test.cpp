@@ -58,10 +58,7 @@ class Tank {
   void addTethered() {
     const Vector3 below(0, 0, -0.4);
     const Vector3 up = 2 * (kCentreOfVolume - below) + below;
-    RigidState start;
-    start.orientation = rotationBetween(up, Vector3::UnitZ());
-    start.position = {3, 0, 2};
-    tethered_ = &add(0.5, start);
+    tethered_ = &add(0.5, startAt({3, 0, 2}, {}, rotationBetween(up, Vector3::UnitZ())));
     tethered_->setActivationState(DISABLE_DEACTIVATION);
     tether_ =
         &contents_.take(std::make_unique<btPoint2PointConstraint>(*tethered_, toBullet(below)));

@@ -143,9 +143,7 @@ struct Run {
     if (density > 0) scene.fluid.add(body, inFluid(density));
   }
   static BodyDef start() {
-    BodyDef def{1, Vector3(0.04, 0.05, 0.07), {}, nullptr};
-    def.start.twist = {Vector3(1, 2, 3), Vector3(2, 1, 3)};
-    return def;
+    return {1, Vector3(0.04, 0.05, 0.07), startWith({Vector3(1, 2, 3), Vector3(2, 1, 3)})};
   }
   Vector6 velocity() const {
     return stack(toVector3(body.getAngularVelocity()), toVector3(body.getLinearVelocity()));

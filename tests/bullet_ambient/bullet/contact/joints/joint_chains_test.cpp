@@ -181,8 +181,7 @@ class BallOnBlock {
 
  private:
   btRigidBody& add(double mass, const Vector3& axes, const Vector3& position, const char* name) {
-    BodyDef def{mass, ellipsoidMoments(axes, mass)};
-    def.start.position = position;
+    BodyDef def{mass, ellipsoidMoments(axes, mass), startAt(position)};
     FluidBody shape = facelessEllipsoid(axes);
     shape.name = name;
     return scene_.add(def, shape, idealFluid(1000));
@@ -233,8 +232,7 @@ class Tether {
       const Vector3& axes = i < kLinks ? link : vehicle;
       const double mass = kDensity * ellipsoidVolume(axes) + (i < kLinks ? 0 : 90);
       z -= axes.z();
-      BodyDef def{mass, ellipsoidMoments(axes, mass)};
-      def.start.position = {0, 0, z};
+      BodyDef def{mass, ellipsoidMoments(axes, mass), startAt({0, 0, z})};
       const Medium medium{kDensity, 0.001, {1.5, 0, 0}, {0, 0, 0}};
       bodies_.push_back(&scene_.add(def, facelessEllipsoid(axes), medium));
       z -= axes.z();

@@ -64,10 +64,7 @@ struct Pendulum {
 
   RigidState start() const {
     const Quaternion turn(Eigen::AngleAxisd(amplitude, Eigen::Vector3d::UnitZ()));
-    RigidState state;
-    state.orientation = turn * hanging;
-    state.position = turn * Vector3(0, -kLength, 0);
-    return state;
+    return startAt(turn * Vector3(0, -kLength, 0), {}, turn * hanging);
   }
   Vector3 pivot() const { return hanging.conjugate() * Vector3(0, kLength, 0); }  ///< body axes
   Vector3 axis() const { return hanging.conjugate() * Vector3::UnitZ(); }
