@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "preprocess/collision_shape/fluid_body_cache.h"
 #include "tests/preprocess/robot/fluid_robot_world.h"
 #include "tests/preprocess/robot/urdf_text_of.h"
