@@ -1,4 +1,3 @@
-#include <optional>
 #include <stdexcept>
 
 #include "bullet_ambient/ambient.h"

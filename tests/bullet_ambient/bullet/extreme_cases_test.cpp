@@ -1,9 +1,7 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <string>
-#include <vector>
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/saved_state.h"

@@ -15,7 +15,6 @@
 #include <memory>
 #include <string>
 #include <type_traits>
-#include <vector>
 
 #include "bullet_ambient/ambient.h"
 #include "tests/bullet_ambient/bullet/rising_ball.h"

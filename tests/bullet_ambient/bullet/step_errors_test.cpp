@@ -4,7 +4,6 @@
 #include <functional>
 #include <limits>
 #include <string>
-#include <vector>
 
 #include "bullet_ambient/bullet/core/body_motion.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"

@@ -4,7 +4,6 @@
 #include <functional>
 
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/spatial/rotation.h"
 #include "demos/analysis/path_summary.h"
 #include "tests/support/rotations.h"
 

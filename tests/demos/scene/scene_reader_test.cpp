@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "bullet_ambient/base/plain_text.h"
 #include "bullet_ambient/force/medium/waves.h"
 #include "bullet_ambient/wind.h"
 #include "demos/integrators/integrators.h"

@@ -10,7 +10,6 @@
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "bullet_ambient/spatial/inertia.h"
-#include "preprocess/mesh/shapes/primitives.h"
 #include "tests/preprocess/collision_shape/shape_fixtures.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 

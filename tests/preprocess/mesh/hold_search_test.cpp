@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <random>
-#include <string>
 #include <vector>
 
 #include "preprocess/mesh/geometry.h"

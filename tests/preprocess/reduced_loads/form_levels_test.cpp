@@ -6,7 +6,6 @@
 #include <cmath>
 #include <iterator>
 #include <stdexcept>
-#include <string>
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"

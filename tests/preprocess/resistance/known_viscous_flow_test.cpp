@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <vector>
 
 #include "bullet_ambient/base/pi.h"
 #include "preprocess/added_mass_tables/known_added_mass.h"

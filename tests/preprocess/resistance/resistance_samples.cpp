@@ -1,7 +1,6 @@
 // Prints the samples that tables of simple shapes are fitted to by resistance_tables.py: kind and
 // sizes [m], and after a colon R, or the numbers of separation.
 
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <initializer_list>

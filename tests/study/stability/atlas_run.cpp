@@ -6,7 +6,6 @@
 #include <cmath>
 #include <memory>
 #include <random>
-#include <utility>
 #include <vector>
 
 #include "bullet_ambient/base/elementary.h"

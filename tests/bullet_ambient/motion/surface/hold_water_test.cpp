@@ -9,7 +9,6 @@
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/motion/surface/hold_exchange.h"
-#include "bullet_ambient/spatial/rotation.h"
 #include "tests/bullet_ambient/motion/surface/barge_runs.h"
 #include "tests/support/bodies/random_bodies.h"
 #include "tests/support/bodies/vessel_bodies.h"

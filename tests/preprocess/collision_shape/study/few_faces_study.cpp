@@ -3,7 +3,6 @@
 #include <btBulletCollisionCommon.h>
 
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <memory>

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "tests/bullet_ambient/bullet/fluid_world.h"
-#include "tests/support/bodies/random_bodies.h"
 #include "tests/support/runs.h"
 
 namespace ambient::test {
