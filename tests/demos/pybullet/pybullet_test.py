@@ -486,6 +486,15 @@ class LifeTest(Case):
         with self.assertRaisesRegex(ValueError, "there is no foil or thruster"):
             self.fluid.drive(sail=1)
 
+    def test_a_thruster_on_a_link_turns_its_joint(self):
+        self.fluid.region(density=1000, viscosity=0)
+        arm = self.arm(controlMode=p.VELOCITY_CONTROL, force=0)
+        self.fluid.equip(arm, 0, thrusters=[{"name": "jet", "position": [0.8, 0, 0], "axis": [0, 1, 0], "curve": [[0, 0], [1, 10]]}])
+        inertia = self.fluid.mass_matrix(arm)[-1, -1]
+        self.fluid.drive(jet=1)
+        self.steps(1)
+        self.assertAlmostEqual(p.getJointState(arm, 0, physicsClientId=self.client)[1] / (10 * 0.8 / inertia / 240), 1, delta=1e-3)
+
     def test_elements_of_links_say_how_rough_they_are(self):
         self.fluid.water(level=0, density=1000)
         box = p.createCollisionShape(p.GEOM_BOX, halfExtents=[0.1] * 3, physicsClientId=self.client)
