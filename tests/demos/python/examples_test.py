@@ -83,6 +83,18 @@ class HydrofoilTest(unittest.TestCase):
         self.assertAlmostEqual(lift / (250 * 9.81), 0.94, delta=0.02)  # the struts float 2 %
 
 
+class RocketTest(unittest.TestCase):
+    def test_fins_turn_the_nose_into_the_wind_as_fast_as_by_hand(self):
+        tilted = {"medium.velocity": [0, 0, 0], "gravity": [0, 0, 0], "thrusters.0.command": 0, "bodies.0.orientation": [1, 0, 0, 0],
+                  "bodies.0.linear_velocity": [30, 0, 1.5], "duration": 0.7, "output_step": 1 / 240}
+        turning = ba.World(ba.Scene("rocket", tilted)).run(0.7, 1 / 240).twist[1:, 0, 1]
+        first, second = np.flatnonzero(np.diff(np.sign(turning)))[:2] / 240
+        area, pressure = 2 * 0.08 * 0.1, 1.204 / 2 * 29.3**2  # of two fins, after the first half of a swing
+        fins = pressure * area * hydrofoil.lift_slope(1.6) * 0.355
+        tube = pressure * 0.9 * 2 * 0.95 * np.pi * 0.03**2 * (0.8 + 0.15 / 3)
+        self.assertAlmostEqual(np.sqrt((fins - tube) / 0.0302) / (np.pi / (second - first)), 1, delta=0.1)
+
+
 class AeroplaneTest(unittest.TestCase):
     def test_of_one_mesh_flies(self):
         with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
