@@ -42,51 +42,49 @@ auto findNamed(Defs& defs, const std::string& name) {
 
 }  // namespace
 
+// Adds the body that an entry is on, if it is new.
+void Equipment::addCarrier(const nlohmann::json& entry, const WorldFluid& world) {
+  const std::string on = entry.at("on").get<std::string>();
+  if (findNamed(scene_.bodies, on) != scene_.bodies.end()) return;
+  const auto [body, link] = numbersIn(on);
+  world.require(body, link);
+  scene_.bodies.emplace_back();
+  scene_.bodies.back().name = on;
+  scene_.bodies.back().mass = 1;  // it has one
+  carriers_.push_back({body, link, false, world.frameOf(body, link), {}});
+}
+
+void Equipment::read(const nlohmann::json& values, const WorldFluid& world) {
+  const auto none = nlohmann::json::array();
+  for (const nlohmann::json& entry : values.value("thrusters", none)) {
+    addCarrier(entry, world);
+    ThrusterDef def = toThruster(entry, scene_);
+    toF(carriers_[def.body].fluid_frame, def.position, def.axis);
+    scene_.thrusters.push_back(std::move(def));
+  }
+  for (const nlohmann::json& entry : values.value("foils", none)) {
+    addCarrier(entry, world);
+    FoilDef def = toFoil(entry, scene_);
+    const FrameOffset& frame = carriers_[def.body].fluid_frame;
+    toF(frame, def.foil.position, def.foil.chord_axis);
+    def.foil.span_axis = frame.rotation.transpose() * def.foil.span_axis;
+    scene_.foils.push_back(std::move(def));
+  }
+}
+
 void Equipment::add(const Command& command, WorldFluid& world,
                     const WorldFluid::Settings& settings) {
-  Scene scene = scene_;
-  scene.file = "equip";
-  std::vector<Carrier> carriers = carriers_;
-  const auto addCarrier = [&](const nlohmann::json& entry) {
-    const std::string on = entry.at("on").get<std::string>();
-    if (findNamed(scene.bodies, on) != scene.bodies.end()) return;
-    const auto [body, link] = numbersIn(on);
-    world.require(body, link);
-    scene.bodies.emplace_back();
-    scene.bodies.back().name = on;
-    scene.bodies.back().mass = 1;  // it has one
-    carriers.push_back({body, link, false, {}});
-  };
-  const auto frameOf = [&](std::size_t body) {
-    return world.frameOf(carriers[body].body, carriers[body].link);
-  };
-  for (const nlohmann::json& entry : command.values.value("thrusters", nlohmann::json::array())) {
-    addCarrier(entry);
-    ThrusterDef def = toThruster(entry, scene);
-    toF(frameOf(def.body), def.position, def.axis);
-    scene.thrusters.push_back(def);
-  }
-  for (const nlohmann::json& entry : command.values.value("foils", nlohmann::json::array())) {
-    addCarrier(entry);
-    FoilDef def = toFoil(entry, scene);
-    toF(frameOf(def.body), def.foil.position, def.foil.chord_axis);
-    def.foil.span_axis = frameOf(def.body).rotation.transpose() * def.foil.span_axis;
-    scene.foils.push_back(def);
-  }
+  Equipment grown = *this;
+  grown.read(command.values, world);
   std::vector<PreparedBody> bodies;
-  for (std::size_t i = 0; i < carriers.size(); ++i)
-    bodies.push_back(carriers[i].is_gone ? PreparedBody() : preparedIn(frameOf(i)));
-  const State before = saved();
-  Thrusters thrusters(scene, bodies);
-  SceneFoils foils(scene, bodies);
-  for (std::size_t i = 0; i < carriers.size(); ++i)
-    if (!carriers[i].is_gone && foils.of(i))
-      world.giveFoils(carriers[i].body, carriers[i].link, foils.of(i), settings);
-  scene_ = std::move(scene);
-  carriers_ = std::move(carriers);
-  thrusters_ = std::move(thrusters);
-  foils_ = std::move(foils);
-  restore(before);
+  for (const Carrier& carrier : grown.carriers_) bodies.push_back(preparedIn(carrier.fluid_frame));
+  grown.thrusters_ = Thrusters(grown.scene_, bodies);
+  grown.foils_ = SceneFoils(grown.scene_, bodies);
+  grown.restore(saved());
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (const Carrier& on = grown.carriers_[i]; !on.is_gone && grown.foils_.of(i))
+      world.giveFoils(on.body, on.link, grown.foils_.of(i), settings);
+  *this = std::move(grown);
 }
 
 void Equipment::restore(const State& state) {

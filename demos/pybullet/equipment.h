@@ -24,8 +24,10 @@ class Equipment {
     std::vector<double> foil_angles;
   };
 
+  Equipment() { scene_.file = "equip"; }  // begins messages
+
   /// Adds those of a command `equip`. All of their bodies are in the fluid, and are added to it
-  /// anew. @throws std::exception with one line; then nothing has changed
+  /// anew. @throws std::exception with one line
   void add(const Command& command, WorldFluid& world, const WorldFluid::Settings& settings);
   /// Sets what they are asked for, of a command `drive`: names and values.
   /// @throws std::invalid_argument with one line
@@ -44,12 +46,16 @@ class Equipment {
   void restore(const State& state);
 
  private:
-  /// A body or link, whose numbers are its name in the scene; empty: taken off.
+  /// A body or link, whose numbers are its name in the scene.
   struct Carrier {
     int body = 0, link = -1;
-    bool is_gone = false;
-    WorldFluid::Push push;  ///< last one
+    bool is_gone = false;     ///< all of it was taken off, and has no names
+    FrameOffset fluid_frame;  ///< F in the frame of its centre of mass
+    WorldFluid::Push push;    ///< last one
   };
+
+  void addCarrier(const nlohmann::json& entry, const WorldFluid& world);
+  void read(const nlohmann::json& values, const WorldFluid& world);
 
   Scene scene_;  ///< bodies, thrusters and foils alone
   std::vector<Carrier> carriers_;

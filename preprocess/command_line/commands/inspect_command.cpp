@@ -272,7 +272,8 @@ void addInspect(CLI::App& app) {
                      "1.204 with --fly)");
   command.add_option("--gravity", arguments->gravity, "With --mass: [m/s^2]")
       ->capture_default_str();
-  command.add_flag("--fly", arguments->fly, "With --mass: shows how it glides, in place of floats");
+  command.add_flag("--fly", arguments->fly,
+                   "With --mass: shows how it glides, in place of how it floats");
   addOption(command, "--viscosity", arguments->viscosity, "MU",
             "With --fly: of the fluid [Pa s] (default: of air, 1.82e-5)");
   addOption(command, "--forward", arguments->forward, "AXIS",

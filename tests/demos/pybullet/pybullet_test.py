@@ -468,7 +468,7 @@ class LifeTest(Case):
         self.fluid.water(level=0)
         self.gravity()
         shape = p.createCollisionShape(p.GEOM_BOX, halfExtents=[2, 0.6, 0.4], physicsClientId=self.client)
-        boat = p.createMultiBody(1600, shape, basePosition=[0, 0, -0.134], baseInertialFramePosition=[0, 0, -0.2], physicsClientId=self.client)
+        boat = p.createMultiBody(1600, shape, basePosition=[0, 0, 0.066], baseInertialFramePosition=[0, 0, -0.2], physicsClientId=self.client)
         p.changeDynamics(boat, -1, linearDamping=0, angularDamping=0, physicsClientId=self.client)
         scene = json.loads((Path(__file__).parents[3] / "data/scenes/rudder_and_screw.json").read_text())
         without_on = [[{key: value for key, value in entry.items() if key != "on"} for entry in scene[kind]] for kind in ("foils", "thrusters")]
@@ -478,13 +478,22 @@ class LifeTest(Case):
         self.fluid.drive(rudder=-0.8)
         self.steps(240 * 6)
         place, turn = p.getBasePositionAndOrientation(boat, physicsClientId=self.client)
-        self.assertAlmostEqual(abs(p.getEulerFromQuaternion(turn)[2]), 1.02, delta=0.02)
+        self.assertAlmostEqual(abs(p.getEulerFromQuaternion(turn)[2]), 1.02, delta=0.03)  # the lag of the first substep, few faces
         self.assertGreater(place[0], 0.5)
         drives = self.fluid.drives()
         self.assertAlmostEqual(drives["foils"]["rudder"]["angle"], 0.48, delta=1e-4)
         self.assertAlmostEqual(drives["thrusters"]["screw"]["drive"], 10, delta=1e-4)
         with self.assertRaisesRegex(ValueError, "there is no foil or thruster"):
             self.fluid.drive(sail=1)
+
+    def test_a_thruster_on_a_link_turns_its_joint(self):
+        self.fluid.region(density=1000, viscosity=0)
+        arm = self.arm(controlMode=p.VELOCITY_CONTROL, force=0)
+        self.fluid.equip(arm, 0, thrusters=[{"name": "jet", "position": [0.8, 0, 0], "axis": [0, 1, 0], "curve": [[0, 0], [1, 10]]}])
+        inertia = self.fluid.mass_matrix(arm)[-1, -1]
+        self.fluid.drive(jet=1)
+        self.steps(1)
+        self.assertAlmostEqual(p.getJointState(arm, 0, physicsClientId=self.client)[1] / (10 * 0.8 / inertia / 240), 1, delta=1e-3)
 
     def test_elements_of_links_say_how_rough_they_are(self):
         self.fluid.water(level=0, density=1000)

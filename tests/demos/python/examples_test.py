@@ -23,6 +23,7 @@ import aeroplane  # noqa: E402
 import hold_hover  # noqa: E402
 import hold_place  # noqa: E402
 import hull_rates  # noqa: E402
+import hydrofoil  # noqa: E402
 import plate_map  # noqa: E402
 import pybullet_limits  # noqa: E402
 import scene_energy  # noqa: E402
@@ -67,6 +68,31 @@ class ViscosityTest(unittest.TestCase):
                     scene = ba.Scene(name, {"time_step": step, "output_step": step})
                     fallen = -1e3 * ba.World(scene).run(scene.duration).twist[-1, :, 5]
                 np.testing.assert_allclose(fallen, speeds, rtol=0.01, err_msg=f"{name} at {step} s")
+
+
+class HydrofoilTest(unittest.TestCase):
+    def test_a_boat_flies_on_what_its_foils_lift_by_hand(self):
+        scene = ba.Scene("hydrofoil_boat", {"duration": 12})
+        record = ba.World(scene).run(scene.duration, 0.1)
+        place, speed = record.position[-1, 0], np.linalg.norm(record.twist[-1, 0, 3:5])
+        self.assertAlmostEqual(speed, 5.68, delta=0.06)
+        self.assertAlmostEqual(place[2], 0.515, delta=0.005)
+        np.testing.assert_allclose(record.twist[-50:, 0, [0, 1, 5]], 0, atol=0.02)  # it flies steadily
+        attack = -np.radians(0.7)
+        lift = hydrofoil.lift_by_hand(scene.document, place[2], speed, attack).sum()
+        self.assertAlmostEqual(lift / (250 * 9.81), 0.94, delta=0.02)  # the struts float 2 %
+
+
+class RocketTest(unittest.TestCase):
+    def test_fins_turn_the_nose_into_the_wind_as_fast_as_by_hand(self):
+        tilted = {"medium.velocity": [0, 0, 0], "gravity": [0, 0, 0], "thrusters.0.command": 0, "bodies.0.orientation": [1, 0, 0, 0],
+                  "bodies.0.linear_velocity": [30, 0, 1.5], "duration": 0.7, "output_step": 1 / 240}
+        turning = ba.World(ba.Scene("rocket", tilted)).run(0.7, 1 / 240).twist[1:, 0, 1]
+        first, second = np.flatnonzero(np.diff(np.sign(turning)))[:2] / 240
+        area, pressure = 2 * 0.08 * 0.1, 1.204 / 2 * 29.3**2  # of two fins, after the first half of a swing
+        fins = pressure * area * hydrofoil.lift_slope(1.6) * 0.355
+        tube = pressure * 0.9 * 2 * 0.95 * np.pi * 0.03**2 * (0.8 + 0.15 / 3)
+        self.assertAlmostEqual(np.sqrt((fins - tube) / 0.0302) / (np.pi / (second - first)), 1, delta=0.1)
 
 
 class AeroplaneTest(unittest.TestCase):

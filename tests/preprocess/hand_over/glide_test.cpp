@@ -13,7 +13,7 @@
 namespace ambient::test {
 namespace {
 
-constexpr double kDensity = 1.2, kGravity = 9.81, kInertia = 0.03;  // about left [kg m^2]
+constexpr double kAirDensity = 1.2, kFreeFall = 9.81, kPitchInertia = 0.03;  // about left [kg m^2]
 
 std::shared_ptr<const FluidBody> builtPlateAeroplane() {
   static const auto body =
@@ -24,12 +24,12 @@ std::shared_ptr<const FluidBody> builtPlateAeroplane() {
 /// With its centre of mass ahead of the wing's quarter chord [m].
 HandedBody planeOf(double mass, double ahead) {
   ExportSettings settings;
-  settings.medium = {kDensity, 1.8e-5, Vector3::Zero(), Vector3::Zero()};
-  settings.gravity = kGravity;
+  settings.medium = {kAirDensity, 1.8e-5, Vector3::Zero(), Vector3::Zero()};
+  settings.gravity = kFreeFall;
   settings.mass = mass;
   settings.centre_of_mass = Vector3(ahead, 0, 0);
   HandedBody body = handedBody(builtPlateAeroplane(), settings);
-  body.inertia = Vector3(0.02, kInertia, 0.05).asDiagonal();
+  body.inertia = Vector3(0.02, kPitchInertia, 0.05).asDiagonal();
   return body;
 }
 
@@ -50,7 +50,7 @@ struct ByHand {
   /// What the tail adds to the static margin while the aeroplane turns about it [m].
   double turning(double mass) const {
     const double area = plane.span * plane.chord;
-    return kDensity * area * tail_alone * plane.tail_arm * plane.tail_arm / (2 * mass);
+    return kAirDensity * area * tail_alone * plane.tail_arm * plane.tail_arm / (2 * mass);
   }
 };
 
@@ -60,20 +60,20 @@ TEST(Glide, OfATrimLeavesNeitherForceNorMoment) {
   ASSERT_TRUE(plan.trim);
   const Glide& trim = *plan.trim;
   PolarFlight flight;
-  flight.density = kDensity;
+  flight.density = kAirDensity;
   flight.speed = trim.speed;
   flight.reference = {1, 1};
   flight.added_mass = body.shape->added_mass.bottomRightCorner<3, 3>();
   const BodyLoads loads(body.shape, body.settings.medium, {});
   const auto [lift, drag, side, roll, pitch, yaw] =
       polarCoefficients(loads, flight, trim.incidence, 0);
-  const double weight = (0.45 - kDensity * body.shape->volume) * kGravity;
-  const double pressure = kDensity / 2 * trim.speed * trim.speed;
+  const double weight = (0.45 - kAirDensity * body.shape->volume) * kFreeFall;
+  const double pressure = kAirDensity / 2 * trim.speed * trim.speed;
   EXPECT_NEAR(pressure * std::hypot(lift, drag), weight, 1e-9 * weight);
   EXPECT_NEAR(trim.ratio, lift / drag, 1e-9 * trim.ratio);
   EXPECT_NEAR(std::tan(trim.angle), drag / lift, 1e-9);
   // Buoyancy at the centre of volume turns a little, which the polar has not.
-  const Vector3 buoyancy = -kDensity * body.shape->volume * trim.gravity;
+  const Vector3 buoyancy = -kAirDensity * body.shape->volume * trim.gravity;
   const double turned = -body.shape->centre_of_volume.cross(buoyancy).y();
   EXPECT_NEAR(pressure * pitch + turned, 0, 1e-9 * weight);
 }
@@ -101,11 +101,11 @@ TEST(Glide, OfFlatPlatesHasLanchestersPhugoid) {
     const Swing &quick = plan.stability.pitching.swings[0],
                 &slow = plan.stability.pitching.swings[1];
     const double margin = plan.stability.static_margin, manoeuvre = margin + hand.turning(mass);
-    const double lanchester = std::sqrt(2) * kGravity / plan.trim->speed;
+    const double lanchester = std::sqrt(2) * kFreeFall / plan.trim->speed;
     EXPECT_NEAR(slow.frequency / (lanchester * std::sqrt(margin / manoeuvre)), 1, 0.05) << mass;
-    const double lift = kDensity / 2 * plan.trim->speed * plan.trim->speed * hand.plane.span *
+    const double lift = kAirDensity / 2 * plan.trim->speed * plan.trim->speed * hand.plane.span *
                         hand.plane.chord * (hand.wing + hand.tail);
-    const double inertia = kInertia + body.added_mass(1, 1);
+    const double inertia = kPitchInertia + body.added_mass(1, 1);
     EXPECT_NEAR(quick.frequency / std::sqrt(lift * manoeuvre / inertia), 1, 0.1) << mass;
   }
 }
