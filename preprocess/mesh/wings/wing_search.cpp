@@ -436,13 +436,14 @@ class WingSearch {
   /// False of a part that runs out of the body without a step, as bows and ears do. A slender one,
   /// as the wing of an airliner, may.
   static bool standsOff(const MeasuredWing& measured) {
-    constexpr double kLeastStep = 2.5, kLeastBody = 4, kThickest = 0.25, kSlender = 1.2;
+    constexpr double kLeastStep = 2.5, kLeastBody = 4, kThickest = 0.25, kSlender = 1.2,
+                     kSlenderest = 2;
     const WingJoint& joint = measured.joint;
     const Wing& wing = measured.wing;
     if (!(wing.thickness > 0 && wing.thickness < kThinPart * wing.chord)) return false;
     if (!(joint.rest_share > 0.5)) return true;
     if (!(wing.thickness < kThickest * wing.chord)) return false;
-    if (wing.is_joined && wing.span >= kSlender * wing.chord) return true;
+    if (wing.span >= (wing.is_joined ? kSlender : kSlenderest) * wing.chord) return true;
     const bool is_beside = !wing.is_joined || joint.body_width >= kLeastBody * joint.root_thickness;
     return joint.step >= kLeastStep && std::isfinite(joint.step) && is_beside;
   }
