@@ -421,7 +421,8 @@ TEST(Wings, ThatMeetInAHubHaveTheirSpansAlongTheArms) {
   for (const Wing& wing : body.wings) {
     EXPECT_NEAR(wing.span, 0.48, 0.02) << "a third of the hub belongs to each";
     EXPECT_NEAR(wing.chord, 0.12, 0.005);
-    EXPECT_GT(wing.span_axis.dot(wing.centre.normalized()), 0.99);
+    EXPECT_GT(wing.span_axis.dot(wing.centre.normalized()), std::cos(10 * kPi / 180))
+        << "samples share the hub out: its joints lie within half a chord of its middle";
   }
 }
 
