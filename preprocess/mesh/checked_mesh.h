@@ -34,6 +34,7 @@ struct CheckedMesh {
   /// Closed parts inside the body, normals into the cavity; the fluid outside does not see them.
   TriangleMesh cavities = {};
   std::vector<MeshDefect> defects = {};  ///< empty: the mesh is sound
+  bool is_wrapped = false;               ///< true: a closed surface around a broken mesh
 
   /// Replaces the mesh and its cavities by those of a later step, and adds its warnings and
   /// defects.
@@ -42,6 +43,7 @@ struct CheckedMesh {
     cavities = std::move(step.cavities);
     warnings.insert(warnings.end(), step.warnings.begin(), step.warnings.end());
     addDefects(step.defects);
+    is_wrapped = is_wrapped || step.is_wrapped;
   }
   void addDefects(const std::vector<MeshDefect>& more) {
     defects.insert(defects.end(), more.begin(), more.end());

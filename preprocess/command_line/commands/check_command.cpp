@@ -104,7 +104,7 @@ Outcome tryAsAsked(const ReadInput& input) {
   const Outcome strict = tryOption(input, option, strictly);
   if (strict.usable || !option.empty() || options.strict) return strict;
   Outcome outcome = tryOption(input, option, options);
-  outcome.is_wrapped = outcome.usable.has_value();
+  outcome.is_wrapped = outcome.usable && outcome.usable->is_wrapped;
   return outcome;
 }
 

@@ -44,6 +44,7 @@ class WingSearch {
       : mesh_(mesh),
         tree_(mesh),
         samples_(sampleSurface(mesh, tree_, kSamples)),
+        area_(kSamples * samples_.spacing * samples_.spacing),
         part_(samples_.all.size()) {}
 
   std::vector<std::uint8_t> labels() {
@@ -435,15 +436,18 @@ class WingSearch {
   }
 
   /// False of a part that runs out of the body without a step, as bows and ears do. A slender one,
-  /// as the wing of an airliner, may.
-  static bool standsOff(const MeasuredWing& measured) {
-    constexpr double kLeastStep = 2.5, kLeastBody = 4, kThickest = 0.25, kSlender = 1.2;
+  /// as the wing of an airliner, may, and a large one whose joint is not seen.
+  bool standsOff(const MeasuredWing& measured) const {
+    constexpr double kLeastStep = 2.5, kLeastBody = 4, kThickest = 0.25, kSlender = 1.2,
+                     kSlenderest = 2, kLarge = 0.05;
     const WingJoint& joint = measured.joint;
     const Wing& wing = measured.wing;
     if (!(wing.thickness > 0 && wing.thickness < kThinPart * wing.chord)) return false;
     if (!(joint.rest_share > 0.5)) return true;
     if (!(wing.thickness < kThickest * wing.chord)) return false;
     if (wing.is_joined && wing.span >= kSlender * wing.chord) return true;
+    if (wing.span >= kSlenderest * wing.chord && wing.span * wing.chord > kLarge * area_)
+      return true;
     const bool is_beside = !wing.is_joined || joint.body_width >= kLeastBody * joint.root_thickness;
     return joint.step >= kLeastStep && std::isfinite(joint.step) && is_beside;
   }
@@ -493,6 +497,7 @@ class WingSearch {
   const TriangleMesh& mesh_;
   TriangleTree tree_;
   SurfaceSamples samples_;
+  double area_;            // of the body [m^2]
   std::vector<int> part_;  // of each sample: 0 or the number of a wing
   int pieces_ = 0;         // whose arms were added
   std::vector<Found> wings_;

@@ -90,7 +90,7 @@ Labels besidePlates(const TriangleMesh& mesh, const CubicGrid& grid, const GridC
     if (is_solid[static_cast<std::size_t>(node)] != 0) continue;
     for (int axis = 0; axis < 3; ++axis) {
       const LineCrossings* passed = crossings.find(node, axis);
-      if (passed == nullptr) continue;
+      if (passed == nullptr || passed->is_gap) continue;
       const auto next = static_cast<std::size_t>(node + grid.stride(axis));
       if (next >= is_solid.size() || is_solid[next] != 0) continue;
       const Vector3d near = normalOf(cornersOf(mesh, passed->first.triangle));

@@ -462,6 +462,7 @@ CheckedMesh makeBodyMesh(const TriangleMesh& mesh, const std::string& name, bool
   }
   const WrapInput input = usableInput(checked.mesh, 0, name);
   CheckedMesh result = wrapWhatIsBroken(input, name, refusal);
+  result.is_wrapped = true;
   result.warnings.insert(result.warnings.begin(),
                          refusal + "; " + beforeAndAfter(checked.mesh, input, result.mesh, unit));
   return result;

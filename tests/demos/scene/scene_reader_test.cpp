@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 
 #include "bullet_ambient/force/medium/waves.h"
 #include "bullet_ambient/wind.h"
@@ -197,6 +198,27 @@ TEST(SceneReader, ReadsPropellers) {
   const Propeller screw = Propeller::wageningen(0.4, {5, 0.6, 0.8});
   EXPECT_EQ(read.at(2).propeller->load(3, 1, 998).torque, screw.load(3, 1, 998).torque);
   EXPECT_FALSE(read.at(2).is_left_handed);
+}
+
+// Three propellers of the UIUC Propeller Database: what was measured comes back.
+TEST(SceneReader, ReadsMeasuredPropellers) {
+  std::ifstream file(std::string(AMBIENT_SCHEMAS) + "/../reality/propellers.json");
+  const json measured = json::parse(file).at("propellers");
+  ASSERT_EQ(measured.size(), 3u);
+  for (const json& of : measured) {
+    json text = ballScene();
+    json thruster = {{"on", "ball"}, {"curve", {{0, 0}, {1, 100}}}};
+    thruster["propeller"] = {{"diameter", of.at("diameter")}, {"ct_cp", of.at("ct_cp")}};
+    text["thrusters"] = json::array({thruster});
+    const Propeller propeller = *sceneFrom(text).thrusters.at(0).propeller;
+    const double n = of.at("turns").get<double>(), d = propeller.diameter();
+    const double scale = 1.2 * n * n * std::pow(d, 4);
+    for (const json& row : of.at("ct_cp")) {
+      const PropellerLoad load = propeller.load(n, row[0].get<double>() * n * d, 1.2);
+      EXPECT_NEAR(load.thrust / scale, row[1].get<double>(), 1e-14) << of.at("name") << row;
+      EXPECT_NEAR(load.power / (scale * n * d), row[2].get<double>(), 1e-14);
+    }
+  }
 }
 
 TEST(SceneReader, ReadsFoils) {

@@ -362,7 +362,7 @@ TEST(Wings, WithoutNamesAreFoundByTheirShape) {
 }
 
 TEST(Wings, LowOnASlenderHullAreFoundOnBothSides) {
-  const FluidBody body = built({{"hull", makeEllipsoidMesh({0.5, 0.06, 0.06}, 1200)},
+  const FluidBody body = built({{"hull", makeEllipsoidMesh({0.5, 0.06, 0.06}, 800)},
                                 {"plate", box({-0.05, -0.45, -0.045}, {0.07, 0.45, -0.025})}},
                                "auto");
   ASSERT_EQ(body.wings.size(), 2u);
@@ -375,15 +375,17 @@ TEST(Wings, LowOnASlenderHullAreFoundOnBothSides) {
 
 TEST(Wings, ThatMeetInAHubHaveTheirSpansAlongTheArms) {
   std::vector<Named> arms;
+  const TriangleMesh arm =
+      placed(makeBoxMesh({0.25, 0.06, 0.008}, 600), Matrix3::Identity(), {0.25, 0, 0});
   for (int k = 0; k < 3; ++k)
-    arms.push_back({"part", placed(box({0, -0.06, -0.008}, {0.5, 0.06, 0.008}),
-                                   turnAbout(Vector3d::UnitZ(), k * 2 * kPi / 3), {0, 0, 0})});
+    arms.push_back({"part", placed(arm, turnAbout(Vector3d::UnitZ(), k * 2 * kPi / 3), {0, 0, 0})});
   const FluidBody body = built(arms, "auto");
   ASSERT_EQ(body.wings.size(), 3u);
-  for (const Wing& arm : body.wings) {
-    EXPECT_NEAR(arm.span, 0.48, 0.02) << "a third of the hub belongs to each";
-    EXPECT_NEAR(arm.chord, 0.12, 0.005);
-    EXPECT_GT(arm.span_axis.dot(arm.centre.normalized()), 0.99);
+  for (const Wing& wing : body.wings) {
+    EXPECT_NEAR(wing.span, 0.48, 0.02) << "a third of the hub belongs to each";
+    EXPECT_NEAR(wing.chord, 0.12, 0.005);
+    EXPECT_GT(wing.span_axis.dot(wing.centre.normalized()), std::cos(10 * kPi / 180))
+        << "samples share the hub out: its joints lie within half a chord of its middle";
   }
 }
 

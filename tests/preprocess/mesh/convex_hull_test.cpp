@@ -227,24 +227,28 @@ std::string bodyRefusal(const TriangleMesh& mesh, bool strict) {
 
 double enclosedBy(const TriangleMesh& mesh) { return computeMassProperties(mesh).volume; }
 
-/// Volume of the closed surface that stands for a mesh with a defect. Expects one line about it,
-/// and a refusal of the same defect by `strict`.
-double wrappedVolume(const TriangleMesh& mesh, const std::string& defect) {
+const std::string kWrapped = "; wrapped with a size of ", kFilled = "; holes filled: ";
+
+/// Volume of what stands for a mesh with a defect: a closed surface around it, or the mesh with its
+/// holes filled. Expects a line about it, and a refusal of the same defect by `strict`.
+double closedVolume(const TriangleMesh& mesh, const std::string& defect, const std::string& how) {
   const std::string beginning = "thing.obj: " + defect, strictly = bodyRefusal(mesh, true);
   EXPECT_EQ(strictly.find(beginning), 0u) << strictly;
   EXPECT_NE(strictly.find("(build --wrap makes a closed surface around it)"), std::string::npos);
   const CheckedMesh made = makeBodyMesh(mesh, "thing.obj", false);
   EXPECT_TRUE(isClosed(computeMeshEdges(made.mesh)));
-  EXPECT_EQ(made.warnings.size(), 1u);
   EXPECT_EQ(made.warnings.at(0).find(beginning), 0u) << made.warnings[0];
-  EXPECT_NE(made.warnings[0].find("; wrapped with a size of "), std::string::npos);
+  EXPECT_NE(made.warnings[0].find(how), std::string::npos) << made.warnings[0];
+  EXPECT_EQ(made.is_wrapped, how == kWrapped);
+  EXPECT_TRUE(!made.is_wrapped || made.warnings.size() == 1);
   return enclosedBy(made.mesh);
 }
 
 TEST(BodyMesh, OpenBodiesAreClosed) {
-  EXPECT_NEAR(wrappedVolume(openBox(makeBoxMesh({1, 1, 1}, 300), 1), "not watertight: "), 8, 0.03);
+  EXPECT_NEAR(closedVolume(openBox(makeBoxMesh({1, 1, 1}, 300), 1), "not watertight: ", kFilled), 8,
+              1e-12);
   const TriangleMesh holed = withoutTriangle(makeBoxMesh({1, 1, 1}, 12), 5);
-  EXPECT_NEAR(wrappedVolume(holed, "not watertight: 3 boundary edges"), 8, 0.03);
+  EXPECT_NEAR(closedVolume(holed, "not watertight: 3 boundary edges", kFilled), 8, 1e-12);
 }
 
 TEST(BodyMesh, DoubledOpenBodiesAreClosedToo) {
@@ -265,13 +269,13 @@ TEST(BodyMesh, SoupsOfTrianglesBecomeWhatTheySurround) {
       soup.vertices.col(3 * t + k) = 0.95 * ball.corner(t, k) + 0.05 * ball.barycentre(t);
     soup.triangles.col(t) << 3 * t, 3 * t + (t % 3 == 0 ? 2 : 1), 3 * t + (t % 3 == 0 ? 1 : 2);
   }
-  EXPECT_NEAR(wrappedVolume(soup, "not watertight: ") / enclosedBy(ball), 1, 0.03);
+  EXPECT_NEAR(closedVolume(soup, "not watertight: ", kWrapped) / enclosedBy(ball), 1, 0.03);
 }
 
 TEST(BodyMesh, CrossingPartsOfWhichOneIsOpenAreTakenTogether) {
   const TriangleMesh box = makeBoxMesh({1, 1, 1}, 12);
   const TriangleMesh crossing = joined(moved(box, {1.3, 0.4, 0.3}), withoutTriangle(box, 0));
-  EXPECT_NEAR(wrappedVolume(crossing, "not watertight: "), 16 - 0.7 * 1.6 * 1.7, 0.1);
+  EXPECT_NEAR(closedVolume(crossing, "not watertight: ", kFilled), 16 - 0.7 * 1.6 * 1.7, 1e-9);
 }
 
 TEST(BodyMesh, WhatCanBeMendedIsNotWrapped) {
@@ -315,12 +319,17 @@ TEST(BodyMesh, WhatTheWrapRefusesSaysBothReasons) {
 }
 
 TEST(BodyMesh, TheWarningHasVolumeAndAreaBeforeAndAfter) {
-  const TriangleMesh holed = withoutTriangle(makeBoxMesh({1, 1, 1}, 12), 5);
-  const std::string line = makeBodyMesh(holed, "thing.obj", false, 10).warnings.at(0);
-  const std::size_t at =
-      line.find("; wrapped with a size of 0.3464 m: volume 8000 m^3 before and ");
-  EXPECT_NE(at, std::string::npos) << line;
-  EXPECT_NE(line.find(" m^3 after, area 2200 m^2 before and "), std::string::npos) << line;
+  const TriangleMesh box = makeBoxMesh({1, 1, 1}, 12), holed = withoutTriangle(box, 5);
+  const std::string filled = makeBodyMesh(holed, "thing.obj", false, 10).warnings.at(0);
+  EXPECT_NE(filled.find("; holes filled: 1, of 200 m^2 in all"), std::string::npos) << filled;
+  TriangleMesh patched = box;  // by a triangle that ends on its side
+  patched.vertices.conservativeResize(3, 11);
+  patched.vertices.rightCols(3) << 0.2, 0.6, 0.2, 0.2, 0.2, 0.6, 1, 1, 1.5;
+  patched.triangles.conservativeResize(3, 13);
+  patched.triangles.col(12) << 8, 9, 10;
+  const std::string line = makeBodyMesh(patched, "thing.obj", false, 10).warnings.at(0);
+  EXPECT_NE(line.find("; wrapped with a size of "), std::string::npos) << line;
+  EXPECT_NE(line.find(" m^3 after, area 24"), std::string::npos) << line;
 }
 
 }  // namespace

@@ -321,8 +321,9 @@ TEST(SurfaceWrap, GivesSheetsAThickness) {
 }
 
 TEST(SurfaceWrap, LeavesNoHolesInPlatesThinnerThanItsGrid) {
-  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()).matrix();
-  const TriangleMesh plate = rotated(boxOf12({2, 1, 0.03}), turn);
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  const TriangleMesh plate = rotated(boxOf12({1, 0.5, 0.015}), turn);
   const TriangleMesh surface = wrapSurface(plate, 0.05, "thing.obj").mesh;
   double above = 0;  // area of all that faces up, seen from there
   for (Eigen::Index t = 0; t < surface.triangleCount(); ++t)
