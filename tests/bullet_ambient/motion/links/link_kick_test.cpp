@@ -1,9 +1,8 @@
-#include "bullet_ambient/motion/links/link_flight.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "bullet_ambient/motion/links/link_flight.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/bodies/random_trees.h"
 
