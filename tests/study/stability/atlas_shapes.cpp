@@ -47,8 +47,6 @@ TriangleMesh tetrahedron() {
 }
 
 AtlasShape makeShape(const std::string& name, const TriangleMesh& mesh, bool sheet = false) {
-  MeshCheckSettings check;
-  check.sheet = sheet;
   BuildSettings settings;
   settings.name = name;
   settings.flow.sheet = sheet;
@@ -56,7 +54,7 @@ AtlasShape makeShape(const std::string& name, const TriangleMesh& mesh, bool she
   settings.flow.max_panels = kPanels;
   AtlasShape shape;
   shape.name = name;
-  const TriangleMesh checked = requireSound(checkMesh(mesh, name, check), name).mesh;
+  const TriangleMesh checked = requireSound(checkMesh(mesh, name, sheet), name).mesh;
   auto body = std::make_shared<FluidBody>(makeFluidBody(checked, settings));
   shape.solid_volume = sheet ? 0.01 * body->area / 2 : body->volume;
   shape.half_size =
