@@ -30,6 +30,9 @@ Profile::Profile(const Wing& wing, const ShapeFactors& shape)
       suction_(normalForceSlope(wing.aspect)),
       attached_(shape.in_double) {
   suction_ *= 1 - suction_ / (kPi * wing.aspect);
+  if (nose_ != kRoundAtBothEnds) return;
+  const double thickest = 4 / kPi * wing.thickness / wing.chord;  // of an ellipse
+  tail_drag_ = 1.1 * thickest * thickest;
 }
 
 double Profile::attachedShare(double across, double stalling, double speed_sq) const noexcept {
@@ -57,12 +60,14 @@ Vector3 Profile::force(const Vector3& u, double stalling) const noexcept {
     force +=
         share * along * along / speed_sq * (2 * camber_ * slope_ * turning - induced * speed * u);
   }
-  const double ahead = std::max(nose_ * along, 0.0);
+  force -= tail_drag_ * std::abs(along) * along * chord_;
+  const double nose = nose_ == kRoundAtBothEnds ? std::copysign(1.0, along) : nose_;
+  const double ahead = std::max(nose * along, 0.0);
   if (ahead > 0) {
     constexpr double kSuction = 0.9, kOnset = 0.06;  // of eq. (161b), of (49a)
     const double sine_sq = across * across / speed_sq, onset = sine_sq / kOnset;
     const double clean = share * kSuction / (1 + onset * onset) * ahead / speed;
-    force += clean * across * across * suction_ * nose_ * chord_;
+    force += clean * across * across * suction_ * nose * chord_;
     force += clean * kPi * std::abs(across) * across * ahead / speed * normal_;
   }
   return force;
@@ -145,10 +150,11 @@ Wrench WingLift::load(const Twist& x, double density, const MunkFactors& munk,
   for (std::size_t i = 0; i < wings_.size(); ++i) {
     const One& wing = wings_[i];
     const Twist seen = seenBy(i, x, wet);
+    const double stalling = wing.shape.stallingShare(seen.angular, seen.linear);
     for (const WingHalf& half : wing.halves) {
       const double share = wet ? half.wetShare(*wet) : 1;
-      const Wrench load =
-          wing.half.load(seen.angular, seen.at(half.station), share * density, munk.wings);
+      const Wrench load = wing.half.load(seen.angular, seen.at(half.station), share * density,
+                                         munk.wings, stalling);
       sum += aboutOrigin(load, half.station);
     }
   }

@@ -14,8 +14,8 @@ struct MunkFactors {
   double rest = 1, wings = 1;
 };
 
-/// Section of a wing: what it adds to a plate, docs/theory.md eq. (166), (161b). Power <= 0 with
-/// that of the plate.
+/// Section of a wing: what it adds to a plate, docs/theory.md eq. (166), (161b), (161e). Power <= 0
+/// with that of the plate.
 class Profile {
  public:
   Profile(const Wing& wing, const ShapeFactors& shape);
@@ -33,6 +33,7 @@ class Profile {
 
   Vector3 normal_, chord_;  ///< z, and h x z
   double camber_, nose_;
+  double tail_drag_ = 0;      ///< C_t of eq. (161e)
   double slope_;              ///< K
   double induced_, suction_;  ///< K^2/(pi L); K (1 - K/(pi L)) without kappa
   WingFactors<double> attached_;

@@ -121,10 +121,25 @@ class WingMeasure {
     return onto * matrix * onto;
   }
 
+  /// The direction in the plane across z in which places are spread most.
+  static Vector3 longestIn(const Matrix3& variance, const Vector3& z) {
+    const Vector3 longest = symmetricEigen<3>(inPlane(variance, z)).vectors.col(2);
+    return (longest - z.dot(longest) * z).normalized();
+  }
+
   static void setFree(const Matrix3& variance, Wing& wing) {
-    const Vector3 longest = symmetricEigen<3>(inPlane(variance, wing.facing)).vectors.col(2);
-    const Vector3 h = longest - wing.facing.dot(longest) * wing.facing;
-    setSizes(variance, h.normalized(), wing);
+    setSizes(variance, longestIn(variance, wing.facing), wing);
+  }
+
+  /// Extent of a joint along a direction.
+  static double lengthOf(const std::vector<JointEdge>& joint, const Vector3& along) {
+    double low = along.dot(joint.front().from), high = low;
+    for (const JointEdge& edge : joint)
+      for (const Vector3& end : {edge.from, edge.to}) {
+        low = std::min(low, along.dot(end));
+        high = std::max(high, along.dot(end));
+      }
+    return high - low;
   }
 
   /// Finds where a wing leaves the body; false if it is free.
@@ -141,23 +156,20 @@ class WingMeasure {
     }
     if (!(edges.sum > 0)) return false;
     const Vector3& z = wing.facing;
-    const Vector3 longest = symmetricEigen<3>(inPlane(edges.variance(), z)).vectors.col(2);
-    const Vector3 along = (longest - z.dot(longest) * z).normalized();
-    Vector3 h = z.cross(along);
+    const Vector3 along = longestIn(edges.variance(), z);
+    const bool is_arm = with_rest < 0.5 * edges.sum;  // of wings alone: cut anyhow
+    Vector3 h = is_arm ? longestIn(variance, z) : Vector3(z.cross(along));
     const double arm = h.dot(wing.centre - edges.mean());
     if (arm < 0) h = -h;
-    double low = 0, high = 0;
-    for (const JointEdge& edge : joint)
-      for (const Vector3& end : {edge.from, edge.to}) {
-        low = std::min(low, along.dot(end - edges.mean()));
-        high = std::max(high, along.dot(end - edges.mean()));
-      }
+    const double length = lengthOf(joint, along);
     Vector3 middle = edges.mean();  // in the mean plane, unless the wing is bent
     if (const double off = z.dot(wing.centre - middle); std::abs(off) < 2 * wing.thickness)
       middle += off * z;
-    const double chord = std::sqrt(12 * along.dot(variance * along));
-    const double span = std::sqrt(12 * h.dot(variance * h));
-    if (high - low < kLeastJoint * std::min(chord, 2 * span)) return false;
+    const double across = h.dot(variance * h), swept = h.dot(variance * along);
+    const double chord =
+        std::sqrt(12 * std::max(along.dot(variance * along) - swept * swept / across, 0.0));
+    const double span = std::sqrt(12 * across);
+    if (length < kLeastJoint * std::min(chord, 2 * span)) return false;
     measured.joint.rest_share = with_rest / edges.sum;
     if (!(std::abs(arm) > kLeastArm * span)) {
       if (rays_) measured.joint.step = thicknessAt(middle, {0, 0, 0}, z) / wing.thickness;
@@ -165,7 +177,7 @@ class WingMeasure {
     }
     wing.is_joined = true;
     setSizes(variance, h, wing);
-    if (rays_) setBody(middle, (high - low) / 4 * along, measured);
+    if (rays_) setBody(middle, length / 4 * along, measured);
     return true;
   }
 

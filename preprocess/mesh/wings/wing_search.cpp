@@ -52,7 +52,9 @@ class WingSearch {
     mendIslands(labels);
     keep(labels, [](std::size_t) { return true; });  // of those that have a triangle
     const std::vector<MeasuredWing> measured = measureWings(mesh_, labels, false);
-    keep(labels, [&](std::size_t w) { return wings_[w].is_cut || standsOff(measured[w]); });
+    keep(labels, [&](std::size_t w) {
+      return wings_[w].is_cut || standsOff(measured[w]) || isMost(labels, w + 1);
+    });
     const int count = static_cast<int>(wings_.size());
     if (count == 0 || count > kMostFoundWings) return {};
     return isWhole(labels, count) ? all() : labels;
@@ -356,11 +358,14 @@ class WingSearch {
       if (labels[at(one.triangle)] == labels[at(other.triangle)])
         sets.join(one.triangle, other.triangle);
     std::vector<double> areas(labels.size()), of_label(kMostWings + 1);
+    double whole = 0;
     for (std::size_t t = 0; t < labels.size(); ++t) {
       const double area = mesh_.twiceArea(static_cast<Eigen::Index>(t)).norm();
       areas[at(sets.find(static_cast<int>(t)))] += area;
       of_label[labels[t]] += area;
+      whole += area;
     }
+    if (of_label[0] < kLeastArea * whole) of_label[0] = whole;  // no body, but what was left over
     constexpr int kNone = -1, kSeveral = -2;
     std::vector<int> beside(labels.size(), kNone);  // of each island's first triangle
     for (const auto& [one, other] : pairs)
@@ -445,19 +450,24 @@ class WingSearch {
     return wings_.size() == 1 && static_cast<double>(own) > kNearly * count();
   }
 
-  /// True if one wing, not joined and no aerofoil, is most of the body.
-  bool isWhole(const std::vector<std::uint8_t>& labels, int count) const {
+  /// True if a part has most of the area: what else there is stands on it, as the nut on the wing
+  /// of a seed.
+  bool isMost(const std::vector<std::uint8_t>& labels, std::size_t label) const {
     constexpr double kMost = 0.6;
-    if (count > 1) return false;
     double own = 0, all = 0;
     for (std::size_t t = 0; t < labels.size(); ++t) {
       const double area = mesh_.twiceArea(static_cast<Eigen::Index>(t)).norm();
       all += area;
-      own += labels[t] * area;
+      if (labels[t] == label) own += area;
     }
-    if (!(own > kMost * all)) return false;
+    return own > kMost * all;
+  }
+
+  /// True if one wing, not joined and no aerofoil, is most of the body. Ellipses are none here.
+  bool isWhole(const std::vector<std::uint8_t>& labels, int count) const {
+    if (count > 1 || !isMost(labels, 1)) return false;
     const Wing wing = measureWings(mesh_, labels, false).front().wing;
-    return !wing.is_joined && wing.nose == 0;
+    return !wing.is_joined && std::abs(wing.nose) != 1;
   }
 
   const TriangleMesh& mesh_;

@@ -8,6 +8,7 @@
 
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/fluid_body/body_parts.h"
 
 namespace ambient {
 namespace {
@@ -78,7 +79,8 @@ Section sectionAt(const TriangleMesh& mesh, const std::vector<Eigen::Index>& tri
   return section;
 }
 
-/// 1 or -1: the end of the chord that is round, where the other one is thin; 0: neither.
+/// 1 or -1: the end of the chord that is round, where the other one is thin; kRoundAtBothEnds; 0:
+/// neither.
 double noseOf(const Section& section) {
   constexpr double kNear = 0.05;                    // of the chord from an end
   constexpr double kRoundest = 0.9, kRound = 0.35;  // thickness there over the largest one
@@ -87,6 +89,7 @@ double noseOf(const Section& section) {
   for (int i = 1; i < 20; ++i) most = std::max(most, section.thicknessAt(i / 20.0));
   const double low = section.thicknessAt(kNear), high = section.thicknessAt(1 - kNear);
   const auto isRound = [&](double t) { return t > kRound * most && t < kRoundest * most; };
+  if (isRound(low) && isRound(high)) return kRoundAtBothEnds;
   if (isRound(high) && low < kThin * most) return 1;
   return isRound(low) && high < kThin * most ? -1 : 0;
 }
@@ -111,6 +114,12 @@ double incidenceWithoutLift(const Section& section, double nose) {
   return sum / (kPi * section.chord());
 }
 
+/// The same of a section with any nose: of one that is round at both ends the mean of both ways.
+double meanIncidenceWithoutLift(const Section& section, double nose) {
+  if (nose != kRoundAtBothEnds) return incidenceWithoutLift(section, nose);
+  return (incidenceWithoutLift(section, 1) + incidenceWithoutLift(section, -1)) / 2;
+}
+
 }  // namespace
 
 void setSection(const TriangleMesh& mesh, const std::vector<Eigen::Index>& triangles, Wing& wing) {
@@ -118,20 +127,25 @@ void setSection(const TriangleMesh& mesh, const std::vector<Eigen::Index>& trian
   constexpr double kLeastCamber = 0.005;
   constexpr int kSections = 7;
   if (!(wing.thickness > kThinnest * wing.chord)) return;
-  double noses = 0, chords = 0, angles = 0;
+  double noses = 0, both = 0, chords = 0, angles = 0;
   for (int i = 0; i < kSections; ++i) {
     const double place = (i + 1) / (kSections + 1.0) - 0.5;
     const Section section = sectionAt(mesh, triangles, wing, place);
     const double nose = noseOf(section);
     if (nose == 0) continue;
-    noses += nose;
+    if (nose == kRoundAtBothEnds)
+      both += 1;
+    else
+      noses += nose;
     chords += section.chord();
-    angles += section.chord() * incidenceWithoutLift(section, nose);
+    angles += section.chord() * meanIncidenceWithoutLift(section, nose);
   }
   constexpr double kMost = 2.0 / 3;
   const double camber = chords > 0 ? -angles / chords / 2 : 0;
-  if (std::abs(noses) < kMost * kSections || !(std::abs(camber) <= kMostCamber)) return;
-  wing.nose = noses > 0 ? 1 : -1;
+  const bool is_both = both >= kMost * kSections;
+  if (std::abs(noses) < kMost * kSections && !is_both) return;
+  if (!(std::abs(camber) <= kMostCamber)) return;
+  wing.nose = is_both ? kRoundAtBothEnds : std::copysign(1.0, noses);
   if (std::abs(camber) > kLeastCamber) wing.camber = camber;
 }
 

@@ -8,7 +8,7 @@
 namespace ambient {
 
 /// Sets nose and camber of a wing whose sections are aerofoils: round at one end of the chord, thin
-/// at the other one, docs/theory.md eq. (161a). Cost O(T).
+/// at the other one, docs/theory.md eq. (161a), or round at both, eq. (161e). Cost O(T).
 /// @param mesh a closed body
 /// @param triangles of it that are the wing
 /// @param wing measured but for these two, which are 0
