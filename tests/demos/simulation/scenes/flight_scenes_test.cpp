@@ -212,7 +212,7 @@ Scene withWings(const std::string& name) {
 // As it does in nature: 131 rad/s and 1.2 m/s. Either way round, from any attitude.
 TEST(WingedSeedByTheDefaultLaw, AutorotatesFromRestInAnyAttitude) {
   Scene scene = withWings("winged_seed");
-  scene.duration = 5;
+  scene.duration = 6;
   const auto bodies = prepareSharing(scene);
   const Quaternion turns[] = {scene.bodies[0].orientation,
                               {1, 0, 0, 0},
