@@ -6,6 +6,9 @@
 
 namespace ambient {
 
+/// Wing::nose of a wing whose sections are round at both ends, as ellipses are, eq. (161e).
+constexpr double kRoundAtBothEnds = 2;
+
 /// Part of a body that lifts as a whole. Frame F.
 struct LiftedPart {
   Matrix3 added_mass = Matrix3::Zero();  ///< in translation, per unit density [m^3]

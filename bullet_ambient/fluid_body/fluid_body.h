@@ -243,8 +243,8 @@ struct Wing {
   double body_lift = 1;        ///< kappa of eq. (157): 1 to 2
   bool is_joined = false;      ///< to the rest of the body or to another part
   double camber = 0;           ///< zeta: rise of the mean line towards z over the chord, eq. (166)
-  /// Round end of its section: 1 towards h x z, -1 the other way; 0: none. Such a wing acts by its
-  /// mean surface, eq. (161b).
+  /// Round end of its section: 1 towards h x z, -1 the other way, 2 both; 0: none. Such a wing acts
+  /// by its mean surface, eq. (161b), (161e).
   double nose = 0;
 
   /// Returns k of eq. (156), its added mass along z per unit density [m^3].

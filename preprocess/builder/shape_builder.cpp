@@ -113,6 +113,11 @@ double ownScale(const ShapeDescription& shape) {
   return mesh ? mesh->scale : 1;
 }
 
+/// Wings that are asked for: by the settings, else by the shape.
+const std::string& wingsOf(const ShapeDescription& shape, const ShapeBuildSettings& settings) {
+  return settings.wings == "none" ? shape.wings : settings.wings;
+}
+
 HoldSearch searchFor(const ShapeDescription& shape, const ShapeBuildSettings& settings) {
   HoldSearch search = settings.holds;
   search.is_wanted = search.is_wanted && shape.has_holds;
@@ -144,7 +149,7 @@ std::string settingsText(const ShapeDescription& shape, const ShapeBuildSettings
   }
   text << ", faces " << settings.least_faces;
   if (mayHaveHolds(shape)) text << holdsText(searchFor(shape, settings));
-  text << wingsText(settings.wings);
+  text << wingsText(wingsOf(shape, settings));
   if (settings.waterline_subdivisions > 0)
     text << ", waterline " << settings.waterline_subdivisions;
   if (const auto known = knownAddedMass(shape, settings)) {
@@ -214,7 +219,7 @@ BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& se
     const std::vector<std::string> lines = takeHolds(checked.mesh, build);
     checked.warnings.insert(checked.warnings.end(), lines.begin(), lines.end());
   }
-  build.wings = planWings(settings.wings, checked.mesh, shape, settings.scale);
+  build.wings = planWings(wingsOf(shape, settings), checked.mesh, shape, settings.scale);
   if (const auto known = knownAddedMass(shape, settings)) {
     build.added_mass = known->added_mass;
     build.viscous_flow = facts.viscous_flow(settings.scale, known->added_mass);

@@ -113,7 +113,8 @@ class PlanMaker {
     if (plan_.given.empty()) return {};
     const bool is_whole = std::all_of(plan_.labels.begin(), plan_.labels.end(),
                                       [](std::uint8_t label) { return label == 1; });
-    if (is_whole && measureWings(mesh_, plan_.labels, sheet).front().wing.nose == 0) return {};
+    if (is_whole && std::abs(measureWings(mesh_, plan_.labels, sheet).front().wing.nose) != 1)
+      return {};
     return std::move(plan_);
   }
 

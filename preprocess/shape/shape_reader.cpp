@@ -131,6 +131,13 @@ Geometry readGeometry(const ShapeSource& from) {
   return readers.at(from.shape["type"].get<std::string>())(from);
 }
 
+/// "none", "auto", or the path of a list.
+std::string wingsOf(const json& shape, const std::filesystem::path& directory) {
+  const std::string wings = shape.value("wings", "none");
+  if (wings == "none" || wings == "auto") return wings;
+  return (directory / wings).lexically_normal().string();
+}
+
 }  // namespace
 
 ShapeDescription readShape(const json& shape, const std::filesystem::path& directory,
@@ -145,6 +152,7 @@ ShapeDescription readShape(const json& shape, const std::filesystem::path& direc
   for (const json& opening : shape.value("openings", json::array()))
     description.openings.push_back({vectorOf<3>(opening["place"]), vectorOf<3>(opening["normal"]),
                                     opening["area"].get<double>()});
+  description.wings = wingsOf(shape, directory);
   description.faces = shape.value("faces", ShapeDescription::kDefaultFaces);
   description.text = shape.dump();
   description.source = source;

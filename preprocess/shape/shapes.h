@@ -97,9 +97,10 @@ struct ShapeDescription {
   bool has_holds = true;  ///< false: rooms of a mesh or compound do not stay dry
   std::vector<std::filesystem::path> tanks = {};  ///< files as HoldSearch::tanks
   std::vector<GivenOpening> openings = {};        ///< in the frame of the shape
-  int faces = kDefaultFaces;  ///< triangles aimed at, where the shape has no mesh of its own
-  std::string text;           ///< the description, as JSON on one line
-  std::string source;         ///< begins every message about it: the file, and the place therein
+  std::string wings = "none";  ///< as ShapeBuildSettings::wings, which go before it
+  int faces = kDefaultFaces;   ///< triangles aimed at, where the shape has no mesh of its own
+  std::string text;            ///< the description, as JSON on one line
+  std::string source;          ///< begins every message about it: the file, and the place therein
 };
 
 }  // namespace ambient

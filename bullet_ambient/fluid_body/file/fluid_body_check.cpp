@@ -7,6 +7,7 @@
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/base/plain_text.h"
+#include "bullet_ambient/fluid_body/body_parts.h"
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "bullet_ambient/fluid_body/octahedral_lattice.h"
 #include "bullet_ambient/fluid_body/packed/packed_shape.h"
@@ -252,8 +253,8 @@ void checkWing(const Wing& wing, double size, const Checker& check) {
   if (!(std::abs(wing.camber) <= kMostCamber))
     check.fail("camber of a wing is ", wing.camber, ", but must be from ", -kMostCamber, " to ",
                kMostCamber);
-  if (wing.nose != 0 && std::abs(wing.nose) != 1)
-    check.fail("nose of a wing is ", wing.nose, ", but must be -1, 0 or 1");
+  if (wing.nose != 0 && std::abs(wing.nose) != 1 && wing.nose != kRoundAtBothEnds)
+    check.fail("nose of a wing is ", wing.nose, ", but must be -1, 0, 1 or 2");
 }
 
 /// Checks that each face is a side of a triangle of the surface, whose part is its own.

@@ -147,11 +147,11 @@ FormLift::FormLift(const LiftedPart& body, const ShapeFactors& factors, double s
                  lifting * (axes * differences.asDiagonal() * axes.transpose());
 }
 
-Wrench FormLift::load(const Vector3& w, const Vector3& v, double density,
-                      double munk_factor) const noexcept {
+Wrench FormLift::load(const Vector3& w, const Vector3& v, double density, double munk_factor,
+                      double stalling) const noexcept {
   AMBIENT_ASSERT(density >= 0);
   Wrench about_centre{Vector3::Zero(), (circulation_ * w).cross(v)};
-  addStall(w, v, munk_factor, about_centre);
+  addStall(w, v, munk_factor, stalling, about_centre);
   return density * about_centre;
 }
 
@@ -164,14 +164,14 @@ double FormLift::separatedShare(double phi, double turning) const noexcept {
   return wing_ * of_wings + (1 - wing_) * of_blocks;
 }
 
-void FormLift::addStall(const Vector3& w, const Vector3& v, double munk_factor,
+void FormLift::addStall(const Vector3& w, const Vector3& v, double munk_factor, double stalling,
                         Wrench& about_centre) const noexcept {
   const double speed = v.norm();
   if (!(largest_ > 0) || !(speed > 0)) return;
   const Vector3 e = v / speed;
   const Vector3 across = direction_ * e;
   const Vector3 munk = across.cross(e);
-  const double turning = delay_ * (w.dot(munk) / speed);
+  const double turning = stalling * delay_ * (w.dot(munk) / speed);
   const double lost = munk_factor * separatedShare(e.dot(across), turning) * largest_ * speed;
   about_centre.torque -= lost * speed * munk;
   about_centre.force -= lost * across.cross(w);

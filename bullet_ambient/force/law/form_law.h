@@ -49,14 +49,14 @@ class FormLift {
 
   /// Wrench about the centre of the part for the motion there relative to the ambient flow; density
   /// [kg/m^3]. Its power is 0. Homogeneous of degree 2 in the motion. munk_factor: factor of eq.
-  /// (118) on the loss.
-  Wrench load(const Vector3& w, const Vector3& v, double density,
-              double munk_factor = 1) const noexcept;
+  /// (118) on the loss; stalling: 1 - chi of eq. (161), on the lag of a wing, eq. (161d).
+  Wrench load(const Vector3& w, const Vector3& v, double density, double munk_factor = 1,
+              double stalling = 1) const noexcept;
 
  private:
   /// 1 - f of eq. (49) and (49a); phi: sin^2 of the incidence, turning: what the lag takes from it.
   double separatedShare(double phi, double turning) const noexcept;
-  void addStall(const Vector3& w, const Vector3& v, double munk_factor,
+  void addStall(const Vector3& w, const Vector3& v, double munk_factor, double stalling,
                 Wrench& about_centre) const noexcept;
 
   Matrix3 circulation_;  ///< B [m^3]

@@ -113,6 +113,7 @@ ViscousLaw::ViscousLaw(const FluidBody& body, const FormShape& shape, const Vect
   resistance_ = {fluid.viscosity * at_reaction, viscous.centre_of_reaction};
   drag_ = at_reaction.bottomRightCorner<3, 3>() / (3 * kPi * diameter_);
   turn_drag_ = drag_.trace() / 3;
+  setAerofoils(body);
   Smooth smooth;
   smooth.share = smoothShares(body, shape);
   if (smooth.share.isZero(0)) return;
@@ -202,9 +203,34 @@ ViscousLaw::Scalars ViscousLaw::scalars(const Twist& x) const noexcept {
   const double of_rest = (1 - s.smooth) * square(std::max(0.0, 1 - kPlateTransition / reynolds));
   const double laminar = 1 - of_smooth - of_rest;
   const double rough = s.layers.roughness * std::sqrt(reynolds) * reynoldsPower(reynolds);
-  s.of_moving = (laminar + kPlate * rough * of_rest) * translationGrowth(Q, layer);
+  double along = laminar + kPlate * rough * of_rest;
+  if (aerofoils_ > 0) along += aerofoils_ * (alongAerofoils(s, reynolds) - along);
+  s.of_moving = along * translationGrowth(Q, layer);
   s.of_turning = (laminar + kDisc * rough * (of_smooth + of_rest)) * rotationGrowth(reynolds);
   return s;
+}
+
+void ViscousLaw::setAerofoils(const FluidBody& body) {
+  double area = 0, chord = 0;
+  for (const Wing& wing : body.wings) {
+    if (wing.nose == 0) continue;
+    area += 2 * wing.span * wing.chord;
+    chord += 2 * wing.span * wing.chord * wing.chord;
+  }
+  if (!(area > 0)) return;
+  aerofoils_ = std::min(1.0, area / area_);
+  aerofoil_chord_ = chord / area / diameter_;
+}
+
+/// Friction on aerofoils over that of laminar layers: l_t of eq. (112) with the Reynolds number of
+/// their chord, eq. (161f).
+double ViscousLaw::alongAerofoils(const Scalars& s, double reynolds) const noexcept {
+  constexpr double kTransition = 3e5;  // fitted on NACA 0012
+  const double of_chord = aerofoil_chord_ * reynolds;
+  const double turbulent = (1 - s.smooth) * square(std::max(0.0, 1 - kTransition / of_chord));
+  const double laminar = 1 - s.smooth * s.layers.turbulent * s.layers.from_nose - turbulent;
+  const double rough = s.layers.roughness * std::sqrt(of_chord) * reynoldsPower(of_chord);
+  return laminar + kPlate * rough * turbulent;
 }
 
 /// Adds what depends on the state of the layers. Returns the mean of x, eq. (109).

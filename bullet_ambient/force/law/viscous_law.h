@@ -112,11 +112,15 @@ class ViscousLaw {
   void setTail(const FluidBody& body, const FormShape& shape, Smooth& to) const;
   double addLayers(Scalars& s, double reynolds, const Vector3& direction,
                    double turn_sq) const noexcept;
+  void setAerofoils(const FluidBody& body);
+  double alongAerofoils(const Scalars& s, double reynolds) const noexcept;
   Wrench tailLoad(const Scalars& s, const Vector3& w, const Vector3& v) const noexcept;
   Vector3 spinForce(const Scalars& s, const Vector3& w, const Vector3& v) const noexcept;
 
   double density_, diameter_, area_, sharp_share_, relative_roughness_;
   double reynolds_per_speed_;  ///< [s/m]
+  double aerofoils_ = 0;       ///< a of eq. (161f): share of the area that is wings with noses
+  double aerofoil_chord_ = 1;  ///< their mean chord over D_A
   Resistance resistance_;
   Matrix3 turn_speed_;                    ///< 3 G/(2 D_A) [m]
   Matrix3 drag_;                          ///< R_vv/(3 pi D_A)

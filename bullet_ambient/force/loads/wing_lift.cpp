@@ -26,6 +26,9 @@ WingLift::One::One(const Wing& wing, const BodyPart& part, double stall_lag)
       induced(shape.slope * shape.slope / (kPi * wing.aspect)),
       suction(normalForceSlope(wing.aspect)) {
   suction *= 1 - suction / (kPi * wing.aspect);
+  if (nose != kRoundAtBothEnds) return;
+  const double thickest = 4 / kPi * wing.thickness / wing.chord;  // of an ellipse
+  tail_drag = 1.1 * thickest * thickest;
 }
 
 double WingLift::One::attachedShare(double across, double stalling,
@@ -56,12 +59,14 @@ Vector3 WingLift::One::sectionForce(const Vector3& u, double stalling) const noe
     force +=
         share * along * along / speed_sq * (2 * camber * shape.slope * turning - drag * speed * u);
   }
-  const double ahead = std::max(nose * along, 0.0);
+  force -= tail_drag * std::abs(along) * along * chord;
+  const double leading = nose == kRoundAtBothEnds ? std::copysign(1.0, along) : nose;
+  const double ahead = std::max(leading * along, 0.0);
   if (ahead > 0) {
     constexpr double kSuction = 0.9, kOnset = 0.06;  // of eq. (161b), of (49a)
     const double sine_sq = across * across / speed_sq, onset = sine_sq / kOnset;
     const double clean = share * kSuction / (1 + onset * onset) * ahead / speed;
-    force += clean * across * across * suction * nose * chord;
+    force += clean * across * across * suction * leading * chord;
     force += clean * kPi * std::abs(across) * across * ahead / speed * z;
   }
   return force;
@@ -138,10 +143,13 @@ Wrench WingLift::load(const Twist& x, double density, double munk_of_rest, doubl
   for (std::size_t i = 0; i < wings_.size(); ++i) {
     const One& wing = wings_[i];
     const Twist seen = seenBy(i, x, wet);
+    const double stalling = wing.shape.stallingShare(seen.angular, seen.linear);
     for (const WingHalf& half : wing.halves) {
       const double share = wet ? half.wetShare(*wet) : 1;
-      sum += wing.half.load(seen.angular, seen.at(half.station), share * density, munk_of_wings)
-                 .aboutOrigin(half.station);
+      sum +=
+          wing.half
+              .load(seen.angular, seen.at(half.station), share * density, munk_of_wings, stalling)
+              .aboutOrigin(half.station);
     }
   }
   return sum;

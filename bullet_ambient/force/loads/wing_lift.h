@@ -43,8 +43,8 @@ class WingLift {
   bool hasWakes() const { return !wakes_.empty(); }
 
  private:
-  /// A wing, with what its section adds to a plate, docs/theory.md eq. (166), (161b); power <= 0
-  /// with that of the plate.
+  /// A wing, with what its section adds to a plate, docs/theory.md eq. (166), (161b), (161e); power
+  /// <= 0 with that of the plate.
   struct One {
     One(const Wing& wing, const BodyPart& part, double stall_lag);
     bool isFlat() const { return camber == 0 && nose == 0; }
@@ -61,6 +61,7 @@ class WingLift {
     std::array<WingHalf, 2> halves;
     double planform;  ///< of half of the wing [m^2]
     double camber, nose;
+    double tail_drag = 0;     ///< C_t of eq. (161e)
     double induced, suction;  ///< K^2/(pi L); K (1 - K/(pi L)) without kappa
   };
 

@@ -10,7 +10,9 @@
 
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/fluid_body/body_parts.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
+#include "preprocess/mesh/wings/triangle_tree.h"
 
 namespace ambient {
 
@@ -82,7 +84,8 @@ Section sectionAt(const TriangleMesh& mesh, const std::vector<Eigen::Index>& tri
   return section;
 }
 
-/// 1 or -1: the end of the chord that is round, where the other one is thin; 0: neither.
+/// 1 or -1: the end of the chord that is round, where the other one is thin; kRoundAtBothEnds; 0:
+/// neither.
 double noseOf(const Section& section) {
   constexpr double kNear = 0.05;                    // of the chord from an end
   constexpr double kRoundest = 0.9, kRound = 0.35;  // thickness there over the largest one
@@ -91,6 +94,7 @@ double noseOf(const Section& section) {
   for (int i = 1; i < 20; ++i) most = std::max(most, section.thicknessAt(i / 20.0));
   const double low = section.thicknessAt(kNear), high = section.thicknessAt(1 - kNear);
   const auto isRound = [&](double t) { return t > kRound * most && t < kRoundest * most; };
+  if (isRound(low) && isRound(high)) return kRoundAtBothEnds;
   if (isRound(high) && low < kThin * most) return 1;
   return isRound(low) && high < kThin * most ? -1 : 0;
 }
@@ -115,8 +119,14 @@ double incidenceWithoutLift(const Section& section, double nose) {
   return sum / (kPi * section.chord());
 }
 
+/// The same of a section with any nose: of one that is round at both ends the mean of both ways.
+double meanIncidenceWithoutLift(const Section& section, double nose) {
+  if (nose != kRoundAtBothEnds) return incidenceWithoutLift(section, nose);
+  return (incidenceWithoutLift(section, 1) + incidenceWithoutLift(section, -1)) / 2;
+}
+
 /// Sets nose and camber of a wing whose sections are aerofoils: round at one end of the chord, thin
-/// at the other one, docs/theory.md eq. (161a). Cost O(T).
+/// at the other one, docs/theory.md eq. (161a), or round at both, eq. (161e). Cost O(T).
 /// @param mesh a closed body
 /// @param triangles of it that are the wing
 /// @param wing measured but for these two, which are 0
@@ -125,20 +135,25 @@ void setSection(const TriangleMesh& mesh, const std::vector<Eigen::Index>& trian
   constexpr double kLeastCamber = 0.005;
   constexpr int kSections = 7;
   if (!(wing.thickness > kThinnest * wing.chord)) return;
-  double noses = 0, chords = 0, angles = 0;
+  double noses = 0, both = 0, chords = 0, angles = 0;
   for (int i = 0; i < kSections; ++i) {
     const double place = (i + 1) / (kSections + 1.0) - 0.5;
     const Section section = sectionAt(mesh, triangles, wing, place);
     const double nose = noseOf(section);
     if (nose == 0) continue;
-    noses += nose;
+    if (nose == kRoundAtBothEnds)
+      both += 1;
+    else
+      noses += nose;
     chords += section.chord();
-    angles += section.chord() * incidenceWithoutLift(section, nose);
+    angles += section.chord() * meanIncidenceWithoutLift(section, nose);
   }
   constexpr double kMost = 2.0 / 3;
   const double camber = chords > 0 ? -angles / chords / 2 : 0;
-  if (std::abs(noses) < kMost * kSections || !(std::abs(camber) <= kMostCamber)) return;
-  wing.nose = noses > 0 ? 1 : -1;
+  const bool is_both = both >= kMost * kSections;
+  if (std::abs(noses) < kMost * kSections && !is_both) return;
+  if (!(std::abs(camber) <= kMostCamber)) return;
+  wing.nose = is_both ? kRoundAtBothEnds : std::copysign(1.0, noses);
   if (std::abs(camber) > kLeastCamber) wing.camber = camber;
 }
 
@@ -249,10 +264,25 @@ class WingMeasure {
     return onto * matrix * onto;
   }
 
+  /// The direction in the plane across z in which places are spread most.
+  static Vector3 longestIn(const Matrix3& variance, const Vector3& z) {
+    const Vector3 longest = symmetricEigen<3>(inPlane(variance, z)).vectors.col(2);
+    return (longest - z.dot(longest) * z).normalized();
+  }
+
   static void setFree(const Matrix3& variance, Wing& wing) {
-    const Vector3 longest = symmetricEigen<3>(inPlane(variance, wing.facing)).vectors.col(2);
-    const Vector3 h = longest - wing.facing.dot(longest) * wing.facing;
-    setSizes(variance, h.normalized(), wing);
+    setSizes(variance, longestIn(variance, wing.facing), wing);
+  }
+
+  /// Extent of a joint along a direction.
+  static double lengthOf(const std::vector<JointEdge>& joint, const Vector3& along) {
+    double low = along.dot(joint.front().from), high = low;
+    for (const JointEdge& edge : joint)
+      for (const Vector3& end : {edge.from, edge.to}) {
+        low = std::min(low, along.dot(end));
+        high = std::max(high, along.dot(end));
+      }
+    return high - low;
   }
 
   /// Finds where a wing leaves the body; false if it is free.
@@ -269,10 +299,9 @@ class WingMeasure {
     }
     if (!(edges.sum > 0)) return false;
     const Vector3& z = wing.facing;
-    const Vector3 longest = symmetricEigen<3>(inPlane(edges.variance(), z)).vectors.col(2);
     const Vector3 off_joint = wing.centre - edges.mean();
     const Vector3 outward = off_joint - z.dot(off_joint) * z;
-    Vector3 along = (longest - z.dot(longest) * z).normalized();
+    Vector3 along = longestIn(edges.variance(), z);
     Vector3 h = z.cross(along);
     const bool is_arm = with_rest < kFewWithRest * edges.sum;  // that meets others in a hub
     if (is_arm && std::abs(h.dot(outward)) < kLeastAcross * outward.norm()) {
@@ -281,18 +310,15 @@ class WingMeasure {
     }
     const double arm = h.dot(outward);
     if (arm < 0) h = -h;
-    double low = 0, high = 0;
-    for (const JointEdge& edge : joint)
-      for (const Vector3& end : {edge.from, edge.to}) {
-        low = std::min(low, along.dot(end - edges.mean()));
-        high = std::max(high, along.dot(end - edges.mean()));
-      }
+    const double length = lengthOf(joint, along);
     Vector3 middle = edges.mean();  // in the mean plane, unless the wing is bent
     if (const double off = z.dot(wing.centre - middle); std::abs(off) < 2 * wing.thickness)
       middle += off * z;
-    const double chord = std::sqrt(12 * along.dot(variance * along));
-    const double span = std::sqrt(12 * h.dot(variance * h));
-    if (high - low < kLeastJoint * std::min(chord, 2 * span)) return false;
+    const double across = h.dot(variance * h), swept = h.dot(variance * along);
+    const double chord =
+        std::sqrt(12 * std::max(along.dot(variance * along) - swept * swept / across, 0.0));
+    const double span = std::sqrt(12 * across);
+    if (length < kLeastJoint * std::min(chord, 2 * span)) return false;
     measured.joint.rest_share = with_rest / edges.sum;
     if (!(std::abs(arm) > kLeastArm * span)) {
       if (rays_) measured.joint.step = thicknessAt(middle, {0, 0, 0}, z) / wing.thickness;
@@ -300,7 +326,7 @@ class WingMeasure {
     }
     wing.is_joined = true;
     setSizes(variance, h, wing);
-    if (rays_) setBody(middle, (high - low) / 4 * along, measured);
+    if (rays_) setBody(middle, length / 4 * along, measured);
     return true;
   }
 
@@ -359,6 +385,18 @@ std::vector<MeasuredWing> measureWings(const TriangleMesh& mesh,
   for (std::size_t label = 1; label <= wings; ++label)
     measured.push_back(measure.of(triangles[label], joints[label]));
   return measured;
+}
+
+bool standsOff(const MeasuredWing& measured) {
+  constexpr double kLeastStep = 2.5, kLeastBody = 4, kThickest = 0.25, kSlender = 1.2;
+  const WingJoint& joint = measured.joint;
+  const Wing& wing = measured.wing;
+  if (!(wing.thickness > 0 && wing.thickness < kThinPart * wing.chord)) return false;
+  if (!(joint.rest_share > 0.5)) return true;
+  if (!(wing.thickness < kThickest * wing.chord)) return false;
+  if (wing.is_joined && wing.span >= kSlender * wing.chord) return true;
+  const bool is_beside = !wing.is_joined || joint.body_width >= kLeastBody * joint.root_thickness;
+  return joint.step >= kLeastStep && std::isfinite(joint.step) && is_beside;
 }
 
 }  // namespace ambient

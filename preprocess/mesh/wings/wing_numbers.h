@@ -33,4 +33,8 @@ struct MeasuredWing {
 std::vector<MeasuredWing> measureWings(const TriangleMesh& mesh,
                                        const std::vector<std::uint8_t>& labels, bool sheet);
 
+/// False of a part that runs out of the body without a step, as bows and ears do. A slender one,
+/// as the wing of an airliner, may.
+bool standsOff(const MeasuredWing& measured);
+
 }  // namespace ambient

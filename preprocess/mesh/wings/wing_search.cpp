@@ -44,7 +44,6 @@ class WingSearch {
       : mesh_(mesh),
         tree_(mesh),
         samples_(sampleSurface(mesh, tree_, kSamples)),
-        area_(kSamples * samples_.spacing * samples_.spacing),
         part_(samples_.all.size()) {}
 
   std::vector<std::uint8_t> labels() {
@@ -368,11 +367,14 @@ class WingSearch {
       if (labels[at(one.triangle)] == labels[at(other.triangle)])
         sets.join(one.triangle, other.triangle);
     std::vector<double> areas(labels.size()), of_label(kMostWings + 1);
+    double whole = 0;
     for (std::size_t t = 0; t < labels.size(); ++t) {
       const double area = mesh_.twiceArea(static_cast<Eigen::Index>(t)).norm();
       areas[at(sets.find(static_cast<int>(t)))] += area;
       of_label[labels[t]] += area;
+      whole += area;
     }
+    if (of_label[0] < kLeastArea * whole) of_label[0] = whole;  // no body, but what was left over
     constexpr int kNone = -1, kSeveral = -2;
     std::vector<int> beside(labels.size(), kNone);  // of each island's first triangle
     for (const auto& [one, other] : pairs)
@@ -435,23 +437,6 @@ class WingSearch {
     wings_ = std::move(kept);
   }
 
-  /// False of a part that runs out of the body without a step, as bows and ears do. A slender one,
-  /// as the wing of an airliner, may, and a large one whose joint is not seen.
-  bool standsOff(const MeasuredWing& measured) const {
-    constexpr double kLeastStep = 2.5, kLeastBody = 4, kThickest = 0.25, kSlender = 1.2,
-                     kSlenderest = 2, kLarge = 0.05;
-    const WingJoint& joint = measured.joint;
-    const Wing& wing = measured.wing;
-    if (!(wing.thickness > 0 && wing.thickness < kThinPart * wing.chord)) return false;
-    if (!(joint.rest_share > 0.5)) return true;
-    if (!(wing.thickness < kThickest * wing.chord)) return false;
-    if (wing.is_joined && wing.span >= kSlender * wing.chord) return true;
-    if (wing.span >= kSlenderest * wing.chord && wing.span * wing.chord > kLarge * area_)
-      return true;
-    const bool is_beside = !wing.is_joined || joint.body_width >= kLeastBody * joint.root_thickness;
-    return joint.step >= kLeastStep && std::isfinite(joint.step) && is_beside;
-  }
-
   /// Drops parts that run out of the body, until none of those that border on each other does: what
   /// is dropped belongs to the body then. Arms stay or go together.
   void dropWhatRunsOut(std::vector<std::uint8_t>& labels) {
@@ -463,8 +448,8 @@ class WingSearch {
         if (!(measured[w].wing.thickness < kThinPart * measured[w].wing.chord))
           thick.insert(wings_[w].piece);
       keep(labels, [&](std::size_t w) {
-        return wings_[w].piece == kNoPiece ? standsOff(measured[w])
-                                           : thick.count(wings_[w].piece) == 0;
+        if (wings_[w].piece != kNoPiece) return thick.count(wings_[w].piece) == 0;
+        return standsOff(measured[w]) || isMost(labels, w + 1);
       });
     }
   }
@@ -480,24 +465,29 @@ class WingSearch {
     return wings_.size() == 1 && static_cast<double>(own) > kNearly * count();
   }
 
-  /// True if one wing, no aerofoil, is most of the body.
-  bool isWhole(const std::vector<std::uint8_t>& labels, int count) const {
+  /// True if a part has most of the area: what else there is stands on it, as the nut on the wing
+  /// of a seed.
+  bool isMost(const std::vector<std::uint8_t>& labels, std::size_t label) const {
     constexpr double kMost = 0.6;
-    if (count > 1) return false;
     double own = 0, all = 0;
     for (std::size_t t = 0; t < labels.size(); ++t) {
       const double area = mesh_.twiceArea(static_cast<Eigen::Index>(t)).norm();
       all += area;
-      own += labels[t] * area;
+      if (labels[t] == label) own += area;
     }
-    if (!(own > kMost * all)) return false;
-    return measureWings(mesh_, labels, false).front().wing.nose == 0;
+    return own > kMost * all;
+  }
+
+  /// True if one wing, not joined and no aerofoil, is most of the body. Ellipses are none here.
+  bool isWhole(const std::vector<std::uint8_t>& labels, int count) const {
+    if (count > 1 || !isMost(labels, 1)) return false;
+    const Wing wing = measureWings(mesh_, labels, false).front().wing;
+    return !wing.is_joined && std::abs(wing.nose) != 1;
   }
 
   const TriangleMesh& mesh_;
   TriangleTree tree_;
   SurfaceSamples samples_;
-  double area_;            // of the body [m^2]
   std::vector<int> part_;  // of each sample: 0 or the number of a wing
   int pieces_ = 0;         // whose arms were added
   std::vector<Found> wings_;

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/fluid_body/body_parts.h"
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "bullet_ambient/force/law/form_law.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
@@ -255,6 +256,108 @@ TEST(Wings, OfABladeThatTurnsAboutItsRootDoNotStallByTheirPlane) {
   EXPECT_DOUBLE_EQ(factors.stallingShare({0, 0, 3}, {0, 0, 0}), 0) << "eq. (161)";
   EXPECT_DOUBLE_EQ(factors.stallingShare({0, 0, 0}, {1, 0, 2}), 1);
   EXPECT_DOUBLE_EQ(factors.stallingShare({0, 0, 3}, {6, 0, 0}), 0.5);
+}
+
+// Beyond stall the lag (48) feeds a plate that pitches to and fro; blades that turn about their
+// root have none of it, eq. (161d).
+TEST(Wings, OfABladeThatTurnsAboutItsRootStallWithoutLag) {
+  Wing wing;
+  wing.span = 2;
+  wing.chord = 0.3;
+  wing.aspect = 6;
+  const ShapeFactors factors(wing, 1);
+  LiftedPart blade;
+  blade.added_mass = wing.plateMass() * wing.facing * wing.facing.transpose();
+  blade.area = 2 * wing.span * wing.chord;
+  const FormLift lagging(blade, factors, 4.5), prompt(blade, factors, 0);
+  const Vector3 w(0, 0.5, 3), v(2, 0, -0.5);
+  const Wrench fixed = lagging.load(w, v, 1), turning = lagging.load(w, v, 1, 1, 0);
+  EXPECT_EQ(turning.torque, prompt.load(w, v, 1).torque);
+  EXPECT_EQ(turning.force, prompt.load(w, v, 1).force);
+  EXPECT_GT((fixed.torque - turning.torque).norm(), 1e-3 * fixed.torque.norm());
+  EXPECT_EQ(lagging.load(w, v, 1, 1, 1).torque, fixed.torque);
+}
+
+/// Two blades of elliptic sections in one piece, pitched 20 degrees, from tip to tip along x.
+TriangleMesh propeller() {
+  constexpr int kAround = 16, kAlong = 31;
+  TriangleMesh mesh;
+  mesh.vertices.resize(3, kAround * kAlong);
+  for (int j = 0; j < kAlong; ++j) {
+    const double x = 0.09 * (2 * (j + 0.5) / kAlong - 1), pitch = 0.349 * std::tanh(100 * x);
+    for (int i = 0; i < kAround; ++i) {
+      const double a = 0.011 * std::cos(2 * kPi * i / kAround);
+      const double b = 0.002 * std::sin(2 * kPi * i / kAround);
+      mesh.vertices.col(kAround * j + i) << x, a * std::cos(pitch) - b * std::sin(pitch),
+          a * std::sin(pitch) + b * std::cos(pitch);
+    }
+  }
+  std::vector<Eigen::Vector3i> triangles;
+  for (int i = 0; i < kAround; ++i) {
+    const int j = (i + 1) % kAround, last = kAround * (kAlong - 1);
+    for (int row = 0; row < last; row += kAround) {
+      triangles.emplace_back(row + i, row + j, row + kAround + j);
+      triangles.emplace_back(row + i, row + kAround + j, row + kAround + i);
+    }
+    if (i > 0 && j > 0) {
+      triangles.emplace_back(0, j, i);
+      triangles.emplace_back(last, last + i, last + j);
+    }
+  }
+  mesh.triangles.resize(3, static_cast<Eigen::Index>(triangles.size()));
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    mesh.triangles.col(static_cast<Eigen::Index>(t)) = triangles[t];
+  return mesh;
+}
+
+TEST(Wings, OfAPropellerAreItsEqualBlades) {
+  const FluidBody body = built({{"propeller", propeller()}}, "auto");
+  ASSERT_EQ(body.wings.size(), 2u);
+  for (const Wing& blade : body.wings) {
+    EXPECT_TRUE(blade.is_joined);
+    EXPECT_EQ(blade.nose, kRoundAtBothEnds);
+    EXPECT_NEAR(blade.span, 0.0885, 0.002);
+    EXPECT_NEAR(blade.aspect, 8.1, 0.3);
+    EXPECT_NEAR(std::abs(blade.facing.z()), std::cos(0.349), 0.02);
+  }
+  // A turn about the blades' common span is damped, as they turn the fluid.
+  const auto loads = loadsOn(body, LoadPrecision::kDouble, 1.8e-5);
+  const auto torqueAt = [&](double pitching) {
+    return loads->load({{pitching, 0, 190}, {0, 0, 1}}).torque.x();
+  };
+  EXPECT_LT(torqueAt(2) - torqueAt(-2), 0);
+}
+
+// What stands on a wing that is most of the body is its rest: the nut of a seed.
+TEST(Wings, WithANutAreNoWholeBodies) {
+  TriangleMesh nut = makeEllipsoidMesh({0.005, 0.003, 0.002}, 300);
+  nut.vertices.row(0).array() -= 0.018;
+  const FluidBody body = built(
+      {{"seed", box({-0.017, -0.005, -0.0003}, {0.02, 0.005, 0.0003})}, {"nut", nut}}, "auto");
+  ASSERT_EQ(body.wings.size(), 1u);
+  EXPECT_TRUE(body.wings[0].is_joined);
+  EXPECT_NEAR(body.wings[0].span_axis.x(), 1, 0.01);
+}
+
+TEST(Wings, ThatAreSweptAreJoinedWhereTheyLeaveTheBody) {
+  const Matrix3 along = turnAbout(Vector3d::UnitY(), kPi / 2);
+  std::vector<Named> parts{{"hull", placed(makeCylinderMesh(0.1, 1.5, 600), along, {0, 0, 0})}};
+  for (const double side : {1.0, -1.0}) {
+    TriangleMesh plate = box({-0.07, 0.05, -0.005}, {0.07, 0.55, 0.005});
+    for (Eigen::Index v = 0; v < plate.vertexCount(); ++v) {
+      plate.vertices(0, v) -= plate.vertices(1, v);
+      if (side < 0) plate.vertices(1, v) *= -1;
+    }
+    if (side < 0) plate.triangles.row(0).swap(plate.triangles.row(1));
+    parts.push_back({"wing", plate});
+  }
+  const FluidBody body = built(parts, "auto");
+  ASSERT_EQ(body.wings.size(), 2u);
+  for (const Wing& wing : body.wings) {
+    EXPECT_TRUE(wing.is_joined);
+    EXPECT_NEAR(std::abs(wing.span_axis.y()), 1, 0.01);
+    EXPECT_NEAR(wing.chord, 0.14, 0.01);
+  }
 }
 
 TEST(Wings, OfLowAspectRatioHaveTheSlopeOfASlenderWing) {
