@@ -40,13 +40,6 @@ void expectRefusal(const std::string& words, const Action& action) {
   EXPECT_NE(said.find(words), std::string::npos) << said;
 }
 
-/// Expects that an action is refused with these words.
-template <class Action>
-void expectRefusal(const std::string& words, const Action& action) {
-  const std::string said = test::refusalOf(action);
-  EXPECT_NE(said.find(words), std::string::npos) << said;
-}
-
 /// A rocket along x, nose ahead: d 40 mm, 0.6 m long, four fins of 60 x 60 x 2 mm.
 std::vector<Named> rocket() {
   const Matrix3 along = turnAbout(Vector3d::UnitY(), kPi / 2);
