@@ -84,8 +84,8 @@ class AeroplaneTest(unittest.TestCase):
             self.assertGreater(ratio, 10)
             glides = [aeroplane.glide(file, centre, step) for step in (1 / 60, 1 / 240)]
             for distance, speed in glides:
-                self.assertAlmostEqual(distance, 13.4, delta=0.5)
-                self.assertAlmostEqual(speed, 8.55, delta=0.2)
+                self.assertAlmostEqual(distance, 14.6, delta=0.5)
+                self.assertAlmostEqual(speed, 8.2, delta=0.2)
 
 
 class WindFieldTest(unittest.TestCase):
