@@ -1,8 +1,6 @@
 #include "bullet_ambient/force/loads/form_loads.h"
 
-#include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
@@ -114,11 +112,7 @@ class FormLoads final : public ViscousLoads {
     Vector3 own_drag{0, 0, 0};
     if (!body->viscous.separation.smooth_base.isZero(0))
       own_drag = LoadTables(body).ownDrag(allFaces(body));
-    // Edges of wings make nothing of the wake of a hull beside them.
-    const std::vector<std::uint8_t>& parts = body->form.part_of_face;
-    const bool has_hull = std::count(parts.begin(), parts.end(), 0) > 0;
-    const FormShape& hull = has_hull ? body->form.rest : shape_->shape;
-    law_.emplace(*body, hull, own_drag, fluidOf(settings));
+    law_.emplace(*body, shape_->shape, own_drag, fluidOf(settings));
     if (settings.skin_friction) resistance_ = &law_->resistance();
   }
 

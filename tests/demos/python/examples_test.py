@@ -106,12 +106,12 @@ class AeroplaneTest(unittest.TestCase):
             self.assertEqual(sorted(wing["name"] for wing in body.wings), ["fin", "tail", "tail", "wing", "wing"])
             slope, neutral, ratio, centre = aeroplane.numbers(body)
             self.assertAlmostEqual(slope, 5.4, delta=0.25)
-            self.assertAlmostEqual(neutral, 0.35, delta=0.06)
+            self.assertAlmostEqual(neutral, 0.32, delta=0.06)
             self.assertGreater(ratio, 10)
             glides = [aeroplane.glide(file, centre, step) for step in (1 / 60, 1 / 240)]
             for distance, speed in glides:
-                self.assertAlmostEqual(distance, 13.7, delta=0.5)
-                self.assertAlmostEqual(speed, 7.9, delta=0.2)
+                self.assertAlmostEqual(distance, 14.6, delta=0.5)
+                self.assertAlmostEqual(speed, 8.2, delta=0.2)
 
 
 class WindFieldTest(unittest.TestCase):
