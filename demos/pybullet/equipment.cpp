@@ -40,6 +40,13 @@ auto findNamed(Defs& defs, const std::string& name) {
   return std::find_if(defs.begin(), defs.end(), [&](const auto& def) { return def.name == name; });
 }
 
+/// Refuses a name that something of the other kind has.
+template <class Defs>
+void requireNew(const Defs& others, const std::string& name) {
+  if (findNamed(others, name) != others.end())
+    throw std::invalid_argument("equip: a foil and a thruster are called \"" + name + "\"");
+}
+
 }  // namespace
 
 // Adds the body that an entry is on, if it is new.
@@ -59,12 +66,17 @@ void Equipment::read(const nlohmann::json& values, const WorldFluid& world) {
   for (const nlohmann::json& entry : values.value("thrusters", none)) {
     addCarrier(entry, world);
     ThrusterDef def = toThruster(entry, scene_);
+    if (def.washes_bodies)
+      throw std::invalid_argument("equip: thruster \"" + def.name +
+                                  "\": washes_bodies is for scenes; here bodies feel no wash");
+    requireNew(scene_.foils, def.name);
     toF(carriers_[def.body].fluid_frame, def.position, def.axis);
     scene_.thrusters.push_back(std::move(def));
   }
   for (const nlohmann::json& entry : values.value("foils", none)) {
     addCarrier(entry, world);
     FoilDef def = toFoil(entry, scene_);
+    requireNew(scene_.thrusters, def.name);
     const FrameOffset& frame = carriers_[def.body].fluid_frame;
     toF(frame, def.foil.position, def.foil.chord_axis);
     def.foil.span_axis = frame.rotation.transpose() * def.foil.span_axis;
@@ -99,9 +111,8 @@ void Equipment::drive(const Command& command) {
     const auto thruster = findNamed(scene_.thrusters, name);
     const auto foil = findNamed(scene_.foils, name);
     const bool is_thruster = thruster != scene_.thrusters.end();
-    if (name.empty() || is_thruster == (foil != scene_.foils.end()))
-      command.fail(is_thruster ? "a foil and a thruster are called \"" + name + "\""
-                               : "there is no foil or thruster \"" + name + "\"");
+    if (name.empty() || !(is_thruster || foil != scene_.foils.end()))
+      command.fail("there is no foil or thruster \"" + name + "\"");
     const double asked = value.get<double>();
     if (is_thruster) {
       thrusters_.command(static_cast<std::size_t>(thruster - scene_.thrusters.begin()), asked);

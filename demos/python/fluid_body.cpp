@@ -3,6 +3,7 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
+#include <cmath>
 #include <memory>
 
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
@@ -93,6 +94,8 @@ py::array_t<PolarRow> polar(const FluidBodyPtr& body, const InputArray& attack, 
   const BodyLoads body_loads(body, question.medium, question.flow);
   py::array_t<PolarRow> table(attack.size());
   for (py::ssize_t i = 0; i < attack.size(); ++i) {
+    if (!std::isfinite(attack.data()[i]) || !std::isfinite(side_slip))
+      throw py::value_error("attack and side_slip must be finite");
     const PolarCoefficients c =
         polarCoefficients(body_loads, question.flight, attack.data()[i], side_slip);
     table.mutable_at(i) = {attack.data()[i], side_slip, c[0], c[1], c[2], c[3], c[4], c[5]};

@@ -220,9 +220,14 @@ class WingReader {
       for (const auto& c : valueOf<std::array<std::array<double, 3>, 2>>(
                entry["box"], "box", "two corners of three numbers"))
         wing.box.extend(Eigen::Vector3d(c[0], c[1], c[2]));
-    if (entry.contains("triangles"))
-      wing.triangles = valueOf<std::vector<std::size_t>>(entry["triangles"], "triangles",
-                                                         "a list of numbers from 0 on");
+    if (entry.contains("triangles")) {
+      const json& triangles = entry["triangles"];
+      const auto isNumber = [](const json& number) { return number.is_number_unsigned(); };
+      if (!triangles.is_array() || !std::all_of(triangles.begin(), triangles.end(), isNumber))
+        raiseInputError(file_, "triangles = ", triangles.dump(),
+                        " must be a list of whole numbers from 0 on");
+      wing.triangles = triangles.get<std::vector<std::size_t>>();
+    }
     if (entry.contains("name")) wing.name = valueOf<std::string>(entry["name"], "name", "a text");
     wing.span = sizeOf(entry, "span");
     wing.chord = sizeOf(entry, "chord");

@@ -132,6 +132,14 @@ class Fluid:
         """Removes a region."""
         self._give("remove", name=name)
 
+    def _urdf_frame(self, command: str, body: int, link: int) -> tuple[_Vector, _Vector]:
+        """Pose of the frame of a URDF's link in that of its centre of mass. PyBullet crashes if asked for links that are not there."""
+        bodies = {self._bullet.getBodyUniqueId(k, physicsClientId=self._client) for k in range(self._bullet.getNumBodies(physicsClientId=self._client))}
+        if body not in bodies or not -1 <= link < self._bullet.getNumJoints(body, physicsClientId=self._client):
+            raise ValueError(f"{command}: there is no body {body} with link {link}")
+        place, turn = self._bullet.invertTransform(*self._bullet.getDynamicsInfo(body, link, physicsClientId=self._client)[3:5])
+        return place, turn
+
     def body(self, body: int, link: int = -1, source: Union[str, Path, FluidBody, Mapping[str, Any], None] = None, *,
              density: Optional[float] = None, drag: Optional[_Vector] = None, medium: Optional[str] = None,
              law: Optional[str] = None, roughness: Optional[float] = None) -> None:
@@ -147,8 +155,7 @@ class Fluid:
         if source is None:
             self._give("body", body=body, link=link, **more)
             return
-        inertial = self._bullet.getDynamicsInfo(body, link, physicsClientId=self._client)[3:5]
-        more["origin"], more["rotation"] = self._bullet.invertTransform(*inertial)
+        more["origin"], more["rotation"] = self._urdf_frame("body", body, link)
         if isinstance(source, Mapping):
             source = FluidBody.from_shape(source, origin=(0, 0, 0))
         if isinstance(source, (str, Path)):
@@ -166,8 +173,7 @@ class Fluid:
         Each is a mapping with the keys that `foils` and `thrusters` have in scenes, but for "on"; places and axes are in the
         frame of the URDF's link. Call it after body(), and as often as you like: what came before stays.
         """
-        inertial = self._bullet.getDynamicsInfo(body, link, physicsClientId=self._client)[3:5]
-        place, turn = self._bullet.invertTransform(*inertial)
+        place, turn = self._urdf_frame("equip", body, link)
         on = str(body) if link < 0 else f"{body}/{link}"
 
         def placed(entry: Mapping[str, Any], axes: Mapping[str, _Vector]) -> dict[str, Any]:

@@ -81,10 +81,12 @@ Labels dilated(Labels labels, const CubicGrid& grid) {
 }
 
 /// Nodes beside plates that pass between two nodes outside of them: both sides of the plate, or the
-/// sheet, meet the line from one to the other.
+/// sheet, meet the line from one to the other. A line that grazes a round body meets it twice, too,
+/// but not across.
 Labels besidePlates(const TriangleMesh& mesh, const CubicGrid& grid, const GridCrossings& crossings,
                     const Labels& is_solid) {
-  constexpr double kAlike = 0.9;  // cosine of the normals of both sides
+  constexpr double kAlike = 0.9;   // cosine of the normals of both sides
+  constexpr double kAcross = 0.5;  // least cosine of a side's normal and the line
   Labels is_beside(is_solid.size(), 0);
   for (std::int64_t node = 0; node < grid.nodeCount(); ++node) {
     if (is_solid[static_cast<std::size_t>(node)] != 0) continue;
@@ -95,7 +97,7 @@ Labels besidePlates(const TriangleMesh& mesh, const CubicGrid& grid, const GridC
       if (next >= is_solid.size() || is_solid[next] != 0) continue;
       const Vector3d near = normalOf(cornersOf(mesh, passed->first.triangle));
       const Vector3d far = normalOf(cornersOf(mesh, passed->last.triangle));
-      if (std::abs(near.dot(far)) < kAlike) continue;
+      if (std::abs(near.dot(far)) < kAlike || std::abs(near[axis]) < kAcross) continue;
       is_beside[static_cast<std::size_t>(node)] = 1;
       is_beside[next] = 1;
     }
