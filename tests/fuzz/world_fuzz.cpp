@@ -1,5 +1,5 @@
-// Plays random scenes until the time is over or a check fails: world_fuzz [--seconds S] [--seed
-// N]
+// Plays random scenes until the time is over, or as many as are asked for, or a check fails:
+// world_fuzz [--seconds S] [--seed N] [--scenes M]
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -15,6 +15,7 @@ constexpr int kEventsPerScene = 300;
 struct Options {
   double seconds = 15;
   unsigned seed = 1;
+  unsigned scenes = 1000000000;
 };
 
 bool parse(int argc, char** argv, Options& options) {
@@ -24,6 +25,8 @@ bool parse(int argc, char** argv, Options& options) {
       options.seconds = std::atof(argv[i + 1]);
     } else if (name == "--seed") {
       options.seed = static_cast<unsigned>(std::strtoul(argv[i + 1], nullptr, 10));
+    } else if (name == "--scenes") {
+      options.scenes = static_cast<unsigned>(std::strtoul(argv[i + 1], nullptr, 10));
     } else {
       return false;
     }
@@ -36,14 +39,14 @@ bool parse(int argc, char** argv, Options& options) {
 int main(int argc, char** argv) {
   Options options;
   if (!parse(argc, argv, options)) {
-    std::fprintf(stderr, "usage: world_fuzz [--seconds S] [--seed N]\n");
+    std::fprintf(stderr, "usage: world_fuzz [--seconds S] [--seed N] [--scenes M]\n");
     return 2;
   }
   using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + std::chrono::duration<double>(options.seconds);
   long long steps = 0;
   unsigned seed = options.seed;
-  for (; Clock::now() < end; ++seed) {
+  for (; Clock::now() < end && seed - options.seed < options.scenes; ++seed) {
     int event = 0;
     try {
       ambient::test::FuzzScene scene(seed);
