@@ -490,6 +490,14 @@ class LifeTest(Case):
         self.fluid.region(density=1000, viscosity=0)
         arm = self.arm(controlMode=p.VELOCITY_CONTROL, force=0)
         self.fluid.equip(arm, 0, thrusters=[{"name": "jet", "position": [0.8, 0, 0], "axis": [0, 1, 0], "curve": [[0, 0], [1, 10]]}])
+        for refused, words in (
+            (lambda: self.fluid.equip(arm, 5, foils=[{"span": 1, "chord": 0.1}]), f"equip: there is no body {arm} with link 5"),
+            (lambda: self.fluid.body(arm, 5, {"type": "sphere", "radius": 1}), f"body: there is no body {arm} with link 5"),
+            (lambda: self.fluid.equip(arm, 0, foils=[{"name": "jet", "span": 1, "chord": 0.1}]), "a foil and a thruster are called"),
+            (lambda: self.fluid.equip(arm, 0, thrusters=[{"curve": [[0, 0], [1, 1]], "propeller": {"diameter": 0.1, "washes_bodies": True}}]), "is for scenes"),
+        ):
+            with self.assertRaisesRegex(ValueError, words):
+                refused()
         inertia = self.fluid.mass_matrix(arm)[-1, -1]
         self.fluid.drive(jet=1)
         self.steps(1)
