@@ -92,9 +92,9 @@ std::size_t velocityCount(const btMultiBody& body) {
 // Calls visit(collider, index in MultiBodyState::links).
 template <class Visit>
 void forEachCollider(btMultiBody& body, const Visit& visit) {
-  for (int link = -1; link < body.getNumLinks(); ++link)
-    if (btMultiBodyLinkCollider* collider = colliderOf(body, link))
-      visit(*collider, static_cast<std::size_t>(link + 1));
+  std::size_t place = 0;
+  for (int link = -1; link < body.getNumLinks(); ++link, ++place)
+    if (btMultiBodyLinkCollider* collider = colliderOf(body, link)) visit(*collider, place);
 }
 
 // Sleep data of a multibody, for which Bullet has no public getters.
