@@ -10,9 +10,9 @@
 
 #include "bullet_ambient/bullet/core/conversions.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
+#include "preprocess/mesh/geometry.h"
 #include "preprocess/mesh/import/mesh_import.h"
 #include "preprocess/mesh/input_error.h"
-#include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/shapes/convex_hull.h"
 
 AMBIENT_BEGIN
@@ -71,8 +71,9 @@ std::optional<std::string> largerHull(const TriangleMesh& object, const MeshFile
   const TriangleMesh mesh = weldVertices(object, kWeldTolerance * object.extents().norm());
   if (!isWithoutBorder(mesh)) return std::nullopt;
   const std::string name = file.file.string();
-  const double ratio = sumOfVolumes({makeConvexHull(mesh.vertices, name, kCoarseHullBits)}) /
-                       std::abs(sumOfVolumes({mesh}));
+  const Eigen::Vector3d middle = mesh.bounds().center();
+  const TriangleMesh hull = makeConvexHull(mesh.vertices, name, kCoarseHullBits);
+  const double ratio = tetrahedraVolume(hull, middle) / std::abs(tetrahedraVolume(mesh, middle));
   if (!(ratio > kMuchLarger)) return std::nullopt;
   std::ostringstream text;
   text.precision(2);
