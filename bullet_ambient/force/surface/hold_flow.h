@@ -122,9 +122,8 @@ struct SealedAir {
 };
 
 /// Finds where a function is zero that falls from one end to the other, or rises: by false
-/// position, with half the value at an end that stays (Illinois). @pre the values at the ends have
-/// different signs
-/// @param accuracy of the value
+/// position, with half the value at an end that stays (Illinois), until the value is within
+/// `accuracy`. @pre the values at the ends have different signs
 template <class Function>
 double fallingRoot(double near, double at_near, double far, double at_far, double accuracy,
                    const Function& function) {
